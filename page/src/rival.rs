@@ -3,7 +3,7 @@
 //! μ̇ = ad\*_ξ μ and ġ = g·ξ with ξ = ∂H/∂μ, g as a matrix, by the same interpreter; so that what a step costs is
 //! counted in the same operations.
 
-use coadjoint_codegen::lie::LieAlgebra;
+use coadjoint_codegen::lie::{LieAlgebra, RationalMatrix};
 use coadjoint_codegen::poly::Numeric;
 use coadjoint_program::{Graph, Id, Program};
 use nalgebra::{DMatrix, DVector};
@@ -30,7 +30,7 @@ impl Rival {
     pub fn new(algebra: &LieAlgebra, energy: &Numeric) -> Self {
         let dim = algebra.dim();
         let matrices = matrices(algebra);
-        let size = matrices.first().map_or(0, DMatrix::nrows);
+        let size = algebra.matrix_size();
         let entries = reached(&matrices, size);
         let field = Field {
             algebra,
@@ -99,26 +99,11 @@ impl Rival {
 
 /// The basis, or the adjoint matrices.
 fn matrices(algebra: &LieAlgebra) -> Vec<DMatrix<f64>> {
-    let dim = algebra.dim();
-    match algebra.basis() {
-        Some(basis) => basis
-            .iter()
-            .map(|exact| {
-                let mut matrix = DMatrix::zeros(exact.rows(), exact.columns());
-                for (i, j, value) in exact.entries() {
-                    matrix[(i, j)] = value.to_f64().unwrap_or(f64::NAN);
-                }
-                matrix
-            })
-            .collect(),
-        None => {
-            let mut list = vec![DMatrix::zeros(dim, dim); dim];
-            for c in algebra.structure() {
-                list[c.i][(c.k, c.j)] = c.value.to_f64().unwrap_or(f64::NAN);
-            }
-            list
-        }
-    }
+    let float = |exact: &RationalMatrix| {
+        let entry = |i, j| exact.get(i, j).to_f64().unwrap_or(f64::NAN);
+        DMatrix::from_fn(exact.rows(), exact.columns(), entry)
+    };
+    algebra.matrices().iter().map(float).collect()
 }
 
 /// The entries that products of exponentials can change.

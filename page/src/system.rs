@@ -173,7 +173,7 @@ fn factors(algebra: &LieAlgebra) -> Vec<Factor> {
             catalogue::lookup(name).is_ok_and(|known| known.renamed(factor.name()) == factor)
         };
         let dim = factor.dim();
-        let size = factor.basis().and_then(|basis| basis.first()).map_or(dim, |first| first.rows());
+        let size = factor.matrix_size();
         let kind = match () {
             () if is("SO3") || is("SU2") => Kind::Rotation,
             () if is("SE3") => Kind::Motion,

@@ -11,7 +11,7 @@ use coadjoint_codegen::system::{Options, System};
 use coadjoint_codegen::tolerance::Choice;
 use coadjoint_learn::table;
 use coadjoint_run::ensemble::{
-    self, Attitude, Course, Engine, Found, How, Known, Layout, Shape, Watch, matrix_size,
+    self, Attitude, Course, Engine, Found, How, Known, Layout, Shape, Watch,
 };
 use coadjoint_run::simulate::{Event, Schedule, Setup, Single, Times, run};
 use coadjoint_run::{
@@ -586,7 +586,7 @@ fn record_size(system: &System, setup: &Setup) -> f64 {
     let grid = setup.every.map_or(0.0, |every| setup.schedule.steps as f64 / every as f64);
     let times = setup.at.as_ref().map_or(0, |times| times.0.len()) as f64;
     let algebra = &system.problem.algebra;
-    let entries: usize = algebra.factors().iter().map(|factor| matrix_size(factor).pow(2)).sum();
+    let entries: usize = algebra.factors().iter().map(|factor| factor.matrix_size().pow(2)).sum();
     if setup.recording {
         8.0 * (grid + times) * (2 * algebra.dim() + entries + 5) as f64
     } else {

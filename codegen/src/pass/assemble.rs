@@ -10,7 +10,7 @@ use crate::expr::{Arena, ExprId, Node};
 use crate::lie::{Chart, LieAlgebra};
 use crate::number::Rational;
 use crate::poly::Polynomial;
-use crate::potential::{Potential, matrix_size};
+use crate::potential::Potential;
 #[cfg(feature = "system")]
 use crate::problem::values;
 use crate::problem::{FrameChoice, Parameter, Problem, Symbol};
@@ -233,7 +233,7 @@ pub(crate) fn assemble_potential(
     diagnostics: &Diagnostics,
 ) -> Option<Potential> {
     let before = diagnostics.len();
-    let size = algebra.as_ref().map(matrix_size);
+    let size = algebra.as_ref().map(LieAlgebra::matrix_size);
     if let (Some(size), Some(((rows, columns), span)), Some(algebra)) = (size, declared, &algebra)
         && (rows, columns) != (size, size)
     {

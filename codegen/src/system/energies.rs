@@ -7,7 +7,6 @@ use crate::diagnostic::Span;
 use crate::lie::LieAlgebra;
 use crate::parse::{Name, Names};
 use crate::pass::Energy;
-use crate::potential::matrix_size;
 
 const COORDINATES: &str = "coordinates = [\"x\", \"y\", \"z\"]";
 const HAMILTONIAN: &str = "hamiltonian = \"x^2/2 + y^2/4\"";
@@ -71,7 +70,7 @@ pub(super) fn potential(
     parameters: &Parameters,
 ) -> Option<Energy> {
     root.string("potential", POTENTIAL)?;
-    let size = matrix_size(algebra?);
+    let size = algebra?.matrix_size();
     let entry = |at: usize| (format!("g[{}][{}]", at / size, at % size), Span::Whole);
     let entries: Vec<_> = (0..size * size).map(entry).collect();
     let mut names = Names::of_coordinates(&entries, root.diagnostics);

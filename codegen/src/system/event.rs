@@ -6,7 +6,6 @@ use super::table::Table;
 use crate::lie::LieAlgebra;
 use crate::parse::{Name, Names};
 use crate::pass::function;
-use crate::potential::matrix_size;
 
 const EVENT: &str = "[[event]] with when = \"g[2][2]\"";
 const WHEN: &str = "when = \"g[2][2]\"";
@@ -37,7 +36,7 @@ pub(super) fn read(
 ) -> Vec<Event> {
     let Some((list, _)) = root.array("event", EVENT) else { return Vec::new() };
     let Some(algebra) = algebra else { return Vec::new() };
-    let size = matrix_size(algebra);
+    let size = algebra.matrix_size();
     let entries = (0..size * size).map(|at| format!("g[{}][{}]", at / size, at % size));
     let mut inputs = coordinates.to_vec();
     inputs.extend(entries);

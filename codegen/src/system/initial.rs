@@ -9,7 +9,6 @@ use crate::diagnostic::{Mistake, Span};
 use crate::lie::{LieAlgebra, RationalMatrix};
 use crate::number::{Rational, integer};
 use crate::poly::split_at;
-use crate::potential::matrix_size;
 use crate::problem::Problem;
 
 const MOMENTUM: &str = "momentum = [2.0, 0.5, 1.0]";
@@ -172,7 +171,7 @@ fn element(table: &Table<'_>, algebra: Option<&LieAlgebra>) -> Option<Vec<Vec<f6
     }
     let value = table.get("group_element")?;
     let rows = table.matrix("group_element", value, ELEMENT)?;
-    let size = algebra.map(matrix_size);
+    let size = algebra.map(LieAlgebra::matrix_size);
     let square = rows.iter().all(|row| row.len() == rows.len());
     if !square || size.is_some_and(|size| size != rows.len()) {
         let expected = size.map_or("a square matrix".to_owned(), |n| format!("{n} × {n}"));

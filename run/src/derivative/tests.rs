@@ -3,7 +3,6 @@
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::judge::{DoubleDouble, Judge};
 use coadjoint_codegen::lie::LieAlgebra;
-use coadjoint_codegen::potential::basis;
 use coadjoint_codegen::system::Options;
 use num_traits::ToPrimitive;
 

@@ -5,7 +5,6 @@ use coadjoint::solve::solve;
 use coadjoint::{GeneratingFunction, Phase, StepError};
 use coadjoint_codegen::graph::Program;
 use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::potential::basis;
 use coadjoint_program::Argument;
 use nalgebra::{DMatrix, DVector};
 use num_traits::ToPrimitive;
@@ -160,7 +159,7 @@ impl<'a, G: Group> Kicks<'a, G> {
                 matrix.get(i, j).to_f64().unwrap_or(f64::NAN)
             })
         };
-        let generators = basis(&forces.kick.potential.algebra).iter().map(generator).collect();
+        let generators = forces.kick.potential.algebra.matrices().iter().map(generator).collect();
         let lengths = forces.splitting.kicks().into_iter().map(|part| part * size).collect();
         let slope = push_forward(&forces.kick.torque);
         Ok(Self { torque, slope, generators, lengths })

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use coadjoint::{LieGroup, SO3};
-use coadjoint_codegen::lie::{LieAlgebra, RationalMatrix};
+use coadjoint_codegen::lie::LieAlgebra;
 use coadjoint_codegen::problem::{Parameter, Problem};
 use coadjoint_codegen::system::System;
 use coadjoint_learn::DataGroup;
@@ -39,7 +39,7 @@ pub struct Shape {
 impl Shape {
     /// Of the group with this algebra, factor by factor.
     pub fn of(algebra: &LieAlgebra) -> Self {
-        let matrix_size = algebra.factors().iter().map(matrix_size).sum();
+        let matrix_size = algebra.factors().iter().map(LieAlgebra::matrix_size).sum();
         Self { dim: algebra.dim(), matrix_size, quaternions: algebra.name() == "SO3" }
     }
 
@@ -47,7 +47,7 @@ impl Shape {
     pub fn of_system(system: &System) -> Self {
         let shape = Self::of(&system.problem.algebra);
         match system.potential {
-            Some(_) => Self { matrix_size: matrix_size(&system.problem.algebra), ..shape },
+            Some(_) => Self { matrix_size: system.problem.algebra.matrix_size(), ..shape },
             None => shape,
         }
     }
@@ -71,7 +71,7 @@ impl Known {
         Self {
             coordinates: problem.coordinates.clone(),
             parameters: parameters.to_vec(),
-            blocks: problem.algebra.factors().iter().map(matrix_size).collect(),
+            blocks: problem.algebra.factors().iter().map(LieAlgebra::matrix_size).collect(),
         }
     }
 
@@ -117,14 +117,6 @@ impl Known {
 /// A name without what is easily written otherwise.
 fn plain(name: &str) -> String {
     name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
-}
-
-/// Rows of the matrices of a group with this algebra: of the basis, or of Ad.
-pub fn matrix_size(algebra: &LieAlgebra) -> usize {
-    match algebra.basis() {
-        Some(basis) => basis.first().map_or(0, RationalMatrix::rows),
-        None => algebra.dim(),
-    }
 }
 
 /// Where named columns have the numbers of a state.

@@ -7,4 +7,4 @@ mod march;
 
 pub use drift::Drift;
 pub use engine::{Asked, Course, Engine, How, Rejected, Rows, Use, Watch, in_lanes};
-pub use layout::{Attitude, Found, Known, Layout, Shape, matrix_size};
+pub use layout::{Attitude, Found, Known, Layout, Shape};

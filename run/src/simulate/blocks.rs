@@ -51,8 +51,7 @@ pub(crate) fn blocks(algebra: &LieAlgebra, size: usize) -> Vec<Block> {
     let mut found: Vec<Block> = Vec::with_capacity(factors.len());
     let mut end = 0;
     for (i, factor) in factors.iter().enumerate() {
-        let rows =
-            factor.basis().map_or(factor.dim(), |b| b.first().map_or(0, RationalMatrix::rows));
+        let rows = factor.matrix_size();
         let kind = match found.last() {
             Some(last) if factors[i - 1] == *factor => last.kind,
             _ => kind(factor),
@@ -70,7 +69,7 @@ pub(crate) fn blocks(algebra: &LieAlgebra, size: usize) -> Vec<Block> {
 fn kind(factor: &LieAlgebra) -> Kind {
     let Some(basis) = factor.basis() else { return Kind::Adjoint };
     let is = |name: &str| catalogue::lookup(name).is_ok_and(|known| known.basis() == Some(basis));
-    let (n, rows) = (factor.dim(), basis.first().map_or(0, RationalMatrix::rows));
+    let (n, rows) = (factor.dim(), factor.matrix_size());
     let half = rows / 2;
     match (n, rows) {
         (1, 2) if is("SO2") => Kind::Plane,

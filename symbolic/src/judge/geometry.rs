@@ -7,7 +7,7 @@ use nalgebra::DMatrix;
 use super::linear::{Real, norm, size};
 use super::wide::Wide;
 use super::{DoubleDouble, JudgeError};
-use crate::lie::{Chart, LieAlgebra, RationalMatrix, cubic};
+use crate::lie::{Chart, LieAlgebra, cubic};
 use crate::number::Rational;
 
 /// Terms of an exponential series at most.
@@ -80,26 +80,17 @@ impl Geometry {
         let cubic =
             cubic.iter().map(|c| entry([c.first, c.second, c.argument, c.result], &c.value));
         let cubic: Vec<_> = cubic.collect();
-        let basis: Vec<_> = match algebra.basis() {
-            Some(basis) => {
-                let matrices = basis.iter().enumerate();
-                matrices
-                    .flat_map(|(i, e)| e.entries().map(move |(j, k, v)| entry([i, j, k], v)))
-                    .collect()
-            }
-            // (ad_i)ₖⱼ = cᵢⱼᵏ
-            None => {
-                let adjoint =
-                    |c: &Entry<3>| Entry { at: [c.at[0], c.at[2], c.at[1]], value: c.value };
-                structure.iter().map(adjoint).collect()
-            }
-        };
+        let matrices = algebra.matrices();
+        let entries = matrices.iter().enumerate();
+        let basis: Vec<_> = entries
+            .flat_map(|(i, e)| e.entries().map(move |(j, k, v)| entry([i, j, k], v)))
+            .collect();
         let basis_norm = norm(&values(&basis));
         Ok(Self {
             dim,
             factors: algebra.factor_of_coordinates().iter().map(|&f| f as usize).collect(),
             chart,
-            size: algebra.basis().and_then(<[_]>::first).map_or(dim, RationalMatrix::rows),
+            size: algebra.matrix_size(),
             bracket_norm: bracket_norm(dim, &structure),
             basis_norm: if basis_norm == 0.0 { 1.0 } else { basis_norm },
             cubic_norm: norm(&values(&cubic)),

@@ -242,6 +242,23 @@ impl LieAlgebra {
     pub fn basis(&self) -> Option<&[RationalMatrix]> {
         self.basis.as_deref()
     }
+
+    /// The rows of [`Self::matrices`].
+    #[must_use]
+    pub fn matrix_size(&self) -> usize {
+        self.basis().and_then(<[_]>::first).map_or(self.dim(), RationalMatrix::rows)
+    }
+
+    /// The matrices of the basis, or those of ad where only the brackets are known: entry (k, j) of that of e_i is c_ij^k.
+    #[must_use]
+    pub fn matrices(&self) -> Vec<RationalMatrix> {
+        let n = self.dim();
+        let adjoint = |i: usize| {
+            let own = self.structure.iter().filter(|c| c.i == i);
+            RationalMatrix::from_entries(n, n, own.map(|c| (c.k, c.j, c.value.clone())))
+        };
+        self.basis.clone().unwrap_or_else(|| (0..n).map(adjoint).collect())
+    }
 }
 
 fn default_names(dimension: usize) -> Vec<String> {

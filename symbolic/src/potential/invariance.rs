@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use num_traits::Zero;
 
-use super::{Potential, basis};
+use super::Potential;
 use crate::lie::{Echelon, RationalMatrix};
 use crate::number::{Rational, integer};
 use crate::poly::Polynomial;
@@ -24,7 +24,7 @@ impl Potential {
             row.map(|(_, l, value)| ((l, j), value.clone())).collect()
         };
         let slopes: Vec<Polynomial> =
-            basis(&self.algebra).iter().map(|e| self.along(|i, j| motion(e, i, j))).collect();
+            self.algebra.matrices().iter().map(|e| self.along(|i, j| motion(e, i, j))).collect();
         let mut rows: BTreeMap<Vec<u32>, BTreeMap<u32, Rational>> = BTreeMap::new();
         for (k, slope) in slopes.iter().enumerate() {
             for (exponents, value) in slope.terms() {

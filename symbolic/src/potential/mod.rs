@@ -33,7 +33,7 @@ impl Potential {
     /// The size d of group elements, which are d × d matrices.
     #[must_use]
     pub fn size(&self) -> usize {
-        matrix_size(&self.algebra)
+        self.algebra.matrix_size()
     }
 
     /// The body torque: component k is −d/ds V(g·exp(s e_k)) at s = 0, which is
@@ -45,7 +45,7 @@ impl Potential {
             let column = e.entries().filter(|&(_, c, _)| c == j);
             column.map(|(l, _, value)| ((i, l), -value.clone())).collect()
         };
-        basis(&self.algebra).iter().map(|e| self.along(|i, j| motion(e, i, j))).collect()
+        self.algebra.matrices().iter().map(|e| self.along(|i, j| motion(e, i, j))).collect()
     }
 
     /// Σ ∂V/∂g_ij m_ij with m_ij linear in g, given by its terms ((row, column), coefficient).
@@ -69,24 +69,4 @@ impl Potential {
         }
         Polynomial::from_terms(self.energy.variables(), terms)
     }
-}
-
-/// The size d of elements of the group of `algebra`, which are d × d matrices.
-#[must_use]
-pub fn matrix_size(algebra: &LieAlgebra) -> usize {
-    algebra.basis().and_then(<[_]>::first).map_or(algebra.dim(), RationalMatrix::rows)
-}
-
-/// The matrices of the basis, or ad of it: those of which group elements are made.
-#[must_use]
-pub fn basis(algebra: &LieAlgebra) -> Vec<RationalMatrix> {
-    if let Some(basis) = algebra.basis() {
-        return basis.to_vec();
-    }
-    let n = algebra.dim();
-    let adjoint = |i: usize| {
-        let column = algebra.structure().iter().filter(|c| c.i == i);
-        RationalMatrix::from_entries(n, n, column.map(|c| (c.k, c.j, c.value.clone())))
-    };
-    (0..n).map(adjoint).collect()
 }

@@ -2,22 +2,22 @@
 
 use super::part::Part;
 use super::product::Product;
-use super::tables::both_orders;
+use super::tables::structure_of;
 use super::vector::{Eliminated, Matrix, dot, finite, largest};
 use crate::graph::{Graph, Id, Program};
 use crate::integrator::{Integrator, Predictor};
 use crate::lie::LieAlgebra;
 
 /// Inputs of a program, this many from one on.
-pub fn inputs(graph: &mut Graph, from: usize, count: usize) -> Vec<Id> {
+pub(crate) fn inputs(graph: &mut Graph, from: usize, count: usize) -> Vec<Id> {
     (from..from + count).map(|i| graph.input(i)).collect()
 }
 
 /// The largest residual accepted, relative to the largest coordinate of μ, in units of rounding.
-pub const ROUNDINGS: f64 = 4.0;
+pub(crate) const ROUNDINGS: f64 = 4.0;
 
 /// The largest residual accepted, relative to the largest coordinate of μ.
-pub fn tolerance(graph: &mut Graph) -> Id {
+pub(crate) fn tolerance(graph: &mut Graph) -> Id {
     let (unit, many) = (graph.epsilon(), graph.constant(ROUNDINGS));
     graph.mul(many, unit)
 }
@@ -39,7 +39,7 @@ const CHORD: f64 = 1e-3;
 
 /// How the equation p = (d^R τ_x)ᵀ μ, x = ∂S/∂p is solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scheme {
+pub(crate) enum Scheme {
     /// By Newton's method: each correction has the matrices of its own place.
     Newton,
     /// By one step of Newton's method, which counts as part of the guess, and chords with its matrices after that: where
@@ -70,7 +70,7 @@ struct Matrices {
 
 impl Scheme {
     /// The scheme for an integrator.
-    pub fn of(integrator: &Integrator) -> Self {
+    pub(crate) fn of(integrator: &Integrator) -> Self {
         if integrator.hessian.is_none() {
             return Self::FixedPoint;
         }
@@ -81,7 +81,7 @@ impl Scheme {
     }
 
     /// The truncation allowed in a chart's derivative, relative to it.
-    pub fn slope(self) -> f64 {
+    pub(crate) fn slope(self) -> f64 {
         match self {
             Self::Newton | Self::FixedPoint => NEWTON,
             Self::Chord => CHORD,
@@ -89,7 +89,7 @@ impl Scheme {
     }
 
     /// Corrections at most.
-    pub fn corrections(self) -> u32 {
+    pub(crate) fn corrections(self) -> u32 {
         match self {
             Self::Newton | Self::Chord => CORRECTIONS,
             Self::FixedPoint => EVALUATIONS / 2,
@@ -97,7 +97,7 @@ impl Scheme {
     }
 
     /// The programs `guess` and `correct` of a kernel; see [`coadjoint_program::Programs`].
-    pub fn programs(
+    pub(crate) fn programs(
         self,
         integrator: &Integrator,
         group: &Product,
@@ -113,7 +113,7 @@ impl Scheme {
 
 /// |μ|² of each factor of the group on which S₃ … S_K depend: what says how they converge. The translations of a free
 /// body are not among them.
-pub fn squares_of_series(
+pub(crate) fn squares_of_series(
     graph: &mut Graph,
     integrator: &Integrator,
     group: &Product,
@@ -208,7 +208,7 @@ fn square_of_rate(graph: &mut Graph, algebra: &LieAlgebra, x: &[Id], product: &M
     let n = x.len();
     let two = graph.constant(2.0);
     let mut z = Matrix::new(n, n, |i, j| graph.mul(two, product.at(i, j)));
-    for (i, j, k, c) in both_orders(algebra) {
+    for (i, j, k, c) in structure_of(algebra) {
         let c = graph.constant(c);
         let value = graph.times_plus(c, x[i], z.at(j, k));
         z.set(j, k, value);

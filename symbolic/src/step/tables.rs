@@ -47,16 +47,8 @@ fn float(value: &Rational) -> f64 {
 }
 
 /// (i, j, k, cᵢⱼᵏ) for both orders of every bracket.
-pub fn both_orders(algebra: &LieAlgebra) -> Vec<(usize, usize, usize, f64)> {
-    let mut structure = Vec::new();
-    for c in algebra.structure() {
-        for (i, j, value) in [(c.i, c.j, float(&c.value)), (c.j, c.i, -float(&c.value))] {
-            if !structure.iter().any(|&(a, b, k, _)| (a, b, k) == (i, j, c.k)) {
-                structure.push((i, j, c.k, value));
-            }
-        }
-    }
-    structure
+pub(crate) fn structure_of(algebra: &LieAlgebra) -> Vec<(usize, usize, usize, f64)> {
+    algebra.structure().iter().map(|c| (c.i, c.j, c.k, float(&c.value))).collect()
 }
 
 impl Tables {
@@ -64,16 +56,9 @@ impl Tables {
     /// not linearly independent.
     pub(crate) fn new(algebra: &LieAlgebra, chart: Chart, slope: f64) -> Option<Self> {
         let dim = algebra.dim();
-        let structure = both_orders(algebra);
-        let adjoint;
-        let matrices = match algebra.basis() {
-            Some(matrices) => matrices,
-            None => {
-                adjoint = (0..dim).map(|i| adjoint_matrix(algebra, i)).collect::<Vec<_>>();
-                &adjoint
-            }
-        };
-        let size = matrices.first().map_or(dim, RationalMatrix::rows);
+        let structure = structure_of(algebra);
+        let matrices = algebra.matrices();
+        let size = algebra.matrix_size();
         let entries = |matrix: &RationalMatrix| {
             let entries = matrix.entries().map(|(i, j, value)| (i, j, float(value)));
             entries.filter(|entry| entry.2 != 0.0).collect::<Vec<_>>()
@@ -81,7 +66,7 @@ impl Tables {
         let basis = matrices.iter().map(entries).collect();
         let dual = match (chart, algebra.basis()) {
             (Chart::Exponential, None) => Vec::new(),
-            _ => dual_of(matrices)?.iter().map(entries).collect(),
+            _ => dual_of(&matrices)?.iter().map(entries).collect(),
         };
         let orthogonal = matrices.iter().all(RationalMatrix::is_antisymmetric);
         Some(Self { chart, dim, size, structure, basis, dual, slope, orthogonal })
@@ -290,11 +275,6 @@ impl Tables {
         Matrix::new(self.size, self.size, |i, j| columns[j][i])
     }
 
-    /// Σ μₖ Dₖ, with ⟨Σ μₖ Dₖ, ξ⟩ = ⟨μ, ξ⟩.
-    fn functional(&self, graph: &mut Graph, mu: &[Id]) -> Matrix {
-        self.combine(graph, &self.dual, mu)
-    }
-
     /// The coordinates ⟨Z, Eᵢ⟩.
     fn coordinates(&self, graph: &mut Graph, z: &Matrix) -> Vec<Id> {
         let coordinate = |entries: &Entries| {
@@ -308,11 +288,23 @@ impl Tables {
         self.basis.iter().map(coordinate).collect()
     }
 
-    /// Aᵀ W Bᵀ
-    fn between(&self, graph: &mut Graph, a: &Matrix, w: &Matrix, b: &Matrix) -> Matrix {
-        let a = Matrix::new(self.size, self.size, |i, j| a.at(j, i));
-        let b = Matrix::new(self.size, self.size, |i, j| b.at(j, i));
-        a.times(graph, w).times(graph, &b)
+    /// Aᵀ W Bᵀ with W = Σ μₖ Dₖ, so that ⟨W, ξ⟩ = ⟨μ, ξ⟩.
+    fn between(&self, graph: &mut Graph, a: &Matrix, mu: &[Id], b: &Matrix) -> Matrix {
+        let w = self.combine(graph, &self.dual, mu);
+        a.transposed().times(graph, &w).times(graph, &b.transposed())
+    }
+
+    /// L = (1 − X/2)⁻¹, R = (1 + X/2)⁻¹, and Z with ⟨Z, ξ⟩ = ⟨μ, L ξ R⟩.
+    fn cayley(&self, graph: &mut Graph, x: &[Id], mu: &[Id]) -> [Matrix; 3] {
+        let x = self.represent(graph, x);
+        let (left, right) = (self.resolvent(graph, &x, -1.0), self.resolvent(graph, &x, 1.0));
+        let z = self.between(graph, &left, mu, &right);
+        [left, right, z]
+    }
+
+    /// The matrix of these entries, row by row.
+    fn square(&self, entries: &[Id]) -> Matrix {
+        Matrix::new(self.size, self.size, |i, j| entries[i * self.size + j])
     }
 }
 
@@ -348,57 +340,20 @@ fn factorial(n: usize) -> f64 {
     (2..=n).map(|i| i as f64).product()
 }
 
-/// The matrix of ad_{eᵢ}: entry (k, j) is cᵢⱼᵏ.
-fn adjoint_matrix(algebra: &LieAlgebra, i: usize) -> RationalMatrix {
-    let n = algebra.dim();
-    let entries = algebra.structure().iter().flat_map(|c| {
-        let own = (c.i == i).then(|| (c.k, c.j, c.value.clone()));
-        let other = (c.j == i).then(|| (c.k, c.i, -c.value.clone()));
-        own.into_iter().chain(other)
-    });
-    let mut seen = std::collections::BTreeMap::new();
-    for (row, column, value) in entries {
-        seen.insert((row, column), value);
-    }
-    RationalMatrix::from_entries(n, n, seen.into_iter().map(|((i, j), value)| (i, j, value)))
-}
-
 /// Matrices Dₖ in the span of the Eₗ with ⟨Dₖ, Eₗ⟩ = δₖₗ; `None` where these are linearly dependent.
 fn dual_of(basis: &[RationalMatrix]) -> Option<Vec<RationalMatrix>> {
-    use num_traits::{One, Zero};
-    let n = basis.len();
-    let product = |a: &RationalMatrix, b: &RationalMatrix| {
-        a.entries().fold(Rational::zero(), |sum, (i, j, value)| sum + value * b.get(i, j))
-    };
-    // [G | 1], to be reduced to [1 | G⁻¹].
-    let mut rows: Vec<Vec<Rational>> = (0..n)
-        .map(|k| {
-            let gram = (0..n).map(|l| product(&basis[k], &basis[l]));
-            let unit = (0..n).map(|l| if k == l { Rational::one() } else { Rational::zero() });
-            gram.chain(unit).collect()
-        })
-        .collect();
-    for pivot in 0..n {
-        let found = (pivot..n).find(|&row| !rows[row][pivot].is_zero())?;
-        rows.swap(pivot, found);
-        let scale = rows[pivot][pivot].clone();
-        rows[pivot].iter_mut().for_each(|entry| *entry = &*entry / &scale);
-        for row in 0..n {
-            if row != pivot && !rows[row][pivot].is_zero() {
-                let factor = rows[row][pivot].clone();
-                let own = rows[pivot].clone();
-                for (entry, value) in rows[row].iter_mut().zip(own) {
-                    *entry = &*entry - &factor * value;
-                }
-            }
+    let (n, size) = (basis.len(), basis.first().map_or(0, RationalMatrix::rows));
+    let mut gram = Vec::new();
+    for (k, a) in basis.iter().enumerate() {
+        for (l, b) in basis.iter().enumerate() {
+            gram.extend(a.entries().map(|(i, j, value)| (k, l, value * b.get(i, j))));
         }
     }
-    let size = basis.first().map_or((0, 0), |matrix| (matrix.rows(), matrix.columns()));
-    let dual = rows.iter().map(|row| {
-        let zero = RationalMatrix::zero(size.0, size.1);
-        row[n..].iter().zip(basis).fold(zero, |sum, (weight, matrix)| sum.plus(matrix, weight))
-    });
-    Some(dual.collect())
+    let mut dual = vec![RationalMatrix::zero(size, size); n];
+    for (k, l, weight) in RationalMatrix::from_entries(n, n, gram).inverse()?.entries() {
+        dual[k] = dual[k].plus(&basis[l], weight);
+    }
+    Some(dual)
 }
 
 impl Part for Tables {
@@ -417,12 +372,7 @@ impl Part for Tables {
                 self.phi(graph, &a, mu)
             }
             Chart::Cayley => {
-                // p: ξ ↦ ⟨μ, (1 − X/2)⁻¹ ξ (1 + X/2)⁻¹⟩
-                let x = self.represent(graph, x);
-                let (left, right) =
-                    (self.resolvent(graph, &x, -1.0), self.resolvent(graph, &x, 1.0));
-                let w = self.functional(graph, mu);
-                let z = self.between(graph, &left, &w, &right);
+                let [.., z] = self.cayley(graph, x, mu);
                 self.coordinates(graph, &z)
             }
         }
@@ -440,11 +390,7 @@ impl Part for Tables {
                 (self.phi(graph, &a, mu), self.phi_slope(graph, &a, mu))
             }
             Chart::Cayley => {
-                let x = self.represent(graph, x);
-                let (left, right) =
-                    (self.resolvent(graph, &x, -1.0), self.resolvent(graph, &x, 1.0));
-                let w = self.functional(graph, mu);
-                let z = self.between(graph, &left, &w, &right);
+                let [left, right, z] = self.cayley(graph, x, mu);
                 let value = self.coordinates(graph, &z);
                 // Along Eⱼ: L′ = ½ L Eⱼ L and R′ = −½ R Eⱼ R, so that Z′ = ½ (Lᵀ Eⱼᵀ Z − Z Eⱼᵀ Rᵀ).
                 let half = graph.constant(0.5);
@@ -455,11 +401,9 @@ impl Part for Tables {
                             .map(|i| graph.constant(f64::from(u8::from(i == j))))
                             .collect();
                         let e = self.represent(graph, &unit);
-                        let e = Matrix::new(self.size, self.size, |i, j| e.at(j, i));
-                        let l = Matrix::new(self.size, self.size, |i, j| left.at(j, i));
-                        let r = Matrix::new(self.size, self.size, |i, j| right.at(j, i));
-                        let first = l.times(graph, &e).times(graph, &z);
-                        let second = z.times(graph, &e).times(graph, &r);
+                        let e = e.transposed();
+                        let first = left.transposed().times(graph, &e).times(graph, &z);
+                        let second = z.times(graph, &e).times(graph, &right.transposed());
                         let change = first.plus(graph, minus, &second);
                         let change = self.coordinates(graph, &change);
                         change.iter().map(|&entry| graph.mul(half, entry)).collect()
@@ -471,7 +415,7 @@ impl Part for Tables {
     }
 
     fn transport(&self, graph: &mut Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved {
-        let own = Matrix::new(self.size, self.size, |i, j| g[i * self.size + j]);
+        let own = self.square(g);
         match self.chart {
             Chart::Exponential => {
                 let a = self.ad_transpose(graph, x);
@@ -494,8 +438,7 @@ impl Part for Tables {
                 let back = identity.plus(graph, minus, &x);
                 let increment = left.times(graph, &forward);
                 let inverse = right.times(graph, &back);
-                let w = self.functional(graph, mu);
-                let z = self.between(graph, &increment, &w, &inverse);
+                let z = self.between(graph, &increment, mu, &inverse);
                 let mu = self.coordinates(graph, &z);
                 Moved { g: self.product(graph, &own, &increment), mu }
             }
@@ -507,14 +450,14 @@ impl Part for Tables {
         if products.saturating_mul(self.size.saturating_pow(3)) > MOST_OF_TABLES {
             return None;
         }
-        let own = Matrix::new(self.size, self.size, |i, j| g[i * self.size + j]);
+        let own = self.square(g);
         let y = self.represent(graph, y);
         let (identity, one, minus) =
             (self.identity(graph), graph.constant(1.0), graph.constant(-1.0));
         let change = self.exponential_less_one(graph, &y);
         let increment = identity.plus(graph, one, &change);
         let increment = self.pulled_back(graph, increment);
-        let transposed = Matrix::new(self.size, self.size, |i, j| increment.at(j, i));
+        let transposed = increment.transposed();
         let mu = if self.dual.is_empty() {
             // Elements are adjoint matrices.
             transposed.apply(graph, mu)
@@ -526,24 +469,20 @@ impl Part for Tables {
                 let back = self.exponential_less_one(graph, &back);
                 identity.plus(graph, one, &back)
             };
-            let w = self.functional(graph, mu);
-            let z = self.between(graph, &increment, &w, &inverse);
+            let z = self.between(graph, &increment, mu, &inverse);
             self.coordinates(graph, &z)
         };
         Some(Moved { g: self.product(graph, &own, &increment), mu })
     }
 
     fn spatial(&self, graph: &mut Graph, g: &[Id], back: &[Id], mu: &[Id]) -> Vec<Id> {
-        let matrix =
-            |list: &[Id]| Matrix::new(self.size, self.size, |i, j| list[i * self.size + j]);
-        let (g, back) = (matrix(g), matrix(back));
+        let (g, back) = (self.square(g), self.square(back));
         if self.dual.is_empty() {
             // Elements are adjoint matrices.
-            return Matrix::new(self.size, self.size, |i, j| back.at(j, i)).apply(graph, mu);
+            return back.transposed().apply(graph, mu);
         }
         // ⟨Ad*_g μ, Eₖ⟩ = ⟨W, g⁻¹ Eₖ g⟩ = ⟨g⁻ᵀ W gᵀ, Eₖ⟩
-        let w = self.functional(graph, mu);
-        let z = self.between(graph, &back, &w, &g);
+        let z = self.between(graph, &back, mu, &g);
         self.coordinates(graph, &z)
     }
 
@@ -588,7 +527,7 @@ impl Part for Tables {
         if !self.orthogonal {
             return rest;
         }
-        let own = Matrix::new(self.size, self.size, |i, j| g[i * self.size + j]);
+        let own = self.square(g);
         let (gram, one) = (self.gram(graph, &own), graph.constant(1.0));
         let mut off = Vec::new();
         for i in 0..self.size {
@@ -602,7 +541,7 @@ impl Part for Tables {
     }
 
     fn matrix(&self, _: &mut Graph, g: &[Id]) -> Matrix {
-        Matrix::new(self.size, self.size, |i, j| g[i * self.size + j])
+        self.square(g)
     }
 
     fn about(&self) -> String {

@@ -100,6 +100,11 @@ impl Matrix {
         &self.entries
     }
 
+    /// The transpose.
+    pub(crate) fn transposed(&self) -> Self {
+        Self::new(self.columns, self.rows(), |i, j| self.at(j, i))
+    }
+
     /// self · v
     pub(crate) fn apply(&self, graph: &mut Graph, v: &[Id]) -> Vec<Id> {
         let row = |row: &[Id]| dot(graph, row, v);
