@@ -39,17 +39,17 @@ use standard::{fused, nearest, root};
 #[cfg(feature = "std")]
 mod standard {
     #[inline(always)]
-    pub fn fused(a: f64, b: f64, c: f64) -> f64 {
+    pub(crate) fn fused(a: f64, b: f64, c: f64) -> f64 {
         a.mul_add(b, c)
     }
 
     #[inline(always)]
-    pub fn root(a: f64) -> f64 {
+    pub(crate) fn root(a: f64) -> f64 {
         a.sqrt()
     }
 
     #[inline(always)]
-    pub fn nearest(a: f64) -> f64 {
+    pub(crate) fn nearest(a: f64) -> f64 {
         a.round_ties_even()
     }
 }

@@ -10,7 +10,7 @@ use crate::step::Step;
 
 /// Lines for a doc comment: source, group, chart, truncation, order, terms, operations of a step where it is printed.
 #[must_use]
-pub fn lines(integrator: &Integrator, step: Option<&Step>) -> Vec<String> {
+pub(crate) fn lines(integrator: &Integrator, step: Option<&Step>) -> Vec<String> {
     let problem = &integrator.problem;
     let terms: Vec<String> = (1..=problem.truncation)
         .step_by(2)
@@ -49,7 +49,11 @@ pub fn lines(integrator: &Integrator, step: Option<&Step>) -> Vec<String> {
 
 /// Paragraphs for the opening of a file: the system, how to use its step, the promises, the cost, how to read it.
 #[must_use]
-pub fn opening(integrator: &Integrator, options: &Options, step: Option<&Step>) -> Vec<String> {
+pub(crate) fn opening(
+    integrator: &Integrator,
+    options: &Options,
+    step: Option<&Step>,
+) -> Vec<String> {
     let problem = &integrator.problem;
     let name = &options.name;
     let parameters: String = problem

@@ -8,7 +8,7 @@ use crate::integrator::Integrator;
 pub const MOST_TERMS: usize = 20_000;
 /// The most terms that the coefficients of S have as polynomials in the parameters. They are data: one table, read when an
 /// integrator is constructed.
-pub const MOST_DATA: usize = 200_000;
+pub(crate) const MOST_DATA: usize = 200_000;
 
 /// A generating function with too many terms to emit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]

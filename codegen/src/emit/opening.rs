@@ -6,7 +6,7 @@ use crate::integrator::{Integrator, Kicks};
 use crate::lie::Chart;
 
 /// The lines of a paragraph, at most `width` columns each; a line that begins with a space stays as it is.
-pub fn wrapped(paragraph: &str, width: usize) -> Vec<String> {
+pub(crate) fn wrapped(paragraph: &str, width: usize) -> Vec<String> {
     if paragraph.starts_with(' ') {
         return vec![paragraph.to_owned()];
     }
@@ -27,7 +27,7 @@ pub fn wrapped(paragraph: &str, width: usize) -> Vec<String> {
 }
 
 /// Paragraphs about the system and a step of it; `quoted` makes a text fit for a comment.
-pub fn system(integrator: &Integrator, quoted: fn(&str) -> String) -> Vec<String> {
+pub(crate) fn system(integrator: &Integrator, quoted: fn(&str) -> String) -> Vec<String> {
     let problem = &integrator.problem;
     let chart = match problem.chart {
         Chart::Exponential => "exponential",
@@ -68,7 +68,7 @@ const KICKED: &str = " This describes the flows. Between them the torque -g^-1 d
          is the lesser of both.";
 
 /// The cost of a step with one correction, and with as many as there may be.
-pub fn costs(kernel: &Kernel) -> [String; 2] {
+pub(crate) fn costs(kernel: &Kernel) -> [String; 2] {
     let programs = kernel.programs();
     let [guess, correct, accept, transport, sound] = [
         &programs.guess,

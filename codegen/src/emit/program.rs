@@ -23,7 +23,7 @@ const INLINED_IN_LANES: usize = 6000;
 /// A call of a function that belongs to `operations` operations. Where they are many the function is not inlined for a
 /// single number, since the compiler's time grows faster than their count; where they are very many, not for lanes either.
 #[must_use]
-pub fn apart(krate: &TokenStream, call: &TokenStream, operations: usize) -> TokenStream {
+pub(crate) fn apart(krate: &TokenStream, call: &TokenStream, operations: usize) -> TokenStream {
     let called = quote!(#krate::plumbing::called(|| #call));
     if operations <= LARGE {
         call.clone()
@@ -35,24 +35,24 @@ pub fn apart(krate: &TokenStream, call: &TokenStream, operations: usize) -> Toke
 }
 
 /// A part of a program's inputs: an array of numbers `T` behind a reference, or a number.
-pub struct Field {
+pub(crate) struct Field {
     name: Ident,
     len: Option<usize>,
 }
 
 impl Field {
     /// An array of this length.
-    pub fn array(name: Ident, len: usize) -> Self {
+    pub(crate) fn array(name: Ident, len: usize) -> Self {
         Self { name, len: Some(len) }
     }
 
     /// A single number.
-    pub fn number(name: Ident) -> Self {
+    pub(crate) fn number(name: Ident) -> Self {
         Self { name, len: None }
     }
 
     /// `name: type`, as a parameter of a function.
-    pub fn parameter(&self) -> TokenStream {
+    pub(crate) fn parameter(&self) -> TokenStream {
         let name = &self.name;
         match self.len {
             Some(len) => {
@@ -65,7 +65,7 @@ impl Field {
 }
 
 /// Where a program stands: what its names stand for.
-pub struct Scope<'a> {
+pub(crate) struct Scope<'a> {
     /// The path of the runtime crate.
     pub krate: &'a TokenStream,
     /// The inputs, in the order of their numbers.
@@ -77,7 +77,7 @@ pub struct Scope<'a> {
 }
 
 /// The statements of a program, and the expressions of its outputs.
-pub struct Body {
+pub(crate) struct Body {
     /// `let` statements, in order.
     pub statements: TokenStream,
     /// One expression per output.
@@ -86,7 +86,7 @@ pub struct Body {
 
 /// Writes `program` down, in several functions where it is large.
 #[must_use]
-pub fn body(program: &Program, scope: &Scope<'_>) -> Body {
+pub(crate) fn body(program: &Program, scope: &Scope<'_>) -> Body {
     let nodes = program.nodes();
     let parts = parts(nodes);
     let mut writer = Writer { program, scope, read: Vec::new(), statements: TokenStream::new() };
@@ -138,7 +138,7 @@ pub fn body(program: &Program, scope: &Scope<'_>) -> Body {
 
 impl Scope<'_> {
     /// The name of something that is bound here.
-    pub fn bound(&self, name: &str) -> Ident {
+    pub(crate) fn bound(&self, name: &str) -> Ident {
         format_ident!("{name}{}", self.suffix)
     }
 
@@ -267,7 +267,7 @@ impl Writer<'_> {
 
 /// How many operations a program has.
 #[must_use]
-pub fn operations(program: &Program) -> usize {
+pub(crate) fn operations(program: &Program) -> usize {
     program.nodes().iter().filter(|node| is_operation(node)).count()
 }
 

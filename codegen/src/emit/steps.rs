@@ -13,7 +13,7 @@ use super::options::Options;
 use super::program::apart;
 
 /// The functions `open` and `steps` of a kernel that has `operations` operations.
-pub fn steps(kernel: &Kernel, options: &Options, operations: usize) -> TokenStream {
+pub(crate) fn steps(kernel: &Kernel, options: &Options, operations: usize) -> TokenStream {
     let krate = &options.krate;
     let writer = Writer { kernel, options, operations };
     let body = writer.block(kernel.schedule(), false);

@@ -8,7 +8,7 @@ use crate::integrator::{FoldTable, Integrator};
 
 /// The static `FOLD`, a `coadjoint::plumbing::Fold` with these lists.
 #[must_use]
-pub fn fold_item(krate: &TokenStream, table: &FoldTable) -> TokenStream {
+pub(crate) fn fold_item(krate: &TokenStream, table: &FoldTable) -> TokenStream {
     let number = |value: u32| Literal::u32_unsuffixed(value);
     let pair = |&(a, b): &(u32, u32)| {
         let (a, b) = (number(a), number(b));
@@ -68,7 +68,7 @@ pub fn fold_item(krate: &TokenStream, table: &FoldTable) -> TokenStream {
 
 /// The static `LAST`, a `coadjoint::plumbing::LastTerms`: the monomials of the last two terms of the series.
 #[must_use]
-pub fn last_item(krate: &TokenStream, integrator: &Integrator) -> TokenStream {
+pub(crate) fn last_item(krate: &TokenStream, integrator: &Integrator) -> TokenStream {
     let (coefficients, truncation) = (&integrator.coefficients, integrator.problem.truncation);
     let monomials = coefficients.last_orders(truncation).map(|(order, base)| {
         let factors = coefficients.monomials().get(base).map_or(&[][..], Vec::as_slice);

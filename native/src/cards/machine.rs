@@ -55,7 +55,7 @@ mod calls {
     }
 
     impl Call {
-        pub fn done<T, E: Fault>(
+        pub(crate) fn done<T, E: Fault>(
             self,
             doing: &'static str,
             result: Result<T, E>,
@@ -63,12 +63,12 @@ mod calls {
             result.map_err(|error| self.failed(doing, &error))
         }
 
-        pub fn failed(self, doing: &'static str, error: &impl Fault) -> DeviceError {
+        pub(crate) fn failed(self, doing: &'static str, error: &impl Fault) -> DeviceError {
             DeviceError::Failed { device: self.device, doing, message: error.to_string() }
         }
 
         /// The same for calls that may run out of memory.
-        pub fn room<T, E: Fault>(
+        pub(crate) fn room<T, E: Fault>(
             self,
             doing: &'static str,
             result: Result<T, E>,

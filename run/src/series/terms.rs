@@ -10,7 +10,7 @@ use coadjoint_codegen::problem::Symbol;
 use num_traits::{One, Signed};
 
 /// Exponents of the first variables and the coefficient: a sum of fractions times powers of the symbols after them.
-pub struct Term {
+pub(crate) struct Term {
     /// One exponent per variable.
     pub exponents: Vec<u32>,
     /// Each with the powers of the symbols.
@@ -18,7 +18,7 @@ pub struct Term {
 }
 
 /// The terms, highest exponents first.
-pub fn terms(polynomial: &Polynomial, variables: usize) -> Vec<Term> {
+pub(crate) fn terms(polynomial: &Polynomial, variables: usize) -> Vec<Term> {
     let mut result: Vec<Term> = Vec::new();
     for (exponents, factor) in polynomial.terms() {
         cancel::check();
@@ -33,7 +33,7 @@ pub fn terms(polynomial: &Polynomial, variables: usize) -> Vec<Term> {
 }
 
 /// Summands, each with its sign, as a sum.
-pub fn joined(summands: impl IntoIterator<Item = (bool, String)>) -> String {
+pub(crate) fn joined(summands: impl IntoIterator<Item = (bool, String)>) -> String {
     let mut text = String::new();
     for (negative, summand) in summands {
         text.push_str(match (text.is_empty(), negative) {
@@ -49,7 +49,7 @@ pub fn joined(summands: impl IntoIterator<Item = (bool, String)>) -> String {
 
 impl Term {
     /// The coefficient, if it is a number.
-    pub fn number(&self) -> Option<&Rational> {
+    pub(crate) fn number(&self) -> Option<&Rational> {
         match &self.summands[..] {
             [(factor, symbols)] if symbols.iter().all(|&power| power == 0) => Some(factor),
             _ => None,
@@ -57,7 +57,7 @@ impl Term {
     }
 
     /// The coefficient in the notation of the input.
-    pub fn coefficient(&self, symbols: &[Symbol]) -> String {
+    pub(crate) fn coefficient(&self, symbols: &[Symbol]) -> String {
         cancel::check();
         joined(self.summands.iter().map(|(factor, powers)| {
             let mut factors = Vec::new();
@@ -76,13 +76,17 @@ impl Term {
     }
 
     /// Its powers of variables with these names.
-    pub fn powers(&self, names: &[String], power: impl Fn(&str, u32) -> String) -> Vec<String> {
+    pub(crate) fn powers(
+        &self,
+        names: &[String],
+        power: impl Fn(&str, u32) -> String,
+    ) -> Vec<String> {
         let factors = names.iter().zip(&self.exponents).filter(|(_, power)| **power > 0);
         factors.map(|(name, exponent)| power(name, *exponent)).collect()
     }
 
     /// Its sign, and its text in the notation of system files.
-    pub fn text(&self, names: &[String], symbols: &[Symbol]) -> (bool, String) {
+    pub(crate) fn text(&self, names: &[String], symbols: &[Symbol]) -> (bool, String) {
         let power = |name: &str, power| match power {
             1 => name.to_owned(),
             _ => format!("{name}^{power}"),

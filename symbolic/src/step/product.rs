@@ -32,7 +32,7 @@ impl Product {
     }
 
     /// The coordinates of those factors that have one of these, factor by factor.
-    pub fn whole_factors(&self, coordinates: &BTreeSet<usize>) -> Vec<Range<usize>> {
+    pub(crate) fn whole_factors(&self, coordinates: &BTreeSet<usize>) -> Vec<Range<usize>> {
         let factors = self.factors().into_iter().map(|factor| factor.own);
         factors.filter(|own| own.clone().any(|i| coordinates.contains(&i))).collect()
     }

@@ -16,7 +16,7 @@ use crate::poly::Polynomial;
 
 /// The programs of a step; the integrator's folded coefficients come first, after them those of the bound on the
 /// Hessian, and the square of the radius.
-pub fn kernel(
+pub(crate) fn kernel(
     integrator: &Integrator,
     scheme: Scheme,
     group: &Product,
