@@ -5,24 +5,77 @@
 //! each kind follows from consistency: they sum to one.
 
 /// A palindromic sequence of kicks and flows, starting and ending with a kick.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Splitting {
-    /// The order of accuracy.
-    pub order: u32,
-    /// How many flows a step has; kicks are one more.
-    pub stages: usize,
-    /// The lengths of the kicks as parts of the step: the first half of the palindrome, its
-    /// middle included.
-    pub kicks: &'static [f64],
-    /// The lengths of the flows, in the same way.
-    pub flows: &'static [f64],
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Splitting {
+    /// Half a kick, the flow, half a kick: order 2.
+    Strang,
+    /// Order 4 in six flows, for a Hamiltonian of degree at most two in the momentum (RKN₆ᵇ): then kicks and the brackets
+    /// [V, [V, H]] commute, which it relies on.
+    Rkn4,
+    /// Order 6 in eleven flows, for a Hamiltonian of degree at most two in the momentum (RKN₁₁ᵇ).
+    Rkn6,
+    /// Order 4 in six flows for any Hamiltonian (S₆).
+    Prk4,
+    /// Order 6 in ten flows for any Hamiltonian (S₁₀).
+    Prk6,
 }
 
-/// Half a kick, the flow, half a kick.
-pub const STRANG: Splitting = Splitting { order: 2, stages: 1, kicks: &[0.5], flows: &[1.0] };
+/// The lengths of a splitting, as parts of the step: the first halves of the palindromes, their middles included.
+struct Lengths {
+    name: &'static str,
+    order: u32,
+    /// How many flows a step has; kicks are one more.
+    stages: usize,
+    kicks: &'static [f64],
+    flows: &'static [f64],
+}
 
-/// RKN₆ᵇ.
-pub const RKN4: Splitting = Splitting {
+impl Splitting {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::Strang, Self::Rkn4, Self::Rkn6, Self::Prk4, Self::Prk6];
+    /// The most flows of different length that one of them has.
+    pub const MAX_FLOWS: usize = 6;
+
+    /// The name in files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.lengths().name
+    }
+
+    /// The order of accuracy.
+    #[must_use]
+    pub fn order(self) -> u32 {
+        self.lengths().order
+    }
+
+    /// The lengths of the kicks of a step, as parts of it.
+    pub fn kicks(self) -> impl Iterator<Item = f64> {
+        let Lengths { stages, kicks, .. } = self.lengths();
+        (0..=stages).map(move |i| kicks[i.min(stages - i)])
+    }
+
+    /// The lengths of the flows of a step, as parts of it; kicks are one more.
+    pub fn flows(self) -> impl ExactSizeIterator<Item = f64> {
+        let Lengths { stages, flows, .. } = self.lengths();
+        (0..stages).map(move |i| flows[i.min(stages - 1 - i)])
+    }
+
+    fn lengths(self) -> Lengths {
+        match self {
+            Self::Strang => STRANG,
+            Self::Rkn4 => RKN4,
+            Self::Rkn6 => RKN6,
+            Self::Prk4 => PRK4,
+            Self::Prk6 => PRK6,
+        }
+    }
+}
+
+const STRANG: Lengths =
+    Lengths { name: "strang", order: 2, stages: 1, kicks: &[0.5], flows: &[1.0] };
+
+const RKN4: Lengths = Lengths {
+    name: "rkn4",
     order: 4,
     stages: 6,
     kicks: &[
@@ -38,8 +91,8 @@ pub const RKN4: Splitting = Splitting {
     ],
 };
 
-/// RKN₁₁ᵇ.
-pub const RKN6: Splitting = Splitting {
+const RKN6: Lengths = Lengths {
+    name: "rkn6",
     order: 6,
     stages: 11,
     kicks: &[
@@ -66,8 +119,8 @@ pub const RKN6: Splitting = Splitting {
     ],
 };
 
-/// S₆.
-pub const PRK4: Splitting = Splitting {
+const PRK4: Lengths = Lengths {
+    name: "prk4",
     order: 4,
     stages: 6,
     kicks: &[
@@ -83,8 +136,8 @@ pub const PRK4: Splitting = Splitting {
     ],
 };
 
-/// S₁₀.
-pub const PRK6: Splitting = Splitting {
+const PRK6: Lengths = Lengths {
+    name: "prk6",
     order: 6,
     stages: 10,
     kicks: &[

@@ -8,7 +8,7 @@
 //! `cargo run --release -p coadjoint --example satellite`
 
 use coadjoint::nalgebra::{UnitQuaternion, Vector3};
-use coadjoint::steps::{Kicked, Rkn6};
+use coadjoint::steps::{Kicked, Splitting};
 use coadjoint::{LieGroup, Phase, SO3, lie_poisson, potential};
 
 const INERTIA: [f64; 3] = [1.0, 1.25, 1.5];
@@ -54,7 +54,7 @@ fn main() -> Result<(), coadjoint::StepError> {
     let orbit = std::f64::consts::TAU;
     for steps_per_orbit in [25_u32, 50, 100] {
         let h = orbit / f64::from(steps_per_orbit);
-        let step = Kicked::<Rkn6, _, _>::new(h, torque, |part| Satellite::new(part, INERTIA))?;
+        let step = Kicked::new(Splitting::Rkn6, h, torque, |part| Satellite::new(part, INERTIA))?;
         let mut state = Phase::<SO3>::new(
             SO3::new().exp(&Vector3::new(0.3, 0.4, 0.2)),
             Vector3::new(0.1, -0.2, 1.6),

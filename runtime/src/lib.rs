@@ -156,7 +156,7 @@ pub use coadjoint_macros::lie_poisson;
 ///
 /// ```
 /// use coadjoint::{LieGroup, Phase, SO3, lie_poisson, potential};
-/// use coadjoint::steps::{Kicked, Rkn4};
+/// use coadjoint::steps::{Kicked, Splitting};
 ///
 /// #[lie_poisson(group = SO3)]
 /// fn pendulum(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
@@ -172,7 +172,7 @@ pub use coadjoint_macros::lie_poisson;
 /// # fn main() -> Result<(), coadjoint::StepError> {
 /// let height = Height::new(1.2)?;
 /// let torque = |_time: f64, g: &_| height.torque(g);
-/// let step = Kicked::<Rkn4, _, _>::new(0.05, torque, |h| Pendulum::new(h, [1.0, 1.5, 1.0]))?;
+/// let step = Kicked::new(Splitting::Rkn4, 0.05, torque, |h| Pendulum::new(h, [1.0, 1.5, 1.0]))?;
 /// let mut state = Phase::<SO3>::new(SO3::new().exp(&[0.4, 0.0, 0.0].into()), [0.3, 0.2, 0.0]);
 /// let energy = |s: &Phase<SO3>| {
 ///     pendulum(s.momentum.into(), [1.0, 1.5, 1.0]) + height.energy(&s.group_element)

@@ -3,5 +3,5 @@
 pub use crate::error::{Circumstances, Stopped};
 pub use crate::step::kicked::Kicked;
 pub use crate::step::monitor::{Drift, Monitor};
-pub use crate::step::splitting::{MAX_FLOWS, Prk4, Prk6, Rkn4, Rkn6, Splitting, Strang};
 pub use crate::step::{StepReport, advance, advance_by, poisson_map, reconstruct};
+pub use coadjoint_program::splitting::Splitting;

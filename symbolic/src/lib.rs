@@ -40,6 +40,5 @@ pub mod poly;
 pub mod potential;
 pub mod problem;
 pub mod smooth;
-pub mod splitting;
 pub mod step;
 pub mod tolerance;

@@ -65,7 +65,7 @@ use crate::problem::{Parameter, Problem};
 use crate::smooth::Hamiltonian;
 use table::Table;
 
-pub use crate::splitting::Splitting;
+pub use coadjoint_program::splitting::Splitting;
 pub use event::Event;
 pub use options::{Options, Parameters};
 pub use run::Run;

@@ -1,9 +1,10 @@
 //! The key `splitting`: how kicks and flows are composed.
 
+use coadjoint_program::splitting::Splitting;
+
 use super::table::Table;
 use crate::diagnostic::{Diagnostics, Span, nearest};
 use crate::problem::Problem;
-use crate::splitting::Splitting;
 
 /// Reads `splitting`; it means nothing without a potential, which is a mistake.
 pub(super) fn read(root: &Table<'_>, integrator: Option<&Table<'_>>) -> Option<(Splitting, Span)> {

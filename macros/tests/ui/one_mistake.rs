@@ -2,7 +2,7 @@
 use coadjoint::{GeneratingFunction, Phase, SO3};
 use coadjoint::groups::SO4;
 use coadjoint::lanes::Lanes;
-use coadjoint::steps::{Kicked, Rkn4};
+use coadjoint::steps::{Kicked, Splitting};
 use coadjoint::{lie_poisson, potential};
 
 /// Free rigid body.
@@ -44,7 +44,7 @@ fn main() -> Result<(), coadjoint::StepError> {
 
     let height = Height::new(1.2)?;
     let torque = |_time: f64, g: &_| height.torque(g);
-    let kicked = Kicked::<Rkn4, _, _>::new(0.05, torque, |h| Body::new(h, inertia))?;
+    let kicked = Kicked::new(Splitting::Rkn4, 0.05, torque, |h| Body::new(h, inertia))?;
     kicked.advance(&mut phase, 0.0)?;
     Ok(())
 }

@@ -91,7 +91,7 @@ fn difference<T>(
 
 /// The coordinates of g⁻¹ δg, both by rows.
 fn coordinates(algebra: &LieAlgebra, g: &[f64], change: &[f64]) -> DVector<f64> {
-    let generators: Vec<Vec<f64>> = basis(algebra)
+    let generators: Vec<Vec<f64>> = algebra.matrices()
         .iter()
         .map(|e| {
             let places = (0..e.rows()).flat_map(|i| (0..e.columns()).map(move |j| (i, j)));
@@ -143,7 +143,7 @@ fn tangents_are_the_derivatives_of_runs() {
             let mut g = DMatrix::from_row_slice(size, size, &matrix);
             match column {
                 j if j < n => {
-                    let e = &basis(algebra)[j];
+                    let e = &algebra.matrices()[j];
                     g *= DMatrix::from_fn(size, size, |a, b| s * e.get(a, b).to_f64().unwrap())
                         .exp();
                 }

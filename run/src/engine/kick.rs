@@ -1,9 +1,9 @@
 //! A potential run by the interpreter, and its kicks between flows: what programs refuse, and what has none.
 
 use coadjoint::groups::Chart;
-use coadjoint::steps::advance;
+use coadjoint::steps::{Kicked, advance};
 use coadjoint::{Phase, StepError};
-use coadjoint_codegen::graph::{self, Program};
+use coadjoint_codegen::graph::Program;
 use coadjoint_codegen::integrator::{FoldTable, Integrator, Kick};
 use coadjoint_codegen::potential::Potential;
 use coadjoint_codegen::problem::values;
@@ -54,7 +54,7 @@ impl Forces {
     pub fn longest_flow(&self) -> f64 {
         let longer =
             |longest: f64, part: f64| if part.abs() > longest.abs() { part } else { longest };
-        self.splitting.flows().into_iter().fold(0.0, longer)
+        self.splitting.flows().fold(0.0, longer)
     }
 
     /// The step of flows and kicks.
@@ -65,26 +65,10 @@ impl Forces {
         step: f64,
     ) -> Result<Map<'a, G>, StepError> {
         let torque = Torque::new(&self.kick, group.clone())?;
-        let flow = |part| Interpreter::<G, C>::new(integrator, group.clone(), step * part, &[]);
-        let flows: Result<Vec<_>, _> = self.splitting.flows().into_iter().map(flow).collect();
-        let (kicks, flows) = (self.splitting.kicks(), flows?);
-        Ok(Box::new(move |phase| {
-            let mut state = phase.clone();
-            for (i, part) in kicks.iter().enumerate() {
-                let torque = torque.torque(&state.group_element);
-                for (mu, torque) in state.momentum.iter_mut().zip(&torque) {
-                    *mu = torque.mul_add(step * part, *mu);
-                }
-                if let Some(flow) = flows.get(i) {
-                    advance(flow, &mut state)?;
-                }
-            }
-            if state.momentum.iter().any(|mu| !mu.is_finite()) {
-                return Err(StepError::NonFiniteState);
-            }
-            *phase = state;
-            Ok(None)
-        }))
+        let flow = |part| Interpreter::<G, C>::new(integrator, group.clone(), part, &[]);
+        let torque = move |_: f64, g: &G::Element| torque.torque(g);
+        let step = Kicked::new(self.splitting, step, torque, flow)?;
+        Ok(Box::new(move |phase| step.advance(phase, 0.0).map(|()| None)))
     }
 }
 
@@ -109,9 +93,7 @@ impl<'a, G: Group> Torque<'a, G> {
     /// −g⁻¹dV(g).
     pub fn torque(&self, g: &G::Element) -> DVector<f64> {
         let entries = entries_of(&self.group, g);
-        let mut result = vec![0.0; self.group.dim()];
-        graph::run(&self.kick.torque, &entries, &self.slots, &mut Vec::new(), &mut result);
-        DVector::from_vec(result)
+        DVector::from_vec(self.kick.torque.run(&entries, &self.slots))
     }
 
     /// The derivative of the torque in ξ = g⁻¹δg, by that of its program and the matrices of the algebra's basis.

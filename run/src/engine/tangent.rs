@@ -84,7 +84,7 @@ impl<'a, G: Group + 'a, C: Chart<G>> Tangent<'a, G, C> {
                 (0..parameters.len()).map(by_parameter).collect();
             Ok(Flow { function, by_parameters: by_parameters? })
         };
-        let parts = forces.map_or_else(|| vec![1.0], |forces| forces.splitting.flows());
+        let parts = forces.map_or_else(|| vec![1.0], |forces| forces.splitting.flows().collect());
         let flows: Result<Vec<_>, StepError> = parts.into_iter().map(flow).collect();
         let kicks = forces.map(|forces| Kicks::new(forces, group, size)).transpose()?;
         let hessian = push_forward(&integrator.gradient);
@@ -160,7 +160,7 @@ impl<'a, G: Group> Kicks<'a, G> {
             })
         };
         let generators = forces.kick.potential.algebra.matrices().iter().map(generator).collect();
-        let lengths = forces.splitting.kicks().into_iter().map(|part| part * size).collect();
+        let lengths = forces.splitting.kicks().map(|part| part * size).collect();
         let slope = push_forward(&forces.kick.torque);
         Ok(Self { torque, slope, generators, lengths })
     }

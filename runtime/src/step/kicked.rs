@@ -1,6 +1,6 @@
 //! Forces that break the symmetry: kicks between generated flows.
 
-use core::marker::PhantomData;
+use coadjoint_program::splitting::Splitting;
 
 use crate::error::StepError;
 use crate::generating::{ScalarOf, VectorOf};
@@ -10,10 +10,9 @@ use crate::linear::coordinates::Coordinates;
 use crate::number::scalar::Scalar;
 use crate::solve::Integrator;
 use crate::step::advance;
-use crate::step::splitting::{MAX_FLOWS, Splitting};
 
 /// One step of H_red(μ) + V(t, g): the generated flows of H_red and kicks by the torque of V,
-/// composed by the splitting `M`.
+/// composed by a splitting.
 ///
 /// A kick is μ ← μ + h·τ(t, g) with the body torque τ = −g⁻¹·dV, coordinates
 /// τ_j = −d/ds V(t, g·exp(s eⱼ)) at s = 0. Kicks of a potential are symplectic on T\*G, and so is
@@ -25,7 +24,7 @@ use crate::step::splitting::{MAX_FLOWS, Splitting};
 /// use coadjoint::{LieGroup, Phase, SO3};
 /// use coadjoint::generating::PolynomialFunction;
 /// use coadjoint::groups::Exponential;
-/// use coadjoint::steps::{Kicked, Rkn4};
+/// use coadjoint::steps::{Kicked, Splitting};
 /// use nalgebra::Vector3;
 ///
 /// // A heavy top: V = m·g·l times the height of the body's third axis; torque mgl e₃ × Rᵀ(−ẑ).
@@ -37,7 +36,7 @@ use crate::step::splitting::{MAX_FLOWS, Splitting};
 /// let torque = |_time: f64, attitude: &nalgebra::UnitQuaternion<f64>| {
 ///     Vector3::z().cross(&(attitude.inverse() * -Vector3::z()))
 /// };
-/// let step = Kicked::<Rkn4, _, _>::new(0.01, torque, flow)?;
+/// let step = Kicked::new(Splitting::Rkn4, 0.01, torque, flow)?;
 /// let mut top = Phase::new(SO3::new().exp(&Vector3::new(0.3, 0.0, 0.0)), Vector3::new(0.0, 0.0, 5.0));
 /// for n in 0..100 {
 ///     step.advance(&mut top, 0.01 * f64::from(n))?;
@@ -46,17 +45,16 @@ use crate::step::splitting::{MAX_FLOWS, Splitting};
 /// # Ok::<(), coadjoint::StepError>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Kicked<M: Splitting, S: Integrator, F> {
+pub struct Kicked<S: Integrator, F> {
+    splitting: Splitting,
     step: ScalarOf<S>,
     torque: F,
-    /// As many as [`Splitting::PARTS`] has entries.
-    flows: [Option<S>; MAX_FLOWS],
-    splitting: PhantomData<M>,
+    /// The first half of the splitting's.
+    flows: [Option<S>; Splitting::MAX_FLOWS],
 }
 
-impl<M, S, F> Kicked<M, S, F>
+impl<S, F> Kicked<S, F>
 where
-    M: Splitting,
     S: Integrator,
     F: Fn(ScalarOf<S>, &<S::Group as LieGroup>::Element) -> VectorOf<S>,
 {
@@ -66,15 +64,17 @@ where
     /// # Errors
     /// The error of `flow`.
     pub fn new(
+        splitting: Splitting,
         step: ScalarOf<S>,
         torque: F,
         mut flow: impl FnMut(ScalarOf<S>) -> Result<S, StepError>,
     ) -> Result<Self, StepError> {
-        let mut flows = [const { None }; MAX_FLOWS];
-        for (place, &part) in flows.iter_mut().zip(M::PARTS) {
+        let mut flows = [const { None }; Splitting::MAX_FLOWS];
+        let different = splitting.flows().len().div_ceil(2);
+        for (place, part) in flows.iter_mut().zip(splitting.flows().take(different)) {
             *place = Some(flow(step * ScalarOf::<S>::of(part))?);
         }
-        Ok(Self { step, torque, flows, splitting: PhantomData })
+        Ok(Self { splitting, step, torque, flows })
     }
 
     /// The step size.
@@ -90,15 +90,14 @@ where
     pub fn advance(&self, phase: &mut Phase<S::Group>, time: ScalarOf<S>) -> Result<(), StepError> {
         let mut state = phase.clone();
         let mut time = time;
-        // The sequences are palindromes, of which the first halves are stored.
-        self.kick(&mut state, time, 0);
-        for stage in 0..M::STAGES {
-            let at = stage.min(M::STAGES - 1 - stage);
-            if let (Some(Some(flow)), Some(&part)) = (self.flows.get(at), M::PARTS.get(at)) {
+        let (mut parts, stages) = (self.splitting.flows(), self.splitting.flows().len());
+        for (stage, kick) in self.splitting.kicks().enumerate() {
+            self.kick(&mut state, time, kick);
+            let Some(part) = parts.next() else { break };
+            if let Some(Some(flow)) = self.flows.get(stage.min(stages - 1 - stage)) {
                 advance(flow, &mut state)?;
                 time += self.step * ScalarOf::<S>::of(part);
             }
-            self.kick(&mut state, time, (stage + 1).min(M::STAGES - 1 - stage));
         }
         let dim = state.momentum.dim();
         if (0..dim).any(|i| !state.momentum[i].all_finite()) {
@@ -108,9 +107,8 @@ where
         Ok(())
     }
 
-    /// The kick whose length is entry number `at` of the splitting.
-    fn kick(&self, state: &mut Phase<S::Group>, time: ScalarOf<S>, at: usize) {
-        let Some(&part) = M::KICKS.get(at) else { return };
+    /// The kick of this part of the step.
+    fn kick(&self, state: &mut Phase<S::Group>, time: ScalarOf<S>, part: f64) {
         let torque = (self.torque)(time, &state.group_element);
         let length = self.step * ScalarOf::<S>::of(part);
         let mu = &state.momentum;

@@ -4,7 +4,6 @@ pub(crate) mod kicked;
 pub(crate) mod monitor;
 pub(crate) mod numbers;
 pub(crate) mod printed;
-pub(crate) mod splitting;
 
 use nalgebra::{SimdBool, SimdPartialOrd};
 

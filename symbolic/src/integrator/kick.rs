@@ -1,10 +1,11 @@
 //! The programs of a potential: its value and its torque.
 
+use coadjoint_program::splitting::Splitting;
+
 use super::coefficients::Coefficients;
 use super::{Integrator, lower, terms};
 use crate::graph::Program;
 use crate::potential::Potential;
-use crate::splitting::Splitting;
 
 /// Everything a back end needs to write or run kicks.
 ///

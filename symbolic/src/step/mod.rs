@@ -23,13 +23,13 @@ mod translations;
 mod vector;
 
 use coadjoint_program::fold::{FoldError, Values};
+use coadjoint_program::splitting::Splitting;
 use coadjoint_program::{Kernel, Precision};
 
 use crate::expr::ParameterExpr;
 use crate::graph::{Graph, Id, Program};
 use crate::integrator::{FoldTable, Integrator};
 use crate::lie::{Chart, LieAlgebra, catalogue};
-use crate::splitting::Splitting;
 pub use drift::{Conserved, Drift, Energy, Invariants, Scales, Start, nudge};
 pub use error::{MOST_OF_TABLES, StepError};
 use motion::Motion;
@@ -119,9 +119,10 @@ impl Step {
         let symbols: Vec<f64> =
             self.symbols.iter().map(|symbol| symbol.evaluate(parameters)).collect();
         let Some(splitting) = self.splitting else { return self.fold.fold(step, &symbols) };
-        let flows = splitting.flows();
+        // After the last kick there is no flow.
+        let flows = splitting.flows().chain(splitting.flows().next());
         let mut all = Vec::new();
-        for (kick, flow) in splitting.kicks().into_iter().zip(flows.iter().chain(flows.first())) {
+        for (kick, flow) in splitting.kicks().zip(flows) {
             all.extend(self.fold.fold(step * flow, &symbols)?);
             all.push(step * kick);
         }

@@ -1,6 +1,7 @@
 //! A step with kicks is the sequence of its kicks and flows, each flow with coefficients of its own.
 
 use coadjoint_program::Stepper;
+use coadjoint_program::splitting::Splitting;
 use coadjoint_symbolic::expr::ParameterExpr;
 use coadjoint_symbolic::hamilton_jacobi::TermLimit;
 use coadjoint_symbolic::integrator::{FoldTable, Integrator, Kick};
@@ -9,7 +10,6 @@ use coadjoint_symbolic::number::{integer, ratio};
 use coadjoint_symbolic::poly::Polynomial;
 use coadjoint_symbolic::potential::Potential;
 use coadjoint_symbolic::problem::{FrameChoice, Problem, Symbol};
-use coadjoint_symbolic::splitting::Splitting;
 use coadjoint_symbolic::step::Step;
 
 /// A body in a field: V = √2 g₂₂ + g₀₁ g₁₂/3.
@@ -58,7 +58,8 @@ fn a_step_is_its_kicks_and_flows() {
         kick.torque.run(&matrix, &slots)
     };
     for splitting in Splitting::ALL {
-        let (kicks, flows) = (splitting.kicks(), splitting.flows());
+        let kicks: Vec<f64> = splitting.kicks().collect();
+        let flows: Vec<f64> = splitting.flows().collect();
         assert_eq!(kicks.len(), flows.len() + 1, "{splitting:?}");
         for lengths in [&kicks, &flows] {
             assert!((lengths.iter().sum::<f64>() - 1.0).abs() < 1e-14, "{splitting:?}");

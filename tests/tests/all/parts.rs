@@ -33,11 +33,7 @@ fn parts_compute_as_the_interpreter() {
     let h = 0.05;
     let step = built::Ring20::new(h).unwrap();
     let slots = FoldTable::new(&integrator).fold(h, &[]).unwrap();
-    let run = |program: &Program, p: &SVector<f64, DIM>| {
-        let mut outputs = vec![0.0; program.outputs().len()];
-        coadjoint_codegen::graph::run(program, p.as_slice(), &slots, &mut Vec::new(), &mut outputs);
-        outputs
-    };
+    let run = |program: &Program, p: &SVector<f64, DIM>| program.run(p.as_slice(), &slots);
     for shift in [0.3, 1.9] {
         let p = SVector::from_fn(|i, _| (1.3 * i as f64 + shift).sin());
         let near = |a: &[f64], b: Vec<f64>| {

@@ -1,7 +1,7 @@
 //! Potentials: the torque derived from V(g), and the quantities that its kicks conserve (the kicks: `kicked.rs`).
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use coadjoint::steps::{Kicked, Rkn4};
+use coadjoint::steps::{Kicked, Splitting};
 use coadjoint::{LieGroup, Phase, SO3, lie_poisson, potential};
 use coadjoint_codegen::diagnostic::Diagnostics;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
@@ -69,7 +69,7 @@ fn a_kernel_with_kicks_makes_the_steps_of_the_runtime() {
     assert_eq!(step.kernel().advance(&slots, &mut g, &mut mu, STEPS).steps, STEPS);
     let field = GravityGradient::<f64>::new(INERTIA, [0.0, 0.0, 1.0]).unwrap();
     let torque = |_: f64, g: &UnitQuaternion<f64>| field.torque(g);
-    let by_hand = Kicked::<Rkn4, _, _>::new(h, torque, |h| Satellite::new(h, INERTIA)).unwrap();
+    let by_hand = Kicked::new(Splitting::Rkn4, h, torque, |h| Satellite::new(h, INERTIA)).unwrap();
     for _ in 0..STEPS {
         by_hand.advance(&mut expected, 0.0).unwrap();
     }

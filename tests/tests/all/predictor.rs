@@ -17,17 +17,8 @@ where
 {
     let group = G::default();
     let slots = FoldTable::new(integrator).fold(step, &[]).unwrap();
-    let mut scratch = Vec::new();
-    let mut run = |program: &Program, p: &SVector<f64, N>| {
-        let mut outputs = SVector::<f64, N>::zeros();
-        coadjoint_codegen::graph::run(
-            program,
-            p.as_slice(),
-            &slots,
-            &mut scratch,
-            outputs.as_mut_slice(),
-        );
-        outputs
+    let run = |program: &Program, p: &SVector<f64, N>| {
+        SVector::<f64, N>::from_vec(program.run(p.as_slice(), &slots))
     };
     let mu = SVector::<f64, N>::from_fn(|i, _| (1.3 + i as f64).sin());
     let mut p = mu;

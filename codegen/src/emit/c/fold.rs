@@ -273,11 +273,10 @@ fn of_step(kicks: &Kicks, parameters: &str, passed: &str) -> String {
         let lengths: Vec<String> = lengths.iter().map(|length| format!("{length:?}")).collect();
         format!("{{\n        {},\n    }}", lengths.join(",\n        "))
     };
-    let mut flows = kicks.splitting.flows();
-    // After the last kick there is none.
-    flows.extend(flows.first().copied());
-    STEP.replace("/*FLOWS*/", &list(flows))
-        .replace("/*KICKS*/", &list(kicks.splitting.kicks()))
+    // After the last kick there is no flow.
+    let flows = kicks.splitting.flows().chain(kicks.splitting.flows().next());
+    STEP.replace("/*FLOWS*/", &list(flows.collect()))
+        .replace("/*KICKS*/", &list(kicks.splitting.kicks().collect()))
         .replace("/*PARAMETERS*/", parameters)
         .replace("/*PASSED*/", passed)
 }
