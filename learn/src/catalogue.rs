@@ -3,9 +3,8 @@
 use coadjoint::groups::{Cayley, Chart, Exponential, MatrixGroup, TableError};
 use coadjoint::{SE3, SO3};
 use coadjoint_codegen::lie::{LieAlgebra, RationalMatrix, watched_casimirs};
-use coadjoint_codegen::number::Rational;
+use coadjoint_codegen::number::nearest_float;
 use nalgebra::DMatrix;
-use num_traits::ToPrimitive;
 
 use crate::error::LearnError;
 use crate::group::DataGroup;
@@ -61,19 +60,15 @@ pub fn visit<V: Visitor>(
 /// # Errors
 /// [`TableError`] where rounding to double precision breaks the algebra.
 pub fn matrix_group(algebra: &LieAlgebra) -> Result<MatrixGroup, TableError> {
-    let structure: Vec<_> =
-        algebra.structure().iter().map(|c| (c.i, c.j, c.k, float(&c.value))).collect();
+    let structure = algebra.constants();
     let Some(basis) = algebra.basis() else {
         return MatrixGroup::from_structure_constants(algebra.dim(), &structure);
     };
-    let matrix =
-        |e: &RationalMatrix| DMatrix::from_fn(e.rows(), e.columns(), |i, j| float(&e.get(i, j)));
+    let matrix = |e: &RationalMatrix| {
+        DMatrix::from_fn(e.rows(), e.columns(), |i, j| nearest_float(&e.get(i, j)))
+    };
     let basis: Vec<_> = basis.iter().map(matrix).collect();
     MatrixGroup::from_structure_and_basis(&structure, &basis)
-}
-
-fn float(value: &Rational) -> f64 {
-    value.to_f64().unwrap_or(f64::NAN)
 }
 
 /// The same with its Casimirs up to degree 3.
@@ -81,7 +76,7 @@ fn with_casimirs(algebra: &LieAlgebra) -> Result<MatrixGroup, TableError> {
     let terms = watched_casimirs(algebra).into_iter().map(|polynomial| {
         let terms = polynomial.terms().map(|(exponents, value)| {
             let powers = exponents.into_iter().enumerate().filter(|(_, power)| *power > 0);
-            (float(&value), powers.collect())
+            (nearest_float(&value), powers.collect())
         });
         terms.collect()
     });

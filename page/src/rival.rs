@@ -4,10 +4,10 @@
 //! counted in the same operations.
 
 use coadjoint_codegen::lie::{LieAlgebra, RationalMatrix};
+use coadjoint_codegen::number::nearest_float;
 use coadjoint_codegen::poly::Numeric;
 use coadjoint_program::{Graph, Id, Program};
 use nalgebra::{DMatrix, DVector};
-use num_traits::ToPrimitive;
 
 /// A step of the method, and how its states are read.
 #[derive(Debug)]
@@ -100,7 +100,7 @@ impl Rival {
 /// The basis, or the adjoint matrices.
 fn matrices(algebra: &LieAlgebra) -> Vec<DMatrix<f64>> {
     let float = |exact: &RationalMatrix| {
-        let entry = |i, j| exact.get(i, j).to_f64().unwrap_or(f64::NAN);
+        let entry = |i, j| nearest_float(&exact.get(i, j));
         DMatrix::from_fn(exact.rows(), exact.columns(), entry)
     };
     algebra.matrices().iter().map(float).collect()
@@ -165,10 +165,10 @@ impl Field<'_> {
     /// ad\*_ξ μ.
     fn force(&self, graph: &mut Graph, xi: &[Id], mu: &[Id]) -> Vec<Id> {
         let mut force = vec![graph.zero(); self.dim()];
-        for c in self.algebra.structure() {
-            let product = graph.mul(xi[c.i], mu[c.k]);
-            let value = graph.constant(c.value.to_f64().unwrap_or(f64::NAN));
-            force[c.j] = graph.times_plus(product, value, force[c.j]);
+        for (i, j, k, value) in self.algebra.constants() {
+            let product = graph.mul(xi[i], mu[k]);
+            let value = graph.constant(value);
+            force[j] = graph.times_plus(product, value, force[j]);
         }
         force
     }

@@ -13,7 +13,6 @@ use coadjoint_run::engine::{
     Charted, Compiled, Equations, Kept, Numbers, STEEP, identity, product_group,
 };
 use coadjoint_run::{Backend, integrator, read};
-use num_traits::ToPrimitive;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -125,16 +124,8 @@ struct Truth {
 
 impl Truth {
     fn new(algebra: &LieAlgebra, velocity: Vec<Numeric>, compact: bool) -> Self {
-        let mut structure = Vec::new();
-        for c in algebra.structure() {
-            let value = c.value.to_f64().unwrap_or(f64::NAN);
-            for entry in [(c.i, c.j, c.k, value), (c.j, c.i, c.k, -value)] {
-                if !structure.contains(&entry) {
-                    structure.push(entry);
-                }
-            }
-        }
-        Self { velocity, structure, factors: algebra.factor_of_coordinates(), compact }
+        let (structure, factors) = (algebra.constants(), algebra.factor_of_coordinates());
+        Self { velocity, structure, factors, compact }
     }
 
     fn speed(&self, mu: &[f64]) -> f64 {

@@ -4,16 +4,9 @@ use coadjoint::LieGroup;
 use coadjoint::generating::PolynomialFunction;
 use coadjoint::groups::{Chart, TableError};
 use coadjoint_codegen::hamilton_jacobi::GeneratingSeries;
-use coadjoint_codegen::number::Rational;
-use num_traits::ToPrimitive;
+use coadjoint_codegen::number::nearest_float;
 
 pub use coadjoint_learn::catalogue::matrix_group;
-
-/// The nearest double.
-#[must_use]
-pub fn double(value: &Rational) -> f64 {
-    value.to_f64().unwrap_or(f64::NAN)
-}
 
 /// S_h = Σ h^k S_k as a generating function.
 ///
@@ -30,7 +23,7 @@ pub fn series_function<G: LieGroup, C: Chart<G>>(
         let step = (0..k).fold(1.0, |product, _| product * h);
         for (factors, c) in series.order(k).factors() {
             let factors = factors.into_iter().map(|(i, power)| (i as usize, power)).collect();
-            terms.push((step * double(&c), factors));
+            terms.push((step * nearest_float(&c), factors));
         }
     }
     PolynomialFunction::new(group, chart, terms)

@@ -4,10 +4,10 @@ use toml::de::DeValue;
 
 use super::project::project;
 use super::run::Run;
-use super::table::{Table, Value, nearest_float, span};
+use super::table::{Table, Value, span};
 use crate::diagnostic::{Mistake, Span};
 use crate::lie::{LieAlgebra, RationalMatrix};
-use crate::number::{Rational, integer};
+use crate::number::{Rational, integer, nearest_float};
 use crate::poly::split_at;
 use crate::problem::Problem;
 

@@ -3,8 +3,9 @@
 use toml::de::DeValue;
 
 use super::event::Event;
-use super::table::{Table, nearest_float, span};
+use super::table::{Table, span};
 use crate::diagnostic::Span;
+use crate::number::nearest_float;
 use crate::tolerance::Region;
 
 const TOLERANCE: &str = "tolerance = 1e-9";

@@ -1,12 +1,11 @@
 //! Reading values of a TOML table, with a mistake for each that does not fit.
 
-use num_traits::ToPrimitive;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::diagnostic::{Diagnostics, Mistake, Span};
 use crate::expr::Arena;
-use crate::number::Rational;
+use crate::number::{Rational, nearest_float};
 use crate::parse::{Names, fraction, rows, text};
 use crate::pass::{Energy, constant};
 use crate::problem::Parameter;
@@ -269,9 +268,4 @@ impl<'a> Table<'a> {
 /// Where a value stands.
 pub(super) fn span(value: &Value<'_>) -> Span {
     Span::text(value.span())
-}
-
-/// The nearest `f64` of an exact number.
-pub(super) fn nearest_float(number: &Rational) -> f64 {
-    number.to_f64().unwrap_or(f64::NAN)
 }

@@ -91,7 +91,8 @@ fn difference<T>(
 
 /// The coordinates of g⁻¹ δg, both by rows.
 fn coordinates(algebra: &LieAlgebra, g: &[f64], change: &[f64]) -> DVector<f64> {
-    let generators: Vec<Vec<f64>> = algebra.matrices()
+    let generators: Vec<Vec<f64>> = algebra
+        .matrices()
         .iter()
         .map(|e| {
             let places = (0..e.rows()).flat_map(|i| (0..e.columns()).map(move |j| (i, j)));

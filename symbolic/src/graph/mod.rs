@@ -5,6 +5,8 @@
 //! `coadjoint-program`, which every target reads.
 
 mod horner;
+mod interpret;
 
 pub use coadjoint_program::{Cost, Graph, Id, Node, Program};
 pub use horner::{SlotPolynomial, SlotTerm, lower};
+pub use interpret::{Arithmetic, evaluate};

@@ -1,7 +1,7 @@
 //! Lie algebras by basis, structure constants or brackets.
 
 use super::{LieAlgebraError, RationalMatrix, Span};
-use crate::number::Rational;
+use crate::number::{Rational, nearest_float};
 use num_traits::Zero;
 use std::collections::BTreeMap;
 
@@ -235,6 +235,12 @@ impl LieAlgebra {
     #[must_use]
     pub fn structure(&self) -> &[StructureConstant] {
         &self.structure
+    }
+
+    /// The structure constants (i, j, k, c_ij^k) as floating-point numbers.
+    #[must_use]
+    pub fn constants(&self) -> Vec<(usize, usize, usize, f64)> {
+        self.structure.iter().map(|c| (c.i, c.j, c.k, nearest_float(&c.value))).collect()
     }
 
     /// The matrices of the basis; none if the algebra is known by its brackets alone.

@@ -26,6 +26,12 @@ pub fn ratio(numerator: i64, denominator: i64) -> Rational {
     Rational::new(numerator.into(), denominator.into())
 }
 
+/// The nearest `f64`; NaN beyond the largest.
+#[must_use]
+pub fn nearest_float(value: &Rational) -> f64 {
+    num_traits::ToPrimitive::to_f64(value).unwrap_or(f64::NAN)
+}
+
 /// The rational with the value of an integer.
 #[must_use]
 pub fn integer(value: i64) -> Rational {

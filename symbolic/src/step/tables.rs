@@ -1,10 +1,8 @@
 //! Any group by its structure constants and the matrices of its basis; elements as matrices, row by row.
 
-use num_traits::ToPrimitive;
-
 use crate::graph::{Graph, Id};
 use crate::lie::{Chart, LieAlgebra, RationalMatrix};
-use crate::number::Rational;
+use crate::number::nearest_float;
 use crate::step::error::MOST_OF_TABLES;
 use crate::step::part::{Moved, Part};
 use crate::step::vector::{Matrix, dot, finite, largest, solve};
@@ -42,13 +40,11 @@ pub(crate) struct Tables {
     orthogonal: bool,
 }
 
-fn float(value: &Rational) -> f64 {
-    value.to_f64().unwrap_or(f64::NAN)
-}
-
-/// (i, j, k, cᵢⱼᵏ) for both orders of every bracket.
+/// (i, j, k, cᵢⱼᵏ), both orders of a bracket one after the other.
 pub(crate) fn structure_of(algebra: &LieAlgebra) -> Vec<(usize, usize, usize, f64)> {
-    algebra.structure().iter().map(|c| (c.i, c.j, c.k, float(&c.value))).collect()
+    let mut structure = algebra.constants();
+    structure.sort_by_key(|&(i, j, k, _)| (i.min(j), i.max(j), k, i));
+    structure
 }
 
 impl Tables {
@@ -60,7 +56,7 @@ impl Tables {
         let matrices = algebra.matrices();
         let size = algebra.matrix_size();
         let entries = |matrix: &RationalMatrix| {
-            let entries = matrix.entries().map(|(i, j, value)| (i, j, float(value)));
+            let entries = matrix.entries().map(|(i, j, value)| (i, j, nearest_float(value)));
             entries.filter(|entry| entry.2 != 0.0).collect::<Vec<_>>()
         };
         let basis = matrices.iter().map(entries).collect();

@@ -1,7 +1,5 @@
 //! Gradients and brackets in floating point.
 
-use num_traits::ToPrimitive;
-
 use crate::lie::LieAlgebra;
 use crate::poly::{Numeric, Polynomial};
 
@@ -30,10 +28,7 @@ pub(super) struct Brackets {
 
 impl Brackets {
     pub(super) fn new(algebra: &LieAlgebra) -> Self {
-        let float = |c: &crate::lie::StructureConstant| {
-            (c.i, c.j, c.k, c.value.to_f64().unwrap_or(f64::NAN))
-        };
-        Self { dim: algebra.dim(), structure: algebra.structure().iter().map(float).collect() }
+        Self { dim: algebra.dim(), structure: algebra.constants() }
     }
 
     /// [x, y].

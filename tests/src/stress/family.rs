@@ -5,13 +5,12 @@ use std::sync::Arc;
 use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
 use coadjoint_codegen::judge::Judge;
 use coadjoint_codegen::lie::{Chart, LieAlgebra, catalogue};
-use coadjoint_codegen::number::ratio;
+use coadjoint_codegen::number::{nearest_float, ratio};
 use coadjoint_codegen::poly::Polynomial;
 
 use super::random::Random;
 use super::runtime::{Steps, Terms};
 use super::verdict::Tally;
-use crate::bridge::double;
 
 /// A Hamiltonian, up to its parameters, with its exact series and its judge.
 pub struct Model {
@@ -161,7 +160,7 @@ pub fn folded(orders: &[(u32, Polynomial)], h: f64, single: bool) -> Option<Term
     for (k, order) in orders {
         let power = h.powi(*k as i32);
         for (factors, c) in order.factors() {
-            let c = power * double(&c);
+            let c = power * nearest_float(&c);
             if !(c.abs() > least && c.abs() < most) {
                 return None;
             }
