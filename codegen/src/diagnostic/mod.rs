@@ -32,7 +32,7 @@ pub struct Diagnostic {
 }
 
 impl Diagnostic {
-    /// What is wrong.
+    /// The mistake.
     #[must_use]
     pub fn message(&self) -> String {
         self.mistake.to_string()

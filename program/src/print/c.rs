@@ -11,7 +11,7 @@ use crate::node::Node;
 ///
 /// Every operation is rounded once; a dialect whose compiler might contract or reorder operations has to forbid it.
 pub trait Dialect {
-    /// What it shares with C.
+    /// The dialect of C that it builds on.
     fn c(&self) -> &C;
 
     /// A number of the program. It stands alone or as an operand: a negative one has to be in parentheses.

@@ -21,7 +21,7 @@ pub struct Algebra<'a> {
     /// The matrices of the basis; `None` where only the brackets are known. Elements are then matrices of the adjoint
     /// representation.
     pub(super) basis: Option<&'a [BasisEntry]>,
-    /// What follows from the matrices in use.
+    /// The properties of the matrices in use.
     pub(super) facts: Facts,
     /// The inverse of their Gram matrix ⟨eᵢ, eⱼ⟩ = Σ entries of eᵢ times entries of eⱼ, row by row.
     pub(super) gram_inverse: &'a [f64],
@@ -31,7 +31,7 @@ pub struct Algebra<'a> {
     pub(super) cayley: &'a [f64],
 }
 
-/// What holds of the matrices in use.
+/// The properties of the matrices in use.
 #[derive(Clone, Copy, Debug)]
 pub struct Facts {
     /// The first that is a combination of those before it. Only adjoint matrices may have one: that of an algebra with a

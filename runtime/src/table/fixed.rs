@@ -74,7 +74,7 @@ impl<A, const N: usize, const D: usize, T> Debug for StaticTables<A, N, D, T> {
     }
 }
 
-/// What follows from the tables and is costly: evaluated by the compiler.
+/// Costly consequences of the tables, evaluated by the compiler.
 struct Derived<const N: usize> {
     facts: Facts,
     gram_inverse: [[f64; N]; N],

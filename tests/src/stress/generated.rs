@@ -1,6 +1,5 @@
 //! Families of steps that the attribute generates, of free bodies.
 
-use coadjoint::lie_poisson;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::judge::Judge;
 use coadjoint_codegen::number::Rational;
@@ -15,9 +14,7 @@ use super::runtime::{MatrixFree, Runner};
 macro_rules! system {
     ($module:ident, $name:ident, ($($arguments:tt)*), $($function:tt)*) => {
         mod $module {
-            use super::lie_poisson;
-
-            #[lie_poisson($($arguments)*)]
+            #[coadjoint::lie_poisson($($arguments)*)]
             $($function)*
 
             pub(super) use $name as System;
