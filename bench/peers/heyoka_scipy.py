@@ -2,17 +2,20 @@
 """heyoka (Taylor's method, compiled at run time) and SciPy on the benchmark's problems, as rows of the same table.
 
     python3 -m venv venv && venv/bin/pip install heyoka scipy numpy
-    venv/bin/python bench/peers/heyoka_scipy.py [--problem NAME] [--rounds N] [--scipy] [--ensemble]
+    venv/bin/python bench/peers/heyoka_scipy.py [--problem NAME] [--rounds N] [--scipy] [--ensemble] [--defaults]
 
 Equations, initial states and references come from ../reference/end_states.json: y = (momentum, force, quaternion,
 position), the free bodies without force and position. An error is the largest difference of a component of the end
 state, twice that for the quaternion (the Rust program compares rotation matrices), and momenta and positions of the heavy top in units of 100.
 Runs are interleaved over the tolerances; the figures are medians. `--ensemble` runs 4096 free bodies in heyoka's batch
 mode with batches of 8 and prints nanoseconds per trajectory and
-unit of time. Compile times of heyoka are not counted.
+unit of time. Compile times of heyoka are not counted. `--defaults` runs 4096 bodies near one start by the package
+coadjoint with `tolerance=1e-10` and nothing else, and by heyoka's batches at tolerances around it: the least processor time of
+interleaved rounds, in which both have compiled before.
 """
 import argparse
 import json
+import math
 import pathlib
 import statistics
 import time
@@ -199,16 +202,70 @@ def ensemble(problem, rounds, end=100.0, count=4096, batch=8):
         print(f"| {tolerance:.1e} | {error.max():.1e} | {numpy.median(error):.1e} | {statistics.median(samples):.0f} |")
 
 
+def batches(system, initial, end, batch=8):
+    """A function of a tolerance that makes one from the initial states to those at the end."""
+    first = numpy.ascontiguousarray(initial[:batch].T)
+
+    def of(tolerance):
+        integrator = heyoka.taylor_adaptive_batch(system, first.copy(), tol=tolerance)
+
+        def run():
+            ends = numpy.empty_like(initial)
+            for row in range(0, len(initial), batch):
+                integrator.set_time(0.0)
+                integrator.state[:] = initial[row:row + batch].T
+                integrator.propagate_until(end)
+                ends[row:row + batch] = integrator.state.T
+            return ends
+
+        return run
+
+    return of
+
+
+def defaults(problem, rounds, end=100.0, count=4096):
+    import coadjoint
+
+    momenta = numpy.random.default_rng(1).normal([2, 0.5, 1], 0.1, size=(count, 3))
+    initial = numpy.hstack([momenta, numpy.tile([1.0, 0.0, 0.0, 0.0], (count, 1))])
+    a, b, c = problem.a
+    body = coadjoint.System("SO3", f"{a / 2}*x^2 + {b / 2}*y^2 + {c / 2}*z^2", coordinates="x y z")
+    of = batches(heyoka_system(problem), initial, end)
+    runs = {"coadjoint, tolerance=1e-10": lambda: body.ensemble(initial, time=end, tolerance=1e-10, threads=1)}
+    runs |= {f"heyoka, {tolerance:.0e}": of(tolerance) for tolerance in (1e-9, 1e-10, 1e-11, 1e-12)}
+    reference, found = of(1e-17)(), {name: (math.inf, 0.0) for name in runs}
+    for _ in range(rounds):
+        for name, run in runs.items():
+            begun = time.process_time()
+            ends = numpy.asarray(run())
+            took = (time.process_time() - begun) * 1e9 / (count * end)
+            ends[:, 3:] *= numpy.sign((ends[:, 3:] * reference[:, 3:]).sum(axis=1))[:, None]
+            error = (numpy.abs(ends - reference) * problem.units).max()
+            found[name] = min(found[name], (took, error))
+    (took, error), *others = found.values()
+    costs = sorted((numpy.log(other), cost) for cost, other in others)
+    same = numpy.interp(numpy.log(error), *zip(*costs))
+    print(f"\n{count} free bodies near one start, T = {end:g}, one core\n")
+    print("| | largest error | ns per trajectory and unit of time |\n|---|---:|---:|")
+    for name, (cost, error) in found.items():
+        print(f"| {name} | {error:.1e} | {cost:.0f} |")
+    print(f"\nheyoka takes {same:.0f} ns at the error of coadjoint, whose time is {took / same:.2f} of that.")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--problem", action="append", help="only this problem; may be repeated")
     parser.add_argument("--rounds", type=int, default=15)
     parser.add_argument("--scipy", action="store_true", help="SciPy's DOP853 and RK45 too (slow)")
     parser.add_argument("--ensemble", action="store_true", help="the ensemble only")
+    parser.add_argument("--defaults", action="store_true", help="the package coadjoint with a tolerance alone, beside heyoka")
     arguments = parser.parse_args()
     problems = [Problem(record) for record in json.loads(FILE.read_text())]
     if arguments.ensemble:
         ensemble(problems[0], max(3, arguments.rounds // 5))
+        return
+    if arguments.defaults:
+        defaults(problems[0], arguments.rounds)
         return
     for problem in problems:
         if arguments.problem and problem.name not in arguments.problem:

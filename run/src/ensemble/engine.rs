@@ -18,6 +18,7 @@ use crate::backend::Backend;
 use crate::engine::{Charted, Compiled, Equations, Motion, Numbers, STEEP, Varied, card, identity};
 use crate::error::RunError;
 use crate::load::Derived;
+use crate::number::shortest;
 use crate::simulate::{Stop, estimate};
 
 /// The system as ensembles solve it: in lanes by Newton's method whatever the dimension, since its Hessian is then exact.
@@ -529,8 +530,9 @@ impl<'a> Engine<'a> {
                         Ok(folded) => motion.vary(parameters, folded),
                         Err(error) => {
                             let values = layout.parameters.iter().zip(*own);
-                            let values: Vec<String> =
-                                values.map(|(name, x)| format!("{name} = {x}")).collect();
+                            let values: Vec<String> = values
+                                .map(|(name, x)| format!("{name} = {}", shortest(*x)))
+                                .collect();
                             let why = format!("with {}: {error}", values.join(", "));
                             way.stopped = Some((0, why));
                         }
