@@ -15,6 +15,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Build::new("systems/rigid_body.toml").write("rigid_body.rs")?;
     Build::new("systems/brackets.toml").truncation(3).write("brackets.rs")?;
     Build::new("systems/weighted_body.toml").write("weighted_body.rs")?;
+    Build::new("systems/fast_body.toml").write("fast_body.rs")?;
     Build::new("systems/ring_20.toml").write("ring_20.rs")?;
     let folder = PathBuf::from(std::env::var("OUT_DIR")?).join("emitted");
     std::fs::create_dir_all(&folder)?;

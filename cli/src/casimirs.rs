@@ -1,8 +1,9 @@
 //! `coadjoint casimirs`: the polynomial Casimirs of the system's algebra.
 
 use coadjoint_codegen::lie;
+use coadjoint_codegen::smooth::Facts;
 use coadjoint_codegen::system;
-use coadjoint_run::series::polynomial;
+use coadjoint_run::series::sum;
 use serde_json::json;
 
 use crate::arguments::CasimirOptions;
@@ -13,24 +14,26 @@ use crate::named::Format;
 /// Prints generators of the Casimirs up to the degree asked for.
 pub(crate) fn run(options: &CasimirOptions) -> Result<(), CliError> {
     let problem = load::file(&options.file, system::Options::default())?.problem;
-    let found = lie::casimirs(&problem.algebra, options.degree).map_err(|error| {
+    let Facts { algebra, coordinates, .. } = problem.facts();
+    let written = |casimir| sum(casimir, coordinates, &[]);
+    let found = lie::casimirs(algebra, options.degree).map_err(|error| {
         CliError::Option(format!("{}: {error}; use --degree", options.file.display()))
     })?;
     match options.format {
         Format::Text => {
             outln!(
                 "{}: {} generating Casimirs of degree up to {}",
-                problem.algebra.name(),
+                algebra.name(),
                 found.len(),
                 options.degree
             );
             for casimir in &found {
-                outln!("{}", polynomial(&problem, casimir));
+                outln!("{}", written(casimir));
             }
         }
         Format::Json => {
-            let list: Vec<String> = found.iter().map(|c| polynomial(&problem, c)).collect();
-            outln!("{:#}", json!({ "group": problem.algebra.name(), "casimirs": list }));
+            let list: Vec<String> = found.iter().map(written).collect();
+            outln!("{:#}", json!({ "group": algebra.name(), "casimirs": list }));
         }
     }
     Ok(())

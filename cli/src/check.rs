@@ -1,5 +1,6 @@
 //! `coadjoint check`: the laws of the method, tried on this system at random points.
 
+use coadjoint_codegen::smooth::Facts;
 use coadjoint_codegen::system::Parameters;
 use coadjoint_run::Derived;
 use coadjoint_run::check::{Law, Trial, check, steep};
@@ -20,15 +21,15 @@ pub fn run(options: &CheckOptions) -> Result<(), CliError> {
     if let Some(ratio) = ratio {
         eprintln!("warning: {}", steep(ratio));
     }
-    let problem = &system.integrator.problem;
-    let (name, group) = (&problem.name, problem.algebra.name());
-    let (chart, truncation) = (problem.chart, problem.truncation);
+    let Facts { name, algebra, truncation, .. } = system.facts();
+    let (group, label) = (algebra.name(), system.label());
+    let chart = system.series().map(|series| series.integrator.problem.chart);
     let Trial { step, points, seed, .. } = trial;
     if options.format == Format::Json {
-        let object = json!({
+        let mut object = json!({
             "system": name,
             "group": group,
-            "chart": chart.to_string(),
+            "method": label,
             "truncation": truncation,
             "step": step,
             "points": points,
@@ -40,11 +41,18 @@ pub fn run(options: &CheckOptions) -> Result<(), CliError> {
                 "text": steep(ratio),
             })).collect::<Value>(),
         });
+        if let Some(chart) = chart {
+            object["chart"] = json!(chart.to_string());
+        }
         outln!("{object:#}");
     } else {
         let place = trial.place();
+        let method = match chart {
+            Some(chart) => format!("chart {chart}, K = {truncation}"),
+            None => label,
+        };
         outln!(
-            "{name}: group {group}, chart {chart}, K = {truncation}, h = {step}, {points} random points {place} (seed {seed})"
+            "{name}: group {group}, {method}, h = {step}, {points} random points {place} (seed {seed})"
         );
         ratio.iter().for_each(|&ratio| outln!("  warning: {}", steep(ratio)));
         laws.iter().for_each(|law| outln!("  {}", line(law)));

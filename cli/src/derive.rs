@@ -3,6 +3,7 @@
 use clap::Args;
 use coadjoint_codegen::system::Parameters;
 use coadjoint_learn::ModelFile;
+use coadjoint_run::polynomial;
 use coadjoint_run::series::{Series, json, latex, learned, text};
 
 use crate::error::CliError;
@@ -45,6 +46,12 @@ pub(crate) fn run(options: &DeriveOptions) -> Result<(), CliError> {
         Some(_) => load::source(&source, Parameters::Substituted)?,
         None => load::settled(&source, None, Parameters::Substituted)?.0,
     };
+    let system = polynomial(
+        &source.file,
+        system,
+        "there is no series",
+        "`check` tries the laws of these steps, and `emit` writes them",
+    )?;
     let series = Series::derive(&source.file, system.problem)?;
     out!("{}", (options.format)(&series));
     Ok(())

@@ -4,8 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use coadjoint::groups::Chart;
-use coadjoint_codegen::poly::Numeric;
-use coadjoint_codegen::problem::{Problem, values};
+use coadjoint_codegen::step::Energy;
 use coadjoint_codegen::system::Options;
 use coadjoint_learn::catalogue::{Visitor, visit};
 use coadjoint_learn::data::MomentumPairs;
@@ -72,8 +71,8 @@ pub(crate) fn run(options: &GeometrizeOptions) -> Result<(), CliError> {
         None => learn(&request, Source::Files(data, options.test.as_deref()), &mut |_| {})?,
         Some(path) => {
             let problem = load::file(path, Options::default())?.problem;
-            let request = Request { group: GroupChoice::of(&problem.algebra), ..request };
-            let pairs = Pairs { options, problem: &problem };
+            let request = Request { group: GroupChoice::of(problem.facts().algebra), ..request };
+            let pairs = Pairs { options, energy: Energy::new(&problem) };
             let pairs = visit(&request.group, &request.chart, pairs)??;
             learn(&request, Source::Momenta(&pairs), &mut |_| {})?
         }
@@ -83,14 +82,14 @@ pub(crate) fn run(options: &GeometrizeOptions) -> Result<(), CliError> {
 
 struct Pairs<'a> {
     options: &'a GeometrizeOptions,
-    problem: &'a Problem,
+    energy: Energy,
 }
 
 impl Visitor for Pairs<'_> {
     type Output = Result<MomentumPairs, CliError>;
 
     fn visit<G: DataGroup, C: Chart<G>>(self, group: G) -> Self::Output {
-        let Self { options, problem } = self;
+        let Self { options, energy } = self;
         let &[low, high] = options.within.as_slice() else {
             let what = "--within takes two numbers, as in --within -2.5,2.5";
             return Err(CliError::Option(what.to_owned()));
@@ -108,12 +107,8 @@ impl Visitor for Pairs<'_> {
                 options.samples
             )));
         }
-        let dim = group.dim();
-        let energy = Numeric::new(&problem.hamiltonian, dim, &values(&problem.symbols));
-        let slopes = energy.gradient(dim);
-        let gradient = |mu: &[f64], out: &mut [f64]| {
-            out.iter_mut().zip(&slopes).for_each(|(o, slope)| *o = slope.value(mu));
-        };
+        let slopes = energy.gradient(group.dim());
+        let gradient = |mu: &[f64], out: &mut [f64]| out.copy_from_slice(&slopes(mu));
         let (step, seed) = (options.fit.dt(), options.fit.seed());
         Ok(momentum_pairs(&group, MomentumBox { low, high }, options.samples, seed, |mu| {
             options.map.advance(&group, gradient, mu, step)

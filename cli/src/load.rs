@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use coadjoint_codegen::diagnostic::read_text;
-use coadjoint_codegen::system::{Options, Parameters, System};
+use coadjoint_codegen::system::{Options, Parameters};
 use coadjoint_codegen::tolerance::Choice;
 use coadjoint_learn::GroupChoice;
-use coadjoint_run::{meet_tolerance as meet, read_group, read_varying, read_with};
+use coadjoint_run::{System, meet_tolerance as meet, read_group, read_varying};
 
 use crate::error::{CliError, unread};
 use crate::source::{Accuracy, Source};
@@ -18,7 +18,7 @@ pub(crate) fn text(path: &Path) -> Result<String, CliError> {
 
 /// Reads the file at `path`.
 pub(crate) fn file(path: &Path, options: Options) -> Result<System, CliError> {
-    Ok(read_with(&path.display().to_string(), &text(path)?, options)?)
+    Ok(read_varying(&path.display().to_string(), &text(path)?, options, &[])?)
 }
 
 /// The group of this name in the catalogue, or of the system file at this path.

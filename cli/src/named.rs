@@ -3,7 +3,7 @@
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use coadjoint_codegen::emit::c::Language;
 use coadjoint_codegen::lie::Chart;
-use coadjoint_codegen::problem::Solver;
+use coadjoint_codegen::problem::{Method, Solver};
 use coadjoint_program::{Precision, print::DeviceLanguage};
 use coadjoint_run::Backend;
 
@@ -33,6 +33,12 @@ pub(crate) const SOLVERS: &Names<Solver> = &[
     ("newton", "Newton's method, with the Hessian", Solver::Newton),
     ("fixed_point", "The fixed point, with the gradient alone", Solver::FixedPoint),
     ("fixed-point", "", Solver::FixedPoint),
+];
+
+/// Methods.
+pub(crate) const METHODS: &Names<Method> = &[
+    ("series", "The generating function of a polynomial", Method::Series),
+    ("collocation", "Gauss's method, for any smooth Hamiltonian", Method::Collocation),
 ];
 
 /// Backends.

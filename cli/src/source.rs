@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 use coadjoint_codegen::lie::Chart;
-use coadjoint_codegen::problem::Solver;
+use coadjoint_codegen::problem::{Method, Solver};
 use coadjoint_codegen::system::{Options, Parameters};
 
-use crate::named::{CHARTS, SOLVERS, named};
+use crate::named::{CHARTS, METHODS, SOLVERS, named};
 
 /// Settings that replace those of a system file.
 #[derive(Args, Clone, Copy, Debug)]
@@ -18,6 +18,9 @@ pub(crate) struct Instead {
     /// Solve each step this way instead of the file's
     #[arg(long, value_parser = named(SOLVERS))]
     pub solver: Option<Solver>,
+    /// Make steps by this method instead of the file's
+    #[arg(long, value_parser = named(METHODS))]
+    pub method: Option<Method>,
 }
 
 /// A system file and what replaces its settings.
@@ -37,8 +40,9 @@ pub(crate) struct Source {
 impl Source {
     /// How the file is to be read.
     pub(crate) fn options(&self, parameters: Parameters) -> Options {
-        let Instead { chart, solver } = self.instead;
-        Options { parameters, truncation: self.truncation, chart, solver, frame: None }
+        let Instead { chart, solver, method } = self.instead;
+        let truncation = self.truncation;
+        Options { parameters, truncation, chart, solver, method, frame: None }
     }
 }
 
@@ -52,7 +56,7 @@ pub(crate) struct Input {
     #[command(flatten)]
     pub instead: Instead,
     /// A model learned by `coadjoint learn`, instead of a system file
-    #[arg(long, value_name = "MODEL", conflicts_with_all = ["file", "chart", "solver", "truncation"])]
+    #[arg(long, value_name = "MODEL", conflicts_with_all = ["file", "chart", "solver", "method", "truncation"])]
     pub model: Option<PathBuf>,
 }
 

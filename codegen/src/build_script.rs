@@ -8,6 +8,7 @@ use crate::file;
 use crate::hamilton_jacobi::{DeriveError, TermLimit};
 use crate::integrator::{Integrator, Kick};
 use crate::lie::Chart;
+use crate::smooth::Hamiltonian;
 use crate::system::{self, Parameters};
 
 /// Writes the integrator of a system file as a module into `OUT_DIR`, anew only when the file
@@ -142,14 +143,19 @@ impl Build {
         };
         let text = read_text(&self.input).map_err(io(&self.input))?;
         let name = self.input.display().to_string();
-        let system = system::read(&text, self.options)
+        let system = system::read_either(&text, self.options, &[])
             .map_err(|mistakes| BuildError::System(mistakes.render(&name, &text)))?;
-        let options = emit::Options::for_problem(&system.problem.name);
-        let integrator = Integrator::build(system.problem, self.limit)
-            .map_err(|source| BuildError::Derive { path: self.input.clone(), source })?;
-        emit::check_size(&integrator)
-            .map_err(|source| BuildError::Size { path: self.input.clone(), source })?;
-        let mut module = emit::file(&integrator, &options);
+        let options = emit::Options::for_problem(system.problem.facts().name);
+        let mut module = match system.problem {
+            Hamiltonian::Smooth(smooth) => emit::collocation_file(&smooth, &options),
+            Hamiltonian::Polynomial(problem) => {
+                let integrator = Integrator::build(*problem, self.limit)
+                    .map_err(|source| BuildError::Derive { path: self.input.clone(), source })?;
+                emit::check_size(&integrator)
+                    .map_err(|source| BuildError::Size { path: self.input.clone(), source })?;
+                emit::file(&integrator, &options)
+            }
+        };
         if let Some((potential, _)) = system.potential {
             module.push_str(&emit::potential_items(&Kick::build(potential), &options));
         }

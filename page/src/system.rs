@@ -4,7 +4,7 @@ use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie::{self, LieAlgebra, catalogue};
 use coadjoint_codegen::poly::{Numeric, Polynomial};
-use coadjoint_codegen::problem::{Parameter, Problem};
+use coadjoint_codegen::problem::{Parameter, Problem, values};
 use coadjoint_codegen::step::{Energy, Invariants, Step};
 use coadjoint_codegen::system::{self, Options, Parameters, Units};
 
@@ -114,10 +114,9 @@ impl System {
             return Err(vec![Mistake::of("truncation", message, "lower the truncation")]);
         }
         let slots = step.fold(h, &[]).map_err(|error| refused(&error))?;
-        let algebra = &integrator.problem.algebra;
-        let invariants = Invariants::new(&integrator.problem, None);
-        let energy = invariants.hamiltonian.as_ref().and_then(Energy::polynomial);
-        let energy = energy.cloned().unwrap_or_default();
+        let Problem { algebra, hamiltonian, symbols, .. } = &integrator.problem;
+        let energy = Numeric::new(hamiltonian, algebra.dim(), &values(symbols));
+        let invariants = Invariants::new(algebra, Energy::Polynomial(energy.clone()), None);
         let casimirs = lie::watched_casimirs(algebra);
         let factors = factors(algebra);
         let rival = Rival::new(algebra, &energy);

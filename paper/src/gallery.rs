@@ -3,12 +3,13 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use coadjoint_codegen::smooth::Facts;
 use coadjoint_codegen::system::{Options, Parameters};
 use coadjoint_draw::curves::range;
 use coadjoint_draw::run::{FLOOR, Picture, Run, Series, drift, motion, orbit};
 use coadjoint_draw::{Axis, Panel, Style, escaped};
 use coadjoint_run::simulate::{self, Drift, Moment, Schedule, Setup, Sink};
-use coadjoint_run::{Accuracy, Derived, meet_tolerance, read_with};
+use coadjoint_run::{Accuracy, Derived, meet_tolerance, read_varying};
 
 use crate::outcome::{Fallible, brief};
 
@@ -37,17 +38,18 @@ pub fn picture(file: &Path) -> Fallible<Picture> {
     let options = Options { parameters, ..Options::default() };
     let text = std::fs::read_to_string(file);
     let text = text.map_err(|e| format!("cannot read {}: {e}", file.display()))?;
-    let mut system = read_with(&file.display().to_string(), &text, options)?;
+    let mut system = read_varying(&file.display().to_string(), &text, options, &[])?;
     meet_tolerance(file, &mut system, &Accuracy::default())?;
     let schedule = Schedule::new(file, None, None, &system.run)?;
     let momentum = system.run.momentum.clone();
     let missing = || format!("{}: [initial] momentum is missing", file.display());
     let mut setup = Setup::new(schedule, momentum.ok_or_else(missing)?);
     setup.group_element.clone_from(&system.run.group_element);
-    let (name, units) = (system.problem.name.clone(), system.units.clone());
-    let (group, chart) = (system.problem.algebra.name().to_owned(), system.problem.chart.name());
-    let (truncation, coordinates) = (system.problem.truncation, system.problem.coordinates.clone());
+    let units = system.units.clone();
     let derived = Derived::of_file(file, system)?;
+    let Facts { name, algebra, coordinates, truncation, .. } = derived.facts();
+    let (name, group) = (name.to_owned(), algebra.name());
+    let chart = derived.series().map(|series| series.integrator.problem.chart.name());
     let mut looks = Looks::default();
     let outcome = simulate::run(&derived, &setup, &mut looks)?;
     let Looks(looks) = looks;
@@ -75,11 +77,12 @@ pub fn picture(file: &Path) -> Fallible<Picture> {
     let unit = units.time.as_ref().map(|unit| format!(" {unit}")).unwrap_or_default();
     let mut settings = vec![
         format!("group {group}"),
-        format!("chart {chart}"),
+        chart.map_or_else(|| derived.label(), |chart| format!("chart {chart}")),
         format!("K = {truncation}"),
         format!("h = {}{unit}", brief(schedule.step)),
         format!("T = {}{unit}", brief(schedule.end)),
     ];
+    // Frame and splitting, after truncation and chart or method and nodes.
     settings.extend(label.split(", ").skip(2).map(str::to_owned));
     let run = Run {
         label,

@@ -161,7 +161,7 @@ impl Steps {
             truncation: Some(truncation),
             chart: Some(chart),
             solver: None,
-            frame: None,
+            ..Options::default()
         };
         let system = read(system, options).map_err(|e| e.render("system", system))?;
         let integrator = Integrator::build(system.problem, TermLimit::default())?;

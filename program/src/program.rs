@@ -10,7 +10,7 @@ use crate::node::{Cost, Id, Node};
 /// A straight-line program: numbers and folded coefficients in, numbers out, no branches and no loops.
 ///
 /// It cannot be malformed: operands come before their users, and inputs are within their number.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Program {
     inputs: usize,
     slots: usize,

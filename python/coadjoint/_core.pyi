@@ -26,7 +26,9 @@ _Progress = Callable[[int, int], object]
 
 @final
 class Core:
-    def __new__(cls, text: str, name: str) -> Core: ...
+    def __new__(
+        cls, text: str, name: str, functions: tuple[Callable[..., Any], Callable[..., Any]] | None = None
+    ) -> Core: ...
     def facts(self) -> dict[str, Any]: ...
     def simulate(
         self,

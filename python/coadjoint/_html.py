@@ -42,7 +42,7 @@ def system(system: System) -> str:
         ("group", _code(system.group)),
         ("H", _code(facts["hamiltonian"])),
         ("coordinates", _code(", ".join(system.coordinates))),
-        ("method", f"K = {system.truncation}, order {system.truncation + 1}, {escape(system.chart)}"),
+        ("method", f"K = {system.truncation}, order {system.truncation + 1}, {escape(system.chart or 'collocation')}"),
     ]
     if facts["comoving"]:
         rows.append(("frame", "comoving"))

@@ -18,6 +18,8 @@ _FUNCTIONS = {
     "sin": "sin",
     "cos": "cos",
     "tan": "tan",
+    "atan": "atan",
+    "tanh": "tanh",
     "exp": "exp",
     "log": "ln",
     "Abs": "abs",
@@ -130,7 +132,7 @@ def _sympy(value: Any, what: str) -> str:
             if function is None:
                 known = ", ".join(["sqrt", *_FUNCTIONS])
                 raise refuse(
-                    part, f"has a function that is not known here; there are {known}, of parameters and numbers"
+                    part, f"has a function that is not known here; there are {known}"
                 )
             return f"{function}({', '.join(walk(argument) for argument in part.args)})"
         raise refuse(part, f"is a {type(part).__name__}, which is not known here; expand it first")

@@ -2,10 +2,10 @@
 
 >>> import coadjoint as ca
 >>> try:
-...     ca.System("SO3", "x^2 + sin(y)", coordinates="x y z")
+...     ca.System("SO3", "x^2 + sqr(y)", coordinates="x y z")
 ... except ca.InputError as error:
 ...     print(error)     # doctest: +ELLIPSIS
-system:4:22: error: `sin` of the momentum is not a polynomial...
+system:4:22: error: unknown function `sqr`...
 """
 
 from __future__ import annotations

@@ -25,21 +25,32 @@ __all__ = ["EventFunction", "Law", "Laws", "System", "Verdict"]
 
 #: The function of an event: of the time, the matrix g and the momentum μ.
 EventFunction = Callable[[float, Floats, Floats], Real]
+#: An energy H(t, μ), and its gradient ∂H/∂μ, as functions of the time and the momentum.
+Energy = Callable[[float, Floats], Real]
+Gradient = Callable[[float, Floats], Numbers]
 
 
 class System:
     """A Hamiltonian system on the dual of a Lie algebra, and on the cotangent bundle of its group.
 
     ``group`` is a name such as ``"SO3"``, ``"SE3"``, ``"SO3^8"`` or ``"SO3 |x R3"``, or a dictionary with a ``basis`` of
-    matrices, or ``generators`` and ``brackets``. ``hamiltonian`` is text or a SymPy expression: a polynomial in the
-    ``coordinates`` of the body momentum. Numbers are taken as their decimals, exactly: 0.1 is one tenth.
+    matrices, or ``generators`` and ``brackets``. ``hamiltonian`` is text or a SymPy expression in the ``coordinates`` of the
+    body momentum: a polynomial, whose steps are made by a series, or any other smooth function (roots, quotients, exp, ln,
+    sin, …), whose steps are made by collocation. Numbers are taken as their decimals, exactly: 0.1 is one tenth.
+    It may also be a function of (t, μ), with its ``gradient``, another one, which is checked against it once; t is 0 throughout.
 
     The other arguments are the keys of a system file: ``truncation`` K (odd; the method has order K + 1), ``chart``
-    (``"exp"`` or ``"cayley"``), ``frame`` (``"auto"``, ``"fixed"`` or ``"comoving"``), ``solver``, and for a ``potential`` V(g),
+    (``"exp"`` or ``"cayley"``), ``frame`` (``"auto"``, ``"fixed"`` or ``"comoving"``), ``solver``, ``method`` (``"series"`` or
+    ``"collocation"``, if it is not to follow from the Hamiltonian), and for a ``potential`` V(g),
     a polynomial in ``g[0][0]``, …, the ``splitting``. ``momentum``, ``group_element``, ``step`` or ``tolerance``,
     ``region`` and ``time`` are defaults of runs.
 
+    >>> import numpy as np
     >>> import coadjoint as ca
+    >>> fast = ca.System("SO3", lambda t, mu: np.sqrt(1 + mu @ mu), gradient=lambda t, mu: mu / np.sqrt(1 + mu @ mu))
+    >>> fast.simulate([2, 0.5, 1], time=10, step=0.1).momentum[-1].round(12)
+    array([2. , 0.5, 1. ])
+
     >>> body = ca.System("SO3", "x^2/(2*I1) + y^2/(2*I2) + z^2/(2*I3)", coordinates="x y z",
     ...                  parameters=dict(I1=1.5, I2=2, I3=2.5))
     >>> body
@@ -52,8 +63,9 @@ class System:
     def __init__(
         self,
         group: str | Mapping[str, Any],
-        hamiltonian: str | sympy.Expr,
+        hamiltonian: str | sympy.Expr | Energy,
         *,
+        gradient: Gradient | None = None,
         coordinates: str | Iterable[Any] | None = None,
         parameters: Mapping[str, Any] | None = None,
         units: Mapping[str, str] | None = None,
@@ -62,6 +74,7 @@ class System:
         chart: str | None = None,
         solver: str | None = None,
         frame: str | None = None,
+        method: str | None = None,
         splitting: str | None = None,
         step: Real | str | None = None,
         tolerance: Real | str | None = None,
@@ -76,7 +89,8 @@ class System:
         arguments = [(key, value) for key, value in locals().items() if key not in ("self", "__class__")]
         name = _arrays.text(name, "name")
         given = tuple(pair for pair in arguments if pair[1] is not None and pair != ("name", "system"))
-        known = _text.symbols(hamiltonian, potential, *(coordinates or ()))
+        functions = _functions(hamiltonian, gradient)
+        known = _text.symbols(None if functions else hamiltonian, potential, *(coordinates or ()))
         called = [] if coordinates is None else _text.names(coordinates, "coordinates")
         shown = _text.mapping(units, "units")
         each: _arrays.Units = [shown.get(own, shown.get("momentum")) for own in called] or shown.get("momentum")
@@ -95,7 +109,7 @@ class System:
             "name": text(name),
             "group": text(group) if whole else None,
             "coordinates": _text.strings(called) if called else None,
-            "hamiltonian": formula("" if hamiltonian is None else hamiltonian, "hamiltonian"),
+            "hamiltonian": None if functions else formula("" if hamiltonian is None else hamiltonian, "hamiltonian"),
             "potential": formula(potential, "potential"),
         }
         tables = {
@@ -107,6 +121,7 @@ class System:
                 "chart": text(chart),
                 "solver": text(solver),
                 "frame": text(frame),
+                "method": text(method),
                 "splitting": text(splitting),
                 "step": exact(step, "step", shown.get("time")),
                 "tolerance": exact(tolerance, "tolerance"),
@@ -121,7 +136,7 @@ class System:
         lines = _text.table(None, top)
         for title, entries in tables.items():
             lines += _text.table(title, entries)
-        self._read("\n".join(lines) + "\n", name, given, known)
+        self._read("\n".join(lines) + "\n", name, given, known, functions)
 
     @classmethod
     def from_text(cls, text: str, name: str = "system") -> System:
@@ -131,7 +146,7 @@ class System:
         >>> ca.System.from_text('group = "SO3"\\nhamiltonian = "mu[0]^2"').group
         'SO3'
         """
-        return _restored(cls, _arrays.text(text, "text"), _arrays.text(name, "name"), None, {})
+        return _restored(cls, _arrays.text(text, "text"), _arrays.text(name, "name"), None, {}, None)
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> System:
@@ -144,10 +159,11 @@ class System:
         name: str,
         given: tuple[tuple[str, Any], ...] | None,
         known: dict[str, Any],
+        functions: tuple[Energy, Gradient] | None,
         core: _core.Core | None = None,
     ) -> None:
-        self._text_, self._name, self._given, self._known = text, name, given, known
-        self._core = _core.Core(text, name) if core is None else core
+        self._text_, self._name, self._given, self._known, self._functions = text, name, given, known, functions
+        self._core = _core.Core(text, name, functions) if core is None else core
         self._facts = self._core.facts()
         self._steppers: dict[tuple[float | None, str], _core.Stepper] = {}
 
@@ -196,9 +212,10 @@ class System:
         return int(self._facts["truncation"]) if found is None else found[0]
 
     @property
-    def chart(self) -> str:
-        """``"exp"`` or ``"cayley"``."""
-        return str(self._facts["chart"])
+    def chart(self) -> str | None:
+        """``"exp"`` or ``"cayley"``; None where steps are made by collocation, in the chart of the group."""
+        chart: str | None = self._facts["chart"]
+        return chart
 
     @property
     def hamiltonian(self) -> sympy.Expr:
@@ -208,9 +225,14 @@ class System:
         >>> ca.System("SO3", "x^2/(2*I)", coordinates="x y z", parameters=dict(I=1.5)).hamiltonian
         x**2/3
         """
+        import sympy
+
         from . import _sympy
 
-        return _sympy.polynomial(self._facts["hamiltonian"], self._symbols)
+        if self._functions:
+            raise InputError("the Hamiltonian is a function of Python, and no expression")
+        values = {name: sympy.Rational(text) for name, text in self._facts["parameters"].items()}
+        return _sympy.polynomial(self._facts["hamiltonian"], {**self._symbols, **values})
 
     @property
     def _symbols(self) -> dict[str, sympy.Expr]:
@@ -222,6 +244,8 @@ class System:
     @cached_property
     def identity(self) -> str:
         """A hash of the text and of this version: where it is the same, results have the same bits."""
+        if self._functions:
+            raise InputError("a system whose Hamiltonian is a function has no hash: give it as an expression")
         return hashlib.sha256(f"coadjoint {_core.__version__}\n{self._text_}".encode()).hexdigest()
 
     def layouts(self) -> list[list[str]]:
@@ -597,12 +621,12 @@ class System:
         return _arrays.state(momentum, group_element, self._find, self._facts["units"], self.matrix_size)
 
     def __reduce__(self) -> Any:
-        return _restored, (type(self), self._text_, self._name, self._given, self._known)
+        return _restored, (type(self), self._text_, self._name, self._given, self._known, self._functions)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, System):
             return NotImplemented
-        return self._text_ == other._text_
+        return (self._text_, self._functions) == (other._text_, other._functions)
 
     def __hash__(self) -> int:
         return hash(self._text_)
@@ -688,6 +712,17 @@ class Verdict:
         return f"<Verdict: {self.text}{': ' + more if more else ''}; {self.rows} rows, {self.steps} steps>"
 
 
+def _functions(energy: Any, gradient: Any) -> tuple[Energy, Gradient] | None:
+    """The energy and its gradient, where they are functions."""
+    if callable(energy) and callable(gradient):
+        return energy, gradient
+    if gradient is not None:
+        raise InputError("gradient is a function of the time and the momentum, beside a Hamiltonian that is one too")
+    if callable(energy) and not hasattr(energy, "free_symbols"):
+        raise InputError("a Hamiltonian that is a function needs its gradient: give gradient=…, a function of (t, mu)")
+    return None
+
+
 def _events(given: Any) -> list[tuple[str, Callable[..., float], int, bool]]:
     """Name, function, sign of the direction, and whether it ends the run, of each event."""
     found = []
@@ -710,7 +745,7 @@ def hardly_converges(ratio: float) -> str:
 
 def of_core(core: _core.Core, text: str, name: str) -> System:
     """The system of an extension's object; ``text`` is what it was made of."""
-    return _restored(System, text, name, None, {}, core)
+    return _restored(System, text, name, None, {}, None, core)
 
 
 def _restored(kind: type[System], *parts: Any) -> System:

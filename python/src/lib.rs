@@ -9,6 +9,7 @@ mod emit;
 mod error;
 mod event;
 mod files;
+mod function;
 mod learn;
 mod outcome;
 mod record;

@@ -11,6 +11,7 @@ use pyo3::prelude::*;
 
 use crate::control::work;
 use crate::error::{raised, refused, stopped};
+use crate::function::Functions;
 
 /// The most steps made at once without checking for signals.
 const FEW: u64 = 64;
@@ -22,6 +23,8 @@ pub struct Stepper {
     pub single: Arc<Single<Arc<Derived>>>,
     /// The dimension of the algebra.
     pub dimension: usize,
+    /// The functions that the Hamiltonian is, where it is some.
+    pub functions: Option<Arc<Functions>>,
 }
 
 #[pymethods]
@@ -82,7 +85,9 @@ impl Stepper {
             (matrix, mu) = (new_matrix, new_mu);
             made
         };
-        made.map_err(|(step, error)| stopped(py, step, error.to_string()))?;
+        made.map_err(|(step, error)| {
+            stopped(py, step, error.to_string(), self.functions.as_ref())
+        })?;
         Ok((mu.into_pyarray(py), matrix.into_pyarray(py).reshape([size, size])?))
     }
 }

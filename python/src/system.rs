@@ -5,9 +5,10 @@ use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use coadjoint_codegen::lie;
-use coadjoint_codegen::poly::Numeric;
-use coadjoint_codegen::problem::values;
-use coadjoint_codegen::system::{Options, System};
+use coadjoint_codegen::problem::Problem;
+use coadjoint_codegen::smooth::{Facts, Hamiltonian};
+use coadjoint_codegen::step::Energy;
+use coadjoint_codegen::system::Options;
 use coadjoint_codegen::tolerance::Choice;
 use coadjoint_learn::table;
 use coadjoint_run::ensemble::{
@@ -15,7 +16,8 @@ use coadjoint_run::ensemble::{
 };
 use coadjoint_run::simulate::{Event, Schedule, Setup, Single, Times, run};
 use coadjoint_run::{
-    Accuracy, Derived, RunError, check, emit, meet_tolerance, read, read_varying, series, verify,
+    Accuracy, Backend, Derived, RunError, System, check, emit, meet_tolerance, polynomial, read,
+    read_given, read_varying, series, verify,
 };
 use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use numpy::{PyArray1, PyArray2, PyUntypedArrayMethods};
@@ -25,8 +27,9 @@ use pyo3::types::PyDict;
 use crate::asked::{Asked, backend_of};
 use crate::control::work;
 use crate::emit::emitted;
-use crate::error::{raised, refused};
+use crate::error::{raised, raised_by, refused};
 use crate::event::Watched;
+use crate::function::Functions;
 use crate::outcome::result_of;
 use crate::record::{Keeper, Table};
 use crate::stepper::Stepper;
@@ -42,6 +45,8 @@ pub struct Core {
     name: String,
     text: Arc<str>,
     system: System,
+    /// The functions that the Hamiltonian is, where it is some.
+    functions: Option<Arc<Functions>>,
     /// The integrators derived so far.
     derived: Cache,
     /// The last choice for a tolerance, for calls that ask for the same.
@@ -67,7 +72,8 @@ fn derive(
     system: System,
     ensemble: Option<Vec<String>>,
 ) -> Result<Arc<Derived>, RunError> {
-    let key = (system.problem.truncation, system.problem.frame_name(), ensemble);
+    let frame = system.problem.polynomial().map_or("fixed", Problem::frame_name);
+    let key = (system.problem.facts().truncation, frame, ensemble);
     let known = |list: &Vec<(Purpose, Arc<Derived>)>| {
         list.iter().find(|(other, _)| *other == key).map(|(_, derived)| derived.clone())
     };
@@ -84,16 +90,34 @@ fn derive(
 }
 
 impl Core {
-    /// The same text, with nothing derived yet, for another thread.
+    /// The same text, with nothing derived yet, for another thread. Earlier failures of functions are forgotten.
     fn here(&self) -> Self {
+        self.functions.iter().for_each(|functions| drop(functions.failure()));
         let (name, text, system) = (self.name.clone(), self.text.clone(), self.system.clone());
-        Self { name, text, system, derived: Cache::default(), chosen: self.chosen.clone() }
+        let (functions, chosen) = (self.functions.clone(), self.chosen.clone());
+        Self { name, text, system, functions, derived: Cache::default(), chosen }
     }
 
     /// A system that is known as text elsewhere.
     pub(crate) fn of(name: String, text: Arc<str>, system: System) -> Self {
-        let (derived, chosen) = Default::default();
-        Self { name, text, system, derived, chosen }
+        let (functions, derived, chosen) = Default::default();
+        Self { name, text, system, functions, derived, chosen }
+    }
+
+    /// What functions of Python have raised, where they did.
+    fn raise(&self, py: Python<'_>) -> PyResult<()> {
+        let failure = self.functions.as_ref().and_then(|functions| functions.failure());
+        failure.and_then(|failure| failure.cause).map_or(Ok(()), |cause| {
+            let error = RunError::Option("a function of the system failed".to_owned());
+            let error = raised(py, &error);
+            error.set_cause(py, Some(cause));
+            Err(error)
+        })
+    }
+
+    /// The exception of a failure of this system.
+    fn raised(&self, py: Python<'_>, error: &RunError) -> PyErr {
+        raised_by(py, error, self.functions.as_ref())
     }
 
     /// The system with the truncation and the step that these settings ask for; a sentence about a choice.
@@ -117,7 +141,7 @@ impl Core {
         let start = ensemble.iter().find_map(|(_, start)| start.clone());
         system.run.momentum = system.run.momentum.or(start);
         if let Some(truncation) = accuracy.truncation {
-            system.problem.truncation = truncation;
+            system.problem.set_truncation(truncation);
         }
         let choice = meet_tolerance(Path::new(&self.name), &mut system, accuracy)?;
         *chosen = Some((*accuracy, ensemble, system.clone(), choice.clone()));
@@ -136,33 +160,66 @@ impl Core {
     fn choice(&self, py: Python<'_>) -> PyResult<Option<(usize, f64)>> {
         let here = self.here();
         let made = work(py, None, move |_| here.accurate(&Accuracy::default(), None))?;
-        let (_, choice) = made.map_err(|error| raised(py, &error))?;
+        let (_, choice) = made.map_err(|error| self.raised(py, &error))?;
         Ok(choice.map(|choice| (choice.truncation, choice.step)))
     }
 
-    /// Reads the text of a system file.
+    /// Reads the text of a system file; one without a Hamiltonian where `functions` are the energy and its gradient.
     #[new]
-    fn new(py: Python<'_>, text: String, name: String) -> PyResult<Self> {
+    #[pyo3(signature = (text, name, functions=None))]
+    fn new(
+        py: Python<'_>,
+        text: String,
+        name: String,
+        functions: Option<(Py<PyAny>, Py<PyAny>)>,
+    ) -> PyResult<Self> {
+        let called = functions.as_ref().map(|(energy, _)| {
+            let name = energy.getattr(py, "__name__").and_then(|name| name.extract::<String>(py));
+            name.unwrap_or_else(|_| "energy".to_owned())
+        });
+        let functions = functions.map(|(energy, gradient)| Functions::new(energy, gradient));
         let made = work(py, None, move |_| {
-            let system = read(&name, &text)?;
-            Ok(Self::of(name, text.into(), system))
+            let system = match (&functions, &called) {
+                (Some(functions), Some(called)) => {
+                    read_given(&name, &text, (called, &functions.given()))?
+                }
+                _ => read(&name, &text)?,
+            };
+            Ok(Self { functions, ..Self::of(name, text.into(), system) })
         })?;
         made.map_err(|error: RunError| raised(py, &error))
     }
 
     /// Everything that the text says, and what follows from it.
     fn facts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let System { problem, potential, run, units, .. } = &self.system;
+        let System { problem, potential, run, units, parameters } = &self.system;
+        let Facts { name, algebra, coordinates, truncation, .. } = problem.facts();
         let facts = PyDict::new(py);
-        facts.set_item("name", &problem.name)?;
-        facts.set_item("group", problem.algebra.name())?;
-        facts.set_item("dimension", problem.algebra.dim())?;
-        facts.set_item("coordinates", &problem.coordinates)?;
-        facts.set_item("truncation", problem.truncation)?;
+        facts.set_item("name", name)?;
+        facts.set_item("group", algebra.name())?;
+        facts.set_item("dimension", algebra.dim())?;
+        facts.set_item("coordinates", coordinates)?;
+        facts.set_item("truncation", truncation)?;
         facts.set_item("truncation_given", run.truncation.is_some())?;
-        facts.set_item("chart", problem.chart.name())?;
-        facts.set_item("comoving", problem.comoving.is_some())?;
-        facts.set_item("hamiltonian", series::polynomial(problem, &problem.hamiltonian))?;
+        let known = PyDict::new(py);
+        for parameter in parameters {
+            let values = parameter.default.iter().flatten();
+            for (scalar, value) in parameter.scalar_names().iter().zip(values) {
+                known.set_item(scalar, value.to_string())?;
+            }
+        }
+        facts.set_item("parameters", known)?;
+        let (chart, comoving, hamiltonian) = match problem {
+            Hamiltonian::Polynomial(problem) => (
+                Some(problem.chart.name()),
+                problem.comoving.is_some(),
+                series::polynomial(problem, &problem.hamiltonian),
+            ),
+            Hamiltonian::Smooth(smooth) => (None, false, smooth.source.clone()),
+        };
+        facts.set_item("chart", chart)?;
+        facts.set_item("comoving", comoving)?;
+        facts.set_item("hamiltonian", hamiltonian)?;
         facts.set_item("splitting", potential.as_ref().map(|(_, splitting)| splitting.name()))?;
         facts.set_item("step", run.step)?;
         facts.set_item("tolerance", run.tolerance)?;
@@ -172,7 +229,7 @@ impl Core {
         facts.set_item("group_element", run.group_element.clone())?;
         facts.set_item("time_unit", units.time.clone())?;
         let of = |i| units.coordinate(i).map(str::to_owned);
-        let of: Vec<Option<String>> = (0..problem.algebra.dim()).map(of).collect();
+        let of: Vec<Option<String>> = (0..algebra.dim()).map(of).collect();
         facts.set_item("units", of)?;
         facts.set_item("matrix_size", self.shape().matrix_size)?;
         Ok(facts)
@@ -255,7 +312,7 @@ impl Core {
                     size * 1e-9
                 )));
             }
-            let truncation = system.problem.truncation;
+            let truncation = system.problem.facts().truncation;
             let derived = derive(&cache, &here.name, system, None)?;
             control.total.store(schedule.steps, Ordering::Relaxed);
             let mut keeper = Keeper { table: Table::default(), control };
@@ -263,7 +320,7 @@ impl Core {
             Ok((keeper.table, outcome, schedule, truncation, choice, derived.label()))
         })?;
         let (table, outcome, schedule, truncation, choice, label) =
-            result.map_err(|error: RunError| raised(py, &error))?;
+            result.map_err(|error: RunError| self.raised(py, &error))?;
         let found = result_of(py, table, &outcome, &schedule)?;
         found.set_item("watched", looked_for)?;
         found.set_item("truncation", truncation)?;
@@ -332,8 +389,8 @@ impl Core {
                     size * 1e-9
                 )));
             }
-            let truncation = system.problem.truncation;
-            let frame = system.problem.frame_name();
+            let truncation = system.problem.facts().truncation;
+            let frame = system.problem.polynomial().map_or("fixed", Problem::frame_name);
             let derived = derive(&cache, &here.name, system, Some(varied))?;
             let lanes = (count as f64 / coadjoint_program::WIDTH as f64).max(1.0);
             let how = How { backend, work: schedule.steps as f64 * lanes, device: None };
@@ -371,7 +428,8 @@ impl Core {
             schedule,
             (truncation, frame),
             choice,
-        ) = result.map_err(|error: RunError| raised(py, &error))?;
+        ) = result.map_err(|error: RunError| self.raised(py, &error))?;
+        self.raise(py)?;
         let rows = values.len().checked_div(width).unwrap_or(0);
         let array = values.into_pyarray(py).reshape([rows, width])?;
         let failed = failed.into_iter().map(|r| (r.row - 1, r.step, r.reason)).collect();
@@ -416,7 +474,7 @@ impl Core {
         names: Option<Vec<String>>,
         width: usize,
     ) -> PyResult<(Vec<String>, Vec<Option<usize>>, Vec<String>, usize)> {
-        let known = Known::of(&self.system.problem, &self.system.parameters);
+        let known = Known::of(&self.system.problem.facts(), &self.system.parameters);
         let found = Found::of(self.shape(), &known, &names.unwrap_or_default(), width);
         let found = found.map_err(|error| raised(py, &error))?;
         let varied = found.layout.parameters.len();
@@ -431,18 +489,18 @@ impl Core {
         momenta: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>)> {
         let problem = &self.system.problem;
-        let dim = problem.algebra.dim();
+        let dim = problem.facts().algebra.dim();
         let [count, width] = [momenta.shape()[0], momenta.shape()[1]];
         if width != dim {
             return Err(refused(py, format!("momenta have {width} numbers; {dim} are needed")));
         }
-        let energy = Numeric::new(&problem.hamiltonian, dim, &values(&problem.symbols));
+        let energy = Energy::new(problem);
         let gradient = energy.gradient(dim);
         let momenta: Vec<f64> = momenta.as_array().iter().copied().collect();
         let rows = momenta.chunks_exact(dim.max(1));
         let energies: Vec<f64> = rows.clone().map(|mu| energy.value(mu)).collect();
-        let velocities: Vec<f64> =
-            rows.flat_map(|mu| gradient.iter().map(move |part| part.value(mu))).collect();
+        let velocities: Vec<f64> = rows.flat_map(|mu| gradient(mu)).collect();
+        self.raise(py)?;
         Ok((energies.into_pyarray(py), velocities.into_pyarray(py).reshape([count, dim])?))
     }
 
@@ -450,26 +508,33 @@ impl Core {
     fn stepper(&self, py: Python<'_>, step: Option<f64>, backend: &str) -> PyResult<Stepper> {
         let backend = backend_of(py, backend)?;
         let (here, cache) = (self.here(), self.derived.clone());
-        let dimension = self.system.problem.algebra.dim();
+        let dimension = self.system.problem.facts().algebra.dim();
         let made = work(py, None, move |_| {
             let (system, _) = here.accurate(&Accuracy { step, ..Accuracy::default() }, None)?;
             let step = step
                 .or(system.run.step)
                 .ok_or_else(|| RunError::Option("--step is missing: give --step 0.1".to_owned()))?;
             let derived = derive(&cache, &here.name, system, None)?;
+            // It is the default, and there is no such code for collocation.
+            let by_default = backend == Backend::Jit && derived.series().is_none();
+            let backend = if by_default { Backend::Auto } else { backend };
             Single::new(derived, step, backend, MANY)
         })?;
-        let single = made.map_err(|error| raised(py, &error))?;
-        Ok(Stepper { single: Arc::new(single), dimension })
+        let single = made.map_err(|error| self.raised(py, &error))?;
+        let functions = self.functions.clone();
+        Ok(Stepper { single: Arc::new(single), dimension, functions })
     }
 
     /// The exact series as `text`, `json` or `latex`.
     fn series(&self, py: Python<'_>, form: String, truncation: Option<usize>) -> PyResult<String> {
-        let (name, mut problem) = (self.name.clone(), self.system.problem.clone());
+        let (name, mut system) = (self.name.clone(), self.system.clone());
         if let Some(truncation) = truncation {
-            problem.truncation = truncation;
+            system.problem.set_truncation(truncation);
         }
         let made = work(py, None, move |_| {
+            let instead = "simulate, ensemble and check make them";
+            let problem =
+                polynomial(Path::new(&name), system, "there is no series", instead)?.problem;
             let series = series::Series::derive(Path::new(&name), problem)?;
             Ok(match form.as_str() {
                 "latex" => series::latex(&series),
@@ -477,16 +542,16 @@ impl Core {
                 _ => series::text(&series),
             })
         })?;
-        made.map_err(|error: RunError| raised(py, &error))
+        made.map_err(|error: RunError| self.raised(py, &error))
     }
 
     /// The generating Casimirs up to this degree, as text.
     fn casimirs(&self, py: Python<'_>, degree: u32) -> PyResult<Vec<String>> {
         let problem = self.system.problem.clone();
         let made = work(py, None, move |_| {
-            let found =
-                lie::casimirs(&problem.algebra, degree).map_err(|error| error.to_string())?;
-            Ok(found.iter().map(|casimir| series::polynomial(&problem, casimir)).collect())
+            let Facts { algebra, coordinates, .. } = problem.facts();
+            let found = lie::casimirs(algebra, degree).map_err(|error| error.to_string())?;
+            Ok(found.iter().map(|casimir| series::sum(casimir, coordinates, &[])).collect())
         })?;
         made.map_err(|error: String| refused(py, format!("{error}; give a smaller degree=")))
     }
@@ -512,7 +577,7 @@ impl Core {
             let laws = laws.into_iter().map(law).collect();
             Ok((laws, steep.map(check::steep)))
         })?;
-        made.map_err(|error: RunError| raised(py, &error))
+        made.map_err(|error: RunError| self.raised(py, &error))
     }
 
     /// Judges rows with these names, or pairs of states without names, in doubled precision; what was found, as JSON.
@@ -534,8 +599,8 @@ impl Core {
                 "a system with a potential is not judged: between its kicks the motion is free";
             return Err(refused(py, what.to_owned()));
         }
-        let (name, mut problem) = (self.name.clone(), self.system.problem.clone());
-        problem.truncation = truncation;
+        let (name, mut system) = (self.name.clone(), self.system.clone());
+        system.problem.set_truncation(truncation);
         let given = |rows: &PyReadonlyArray2<'_, f64>| {
             let values = rows.as_array().iter().copied().collect();
             (rows.shape()[1], values)
@@ -543,6 +608,8 @@ impl Core {
         let (rows, starts) = (given(&rows), starts.map(|starts| given(&starts)));
         let made = work(py, None, move |_| -> Result<_, RunError> {
             let path = Path::new(&name);
+            let instead = "compare it with a run of half the step";
+            let problem = polynomial(path, system, "there is no judge of it", instead)?.problem;
             let judge = verify::judge_of(path, &problem)?;
             let follower = verify::Follower::new(&judge, &problem, step)?;
             let of = |(width, values): (usize, Vec<f64>)| {
@@ -558,7 +625,7 @@ impl Core {
             };
             Ok(serde_json::Value::Object(found.object()).to_string())
         })?;
-        made.map_err(|error| raised(py, &error))
+        made.map_err(|error| self.raised(py, &error))
     }
 
     /// The system as code.
@@ -577,7 +644,7 @@ impl Core {
             let source = emit::Source::System(Box::new(system), choice);
             emitted(&here.name, source, &language, prefix, step, single)
         })?;
-        made.map_err(|error| raised(py, &error))
+        made.map_err(|error| self.raised(py, &error))
     }
 }
 
@@ -585,7 +652,7 @@ impl Core {
 fn record_size(system: &System, setup: &Setup) -> f64 {
     let grid = setup.every.map_or(0.0, |every| setup.schedule.steps as f64 / every as f64);
     let times = setup.at.as_ref().map_or(0, |times| times.0.len()) as f64;
-    let algebra = &system.problem.algebra;
+    let algebra = system.problem.facts().algebra;
     let entries: usize = algebra.factors().iter().map(|factor| factor.matrix_size().pow(2)).sum();
     if setup.recording {
         8.0 * (grid + times) * (2 * algebra.dim() + entries + 5) as f64

@@ -32,7 +32,7 @@ def test_all_mistakes_are_told_at_once() -> None:
     ("arguments", "message"),
     [
         (dict(group="SO3", hamiltonian="x^2", coordinates="x y"), "3"),
-        (dict(group="SO3", hamiltonian="1/x", coordinates="x y z"), "polynomial|coordinate"),
+        (dict(group="SO3", hamiltonian="1/x", coordinates="x y z", method="series"), "polynomial|coordinate"),
         (dict(group="SO3", hamiltonian="a*x^2", coordinates="x y z"), "a"),
         (dict(group="SO3", hamiltonian="a*x^2", coordinates="x y z", parameters={"a": np.nan}), "nan"),
         (dict(group="SO3", hamiltonian="a*x^2", coordinates="x y z", parameters={"a": "1/0"}), "0"),

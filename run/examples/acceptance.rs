@@ -12,7 +12,7 @@ use coadjoint_program::Trajectories;
 use coadjoint_run::engine::{
     Charted, Compiled, Equations, Kept, Numbers, STEEP, identity, product_group,
 };
-use coadjoint_run::{Backend, integrator, read};
+use coadjoint_run::{Backend, integrator, polynomial, read};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -219,6 +219,8 @@ fn rows(name: &str, compact: bool, truncation: usize, rows: usize, seed: u64) ->
         "group = \"{name}\"\nhamiltonian = \"{energy}\"\n[integrator]\ntruncation = {truncation}\n"
     );
     let system = read(name, &text).map_err(|error| said(&error))?;
+    let system = polynomial(name.as_ref(), system, "there is no kernel", "give another file");
+    let system = system.map_err(|error| said(&error))?;
     let integrator = integrator(name.as_ref(), system.problem).map_err(|error| said(&error))?;
     let problem = &integrator.problem;
     let velocity = problem.hamiltonian.gradient(dim);

@@ -11,10 +11,10 @@ use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use coadjoint_codegen::problem::Shape::Scalar;
-use coadjoint_codegen::system::{Options, System};
+use coadjoint_codegen::system::Options;
 use coadjoint_run::ensemble::{Attitude, Course, Engine, How, Layout, Shape, Watch, in_lanes};
 use coadjoint_run::simulate::{Halt, Resume, Schedule, Setup, Sink, run};
-use coadjoint_run::{Backend, Derived, RunError, meet_tolerance, read_varying};
+use coadjoint_run::{Backend, Derived, RunError, System, meet_tolerance, read_varying};
 use num_traits::ToPrimitive;
 
 /// The steps of a run by which the time of an estimate is judged.
@@ -76,7 +76,7 @@ fn estimate(file: &Path, system: System, step: f64) -> Result<[f64; 2], RunError
 /// The nanoseconds of a step of a row, and of a row beside its steps, with this attitude, the parameters that vary last.
 fn row(file: &Path, system: System, step: f64, attitude: Attitude) -> Result<[f64; 2], RunError> {
     let (momentum, shape) = (system.run.momentum.clone(), Shape::of_system(&system));
-    let parameters = system.problem.parameters.clone();
+    let parameters = system.problem.facts().parameters.to_vec();
     let derived = Derived::of_file(file, in_lanes(system)?)?;
     let how = How { backend: Backend::Auto, work: 1e9, device: None };
     let engine = Engine::new(&derived, step, how)?;

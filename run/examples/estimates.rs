@@ -8,10 +8,9 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use coadjoint_codegen::lie::catalogue;
-use coadjoint_codegen::system::System;
 use coadjoint_run::number::shortest;
 use coadjoint_run::simulate::{Outcome, Schedule, Setup, run};
-use coadjoint_run::{Derived, RunError, meet_tolerance, read};
+use coadjoint_run::{Derived, RunError, System, meet_tolerance, read};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -64,7 +63,7 @@ fn text(number: usize, random: &mut ChaCha8Rng) -> Option<String> {
 fn runs(file: &str, mut system: System) -> Result<(Schedule, usize, [Outcome; 2]), RunError> {
     let path = Path::new(file);
     meet_tolerance(path, &mut system, &coadjoint_run::Accuracy::default())?;
-    let (given, truncation) = (system.run.clone(), system.problem.truncation);
+    let (given, truncation) = (system.run.clone(), system.problem.facts().truncation);
     let schedule = Schedule::new(path, None, None, &given)?;
     let momentum = given.momentum.clone().unwrap_or_default();
     let derived = Derived::of_file(path, system)?;

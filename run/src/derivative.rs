@@ -6,7 +6,7 @@ mod tests;
 use coadjoint_program::Trajectories;
 use nalgebra::{DMatrix, DVector};
 
-use crate::engine::{Compiled, Differentiable, Linear, Motion, Numbers};
+use crate::engine::{Differentiable, Linear, Motion, Numbers};
 use crate::error::RunError;
 use crate::load::Derived;
 use crate::simulate::{Schedule, Setup};
@@ -40,14 +40,13 @@ impl<'a> Derivatives<'a> {
     /// # Errors
     /// Settings that make no sense.
     pub fn new(system: &'a Derived, setup: &Setup) -> Result<Self, RunError> {
-        if setup.momentum.len() != system.integrator.problem.algebra.dim() {
+        if setup.momentum.len() != system.facts().algebra.dim() {
             return Err(RunError::Option("the momentum does not fit the group".to_owned()));
         }
         let Schedule { step, steps, .. } = setup.schedule;
-        let (backend, kept) = (setup.backend, &system.kept);
-        let (expected, one) = (steps as f64, Trajectories::One);
-        let compiled = Compiled::new(&system.integrator, step, backend, expected, one, kept)?;
-        let motion = system.charted()?.steps(system.equations(), step, compiled);
+        let compiled = system.compiled(step, setup.backend, steps as f64, Trajectories::One)?;
+        let motion = system.steps(step, compiled.as_ref());
+        let motion = motion.map_err(|source| RunError::Step { time: 0.0, source })?;
         let start = setup.start(&system.file, motion.space())?;
         Ok(Self { motion, start, schedule: setup.schedule })
     }

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use coadjoint_codegen::emit::c::{self, HeaderOptions, Language};
-use coadjoint_codegen::emit::{Options, check_size, file, potential_items};
+use coadjoint_codegen::emit::{Options, check_size, collocation_file, file, potential_items};
 use coadjoint_codegen::integrator::{Integrator, Kick};
-use coadjoint_codegen::system::System;
+use coadjoint_codegen::smooth::Hamiltonian;
 use coadjoint_codegen::tolerance::Choice;
 use coadjoint_learn::{ModelFile, problem};
 use coadjoint_program::Precision;
@@ -13,7 +13,10 @@ use coadjoint_program::print::DeviceLanguage;
 
 use crate::engine::device_text;
 use crate::error::RunError;
-use crate::load::{integrator, with_kicks};
+use crate::load::{System, integrator, polynomial, with_kicks};
+
+/// The targets that a system without series has.
+const INSTEAD: &str = "emit --language rust writes them, and simulate and ensemble make them";
 
 /// The source of emitted code.
 #[derive(Debug)]
@@ -41,10 +44,20 @@ pub fn rust(path: &Path, source: Source) -> Result<String, RunError> {
             ));
         }
     };
-    let style = Options::for_problem(&system.problem.name);
-    let integrator = integrator(path, system.problem)?;
-    check_size(&integrator).map_err(RunError::of(path))?;
-    let mut module = file(&integrator, &style);
+    let style = Options::for_problem(system.problem.facts().name);
+    let mut module = match system.problem {
+        Hamiltonian::Smooth(smooth) if smooth.given.is_some() => {
+            let what =
+                "no code is written of a Hamiltonian that is a function: give it as an expression";
+            return Err(RunError::Option(format!("{}: {what}", path.display())));
+        }
+        Hamiltonian::Smooth(smooth) => collocation_file(&smooth, &style),
+        Hamiltonian::Polynomial(problem) => {
+            let integrator = integrator(path, *problem)?;
+            check_size(&integrator).map_err(RunError::of(path))?;
+            file(&integrator, &style)
+        }
+    };
     if let Some(line) = choice.as_ref().map(chosen) {
         module.insert_str(0, &format!("//! {line}\n"));
     }
@@ -71,6 +84,7 @@ pub fn header(
             (integrator, HeaderOptions { only_step: Some(model.step), ..style }, None)
         }
         Source::System(system, choice) => {
+            let system = polynomial(path, *system, "there is no header of it", INSTEAD)?;
             let units = &system.units;
             let of = |i| units.coordinate(i).map(str::to_owned);
             let momentum = (0..system.problem.algebra.dim()).map(of).collect();
@@ -120,6 +134,7 @@ pub fn kernel(
                 example: "step = 0.1",
                 option: "--step 0.1",
             })?;
+            let system = polynomial(path, *system, "there is no kernel of it", INSTEAD)?;
             (with_kicks(path, system.problem, system.potential)?, step, choice)
         }
     };

@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod accuracy;
 mod backend;
 pub mod check;
 mod derivative;
@@ -15,12 +16,13 @@ pub mod verify;
 
 use sha2::{Digest, Sha256};
 
+pub use accuracy::{Accuracy, meet_tolerance};
 pub use backend::{Backend, Code, Used};
 pub use derivative::{Adjoint, Derivatives};
 pub use error::RunError;
 pub use load::{
-    Accuracy, Derived, integrator, learned, meet_tolerance, read, read_either, read_group,
-    read_varying, read_with,
+    Derived, Expansion, Flow, System, integrator, learned, polynomial, read, read_given,
+    read_group, read_varying,
 };
 
 /// The SHA-256 of a text in hexadecimal digits.

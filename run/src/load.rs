@@ -1,52 +1,39 @@
 //! From the text of a system to what steps are made of.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
+use coadjoint::StepError;
 use coadjoint::groups::{DirectProduct, MatrixGroup};
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
-use coadjoint_codegen::in_other_frame;
 use coadjoint_codegen::integrator::{Integrator, Kick};
 use coadjoint_codegen::potential::Potential;
 use coadjoint_codegen::problem::Problem;
-use coadjoint_codegen::smooth::Hamiltonian;
-use coadjoint_codegen::step::Invariants;
-use coadjoint_codegen::system::{self, Options, Run, Splitting, System};
-use coadjoint_codegen::tolerance::{self, Choice, Region, Target};
+use coadjoint_codegen::smooth::{Facts, Given, Hamiltonian, Smooth};
+use coadjoint_codegen::step::{Energy, Invariants};
+use coadjoint_codegen::system::{self, Options, Run, Splitting};
 use coadjoint_learn::{GroupChoice, ModelFile};
+use coadjoint_program::Trajectories;
 
-use crate::engine::{Charted, Equations, Forces, Kept, defaults, product_group, whole_group};
+use crate::backend::Backend;
+use crate::engine::{
+    Charted, Compiled, Equations, Forces, Kept, Motion, Varied, collocated, product_group,
+    whole_group,
+};
 use crate::error::RunError;
+
+/// A system as its file has it, its Hamiltonian a polynomial or another smooth function.
+pub type System = system::System<Hamiltonian>;
 
 /// Reads the text of a system file as it stands; `name` is what mistakes call it.
 ///
 /// # Errors
 /// All mistakes, rendered.
 pub fn read(name: &str, text: &str) -> Result<System, RunError> {
-    read_with(name, text, Options::default())
+    read_varying(name, text, Options::default(), &[])
 }
 
-/// Reads the text of a system file whose Hamiltonian need not be a polynomial.
-///
-/// # Errors
-/// All mistakes, rendered.
-pub fn read_either(
-    name: &str,
-    text: &str,
-    options: Options,
-) -> Result<System<Hamiltonian>, RunError> {
-    let read = system::read_either(text, options, &[]);
-    read.map_err(|mistakes| RunError::Input(mistakes.render(name, text)))
-}
-
-/// Reads the text of a system file.
-///
-/// # Errors
-/// All mistakes, rendered.
-pub fn read_with(name: &str, text: &str, options: Options) -> Result<System, RunError> {
-    read_varying(name, text, options, &[])
-}
-
-/// The same where the parameters with these names vary.
+/// Reads the text of a system file where the parameters with these names vary.
 ///
 /// # Errors
 /// All mistakes, rendered.
@@ -56,13 +43,53 @@ pub fn read_varying(
     options: Options,
     varied: &[String],
 ) -> Result<System, RunError> {
-    let read = system::read_varying(text, options, varied);
+    let read = system::read_either(text, options, varied);
     let read = read.map_err(|mistakes| RunError::Input(mistakes.render(name, text)))?;
     if let (Some(parameter), true) = (varied.first(), read.potential.is_some()) {
         let what = "parameters of a system with a potential do not vary from row to row";
         return Err(RunError::Input(format!("{name}: column {parameter}: {what}")));
     }
     Ok(read)
+}
+
+/// Reads the text of a system file without `hamiltonian`, in whose place is a function called `function.0`.
+///
+/// # Errors
+/// All mistakes, rendered.
+pub fn read_given(name: &str, text: &str, function: (&str, &Given)) -> Result<System, RunError> {
+    let read = system::read_given(text, Options::default(), function.0, function.1);
+    read.map_err(|mistakes| RunError::Input(mistakes.render(name, text)))
+}
+
+/// A system with the polynomial that its Hamiltonian is. Where it is none, `lacking` says what there is not, and `advice` what
+/// there is instead.
+///
+/// # Errors
+/// Where it is none.
+pub fn polynomial(
+    path: &Path,
+    system: System,
+    lacking: &str,
+    advice: &str,
+) -> Result<system::System, RunError> {
+    let System { problem, potential, run, units, parameters } = system;
+    match problem {
+        Hamiltonian::Polynomial(problem) => {
+            Ok(system::System { problem: *problem, potential, run, units, parameters })
+        }
+        Hamiltonian::Smooth(smooth) => Err(not_of_series(path, &smooth, lacking, advice)),
+    }
+}
+
+/// The error of a system without series where `lacking`, which is made from one, is asked for.
+pub(crate) fn not_of_series(path: &Path, smooth: &Smooth, lacking: &str, advice: &str) -> RunError {
+    let nodes = smooth.nodes();
+    RunError::Option(format!(
+        "{}: {lacking}: the steps of this system are made by collocation, of order {} from ∂H/∂μ at {nodes} nodes, and not by \
+         the series of a polynomial; {advice}",
+        path.display(),
+        2 * nodes,
+    ))
 }
 
 /// Reads the group of a system file alone; `name` is what mistakes call it.
@@ -82,7 +109,7 @@ pub fn read_group(name: &str, text: &str) -> Result<GroupChoice, RunError> {
 pub fn learned(model: &ModelFile) -> Result<System, RunError> {
     let run = Run { step: Some(model.step), ..Run::default() };
     let (problem, units) = (coadjoint_learn::problem(model, "learned")?, system::Units::default());
-    Ok(System { problem, potential: None, run, units, parameters: Vec::new() })
+    Ok(system::System { problem, potential: None, run, units, parameters: Vec::new() }.into())
 }
 
 /// Derives and lowers a problem.
@@ -109,157 +136,201 @@ pub fn with_kicks(
     })
 }
 
-/// A system with its series as programs.
+/// A system whose steps can be made.
 #[derive(Debug)]
 pub struct Derived {
     /// The name of the system in messages.
     pub file: PathBuf,
-    /// The flow.
-    pub integrator: Integrator,
+    /// The means by which they are made.
+    pub flow: Flow,
     /// The conserved quantities.
     pub invariants: Invariants,
+}
+
+/// The means by which the steps of a system are made.
+#[derive(Debug)]
+pub enum Flow {
+    /// The series of a polynomial, as programs.
+    Series(Box<Expansion>),
+    /// Collocation on a group.
+    Collocation(Box<Smooth>, Arc<DirectProduct<MatrixGroup>>),
+}
+
+/// The series of a polynomial as programs, with the kicks of a potential between flows.
+#[derive(Debug)]
+pub struct Expansion {
+    /// The flow.
+    pub integrator: Integrator,
     /// The kicks of a potential.
     pub forces: Option<Forces>,
+    /// The group with the chart of the steps.
+    group: Charted,
     /// The programs compiled so far.
-    pub kept: Kept,
+    kept: Kept,
+}
+
+impl Expansion {
+    /// The equations, for these values of the parameters.
+    fn equations(&self, parameters: Vec<f64>) -> Equations<'_> {
+        let Self { integrator, forces, .. } = self;
+        Equations { integrator, forces: forces.as_ref(), parameters }
+    }
 }
 
 impl Derived {
-    /// Derives the series of a system, which is called by its name in messages.
+    /// Prepares a system, which is called by its name in messages.
     ///
     /// # Errors
-    /// Where the series cannot be derived, or is too large.
+    /// Where the series of a polynomial cannot be derived, or is too large, or the data defines no group.
     pub fn of(system: System) -> Result<Self, RunError> {
-        let file = PathBuf::from(&system.problem.name);
+        let file = PathBuf::from(system.problem.facts().name);
         Self::of_file(&file, system)
     }
 
     /// The same, called by the name of a file in messages.
     ///
     /// # Errors
-    /// Where the series cannot be derived, or is too large.
+    /// As [`Derived::of`].
     pub fn of_file(file: &Path, system: System) -> Result<Self, RunError> {
         let System { problem, potential, .. } = system;
-        let invariants = Invariants::new(&problem, potential.as_ref().map(|(kicks, _)| kicks));
-        let integrator = with_kicks(file, problem, potential.clone())?;
-        let forces = potential.map(|(potential, splitting)| Forces::new(potential, splitting));
-        Ok(Self { file: file.to_owned(), integrator, invariants, forces, kept: Kept::default() })
+        let kicks = potential.as_ref().map(|(kicks, _)| kicks);
+        let invariants = Invariants::new(problem.facts().algebra, Energy::new(&problem), kicks);
+        let flow = match problem {
+            Hamiltonian::Polynomial(problem) => {
+                let integrator = with_kicks(file, *problem, potential.clone())?;
+                let Problem { algebra, chart, .. } = &integrator.problem;
+                // Kicks look at the matrices of the whole group; a flow alone goes factor by factor.
+                let group = match &potential {
+                    Some(_) => whole_group(file, algebra)?,
+                    None => product_group(file, algebra)?,
+                };
+                let group = Charted::new(file, group, *chart)?;
+                let forces = potential.map(|(kicks, splitting)| Forces::new(kicks, splitting));
+                let kept = Kept::default();
+                Flow::Series(Box::new(Expansion { integrator, forces, group, kept }))
+            }
+            Hamiltonian::Smooth(smooth) => {
+                let group = Arc::new(product_group(file, &smooth.algebra)?);
+                Flow::Collocation(smooth, group)
+            }
+        };
+        Ok(Self { file: file.to_owned(), flow, invariants })
     }
 
-    /// The group that the equations are on. Kicks look at the matrices of the whole group; a flow alone goes factor by
-    /// factor.
+    /// The facts of the system.
+    pub fn facts(&self) -> Facts<'_> {
+        match &self.flow {
+            Flow::Series(series) => series.integrator.problem.facts(),
+            Flow::Collocation(smooth, _) => smooth.facts(),
+        }
+    }
+
+    /// The series, where steps are made by it.
+    pub fn series(&self) -> Option<&Expansion> {
+        match &self.flow {
+            Flow::Series(series) => Some(series),
+            Flow::Collocation(..) => None,
+        }
+    }
+
+    /// The group that the equations are on.
     ///
     /// # Errors
     /// Where the data defines no group.
     pub fn group(&self) -> Result<DirectProduct<MatrixGroup>, RunError> {
-        let algebra = &self.integrator.problem.algebra;
-        match &self.forces {
+        let algebra = self.facts().algebra;
+        match self.series().and_then(|series| series.forces.as_ref()) {
             Some(_) => whole_group(&self.file, algebra),
             None => product_group(&self.file, algebra),
         }
     }
 
-    /// The same with the chart of the steps.
-    pub(crate) fn charted(&self) -> Result<Charted, RunError> {
-        Charted::new(&self.file, self.group()?, self.integrator.problem.chart)
+    /// The programs of steps of this size, about `steps` of which are going to be made, where steps are made of programs.
+    ///
+    /// # Errors
+    /// Where the step makes no sense, or the backend that the user named cannot be had.
+    pub fn compiled(
+        &self,
+        step: f64,
+        backend: Backend,
+        steps: f64,
+        trajectories: Trajectories,
+    ) -> Result<Option<Arc<Compiled>>, RunError> {
+        match &self.flow {
+            Flow::Series(series) => {
+                let Expansion { integrator, kept, .. } = &**series;
+                Compiled::new(integrator, step, backend, steps, trajectories, kept)
+            }
+            Flow::Collocation(..) if matches!(backend, Backend::Auto | Backend::Interpreter) => {
+                Ok(None)
+            }
+            Flow::Collocation(smooth, _) => Err(not_of_series(
+                &self.file,
+                smooth,
+                "no compiled --backend",
+                "leave it out: ∂H/∂μ is interpreted",
+            )),
+        }
     }
 
-    /// The equations, with the parameters as the file has them.
-    pub(crate) fn equations(&self) -> Equations<'_> {
-        let Self { integrator, forces, .. } = self;
-        Equations { integrator, forces: forces.as_ref(), parameters: defaults(&integrator.problem) }
+    /// Steps of this size with the parameters as the file has them, by the programs that were made for it, if any.
+    ///
+    /// # Errors
+    /// Where the step or the parameters make no sense.
+    pub fn steps(
+        &self,
+        step: f64,
+        compiled: Option<&Arc<Compiled>>,
+    ) -> Result<Box<dyn Varied + '_>, StepError> {
+        let parameters = self.facts().defaults();
+        match &self.flow {
+            Flow::Series(series) => {
+                Ok(series.group.steps(series.equations(parameters), step, compiled.cloned()))
+            }
+            Flow::Collocation(smooth, group) => collocated(smooth, group, step, &parameters),
+        }
+    }
+
+    /// The same for another size or other values of the parameters that are kept, by the same programs.
+    ///
+    /// # Errors
+    /// As [`Derived::steps`].
+    pub fn varied(
+        &self,
+        step: f64,
+        parameters: &[f64],
+        compiled: Option<&Arc<Compiled>>,
+    ) -> Result<Box<dyn Motion + '_>, StepError> {
+        match &self.flow {
+            Flow::Series(series) => {
+                series.group.anew(series.equations(parameters.to_vec()), step, compiled)
+            }
+            Flow::Collocation(smooth, group) => Ok(collocated(smooth, group, step, parameters)?),
+        }
     }
 
     /// The order of accuracy: K + 1, or that of the splitting where it is lower.
     pub fn order(&self) -> u32 {
-        let order = self.integrator.problem.truncation as u32 + 1;
-        self.forces.as_ref().map_or(order, |forces| order.min(forces.splitting.order()))
+        let order = self.facts().truncation as u32 + 1;
+        let forces = self.series().and_then(|series| series.forces.as_ref());
+        forces.map_or(order, |forces| order.min(forces.splitting.order()))
     }
 
     /// The method of a run, in a few words.
     pub fn label(&self) -> String {
-        let problem = &self.integrator.problem;
-        let mut label = format!("K = {}, {}", problem.truncation, problem.chart);
-        if problem.comoving.is_some() {
-            label.push_str(", comoving");
+        match &self.flow {
+            Flow::Series(series) => {
+                let problem = &series.integrator.problem;
+                let mut label = format!("K = {}, {}", problem.truncation, problem.chart);
+                if problem.comoving.is_some() {
+                    label.push_str(", comoving");
+                }
+                if let Some(forces) = &series.forces {
+                    label = format!("{label}, {}", forces.splitting.name());
+                }
+                label
+            }
+            Flow::Collocation(smooth, _) => format!("collocation, {} nodes", smooth.nodes()),
         }
-        if let Some(forces) = &self.forces {
-            label = format!("{label}, {}", forces.splitting.name());
-        }
-        label
     }
-}
-
-/// Where a truncation is picked, series may become this large.
-const AFFORDABLE: TermLimit = TermLimit { terms: 20_000, products: 2_000_000 };
-
-/// The accuracy asked for.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Accuracy {
-    /// The step size.
-    pub step: Option<f64>,
-    /// The error wanted at the end of the run.
-    pub tolerance: Option<f64>,
-    /// The norm of the momentum up to which the tolerance is to hold; along the run if not given.
-    pub region: Option<f64>,
-    /// K, where it is not to be picked.
-    pub truncation: Option<usize>,
-    /// The duration, where it is not that of the text.
-    pub time: Option<f64>,
-    /// Whether the frame is the comoving one, where it is not that of the text nor to be picked.
-    pub comoving: Option<bool>,
-}
-
-/// Picks truncation, step and, where the system leaves the choice, frame where a tolerance is asked for, by the settings
-/// or in the text, and puts them into the system; what was picked. Parameters that are kept have the values of the text for
-/// that, in a frame that there is for all values.
-///
-/// # Errors
-/// Where nothing can be picked.
-pub fn meet_tolerance(
-    path: &Path,
-    System { problem, potential, run, .. }: &mut System,
-    asked: &Accuracy,
-) -> Result<Option<Choice>, RunError> {
-    let other =
-        in_other_frame(problem).filter(|other| asked.comoving == Some(other.comoving.is_some()));
-    if let Some(other) = other {
-        *problem = other;
-    }
-    let replaced = asked.tolerance.is_none() && asked.step.is_some();
-    let Some(tolerance) = asked.tolerance.or(run.tolerance).filter(|_| !replaced) else {
-        return Ok(None);
-    };
-    if potential.is_some() {
-        return Err(RunError::Option(
-            "a tolerance says nothing of the kicks of a potential: give the step instead".into(),
-        ));
-    }
-    let duration = asked.time.or(run.time).ok_or_else(|| RunError::Missing {
-        file: path.into(),
-        key: "[run] time",
-        example: "time = 100.0",
-        option: "--time 100",
-    })?;
-    let target = Target {
-        tolerance,
-        duration,
-        start: run.momentum.clone(),
-        region: asked.region.map(Region::Ball).or_else(|| run.region.clone()),
-        truncation: asked.truncation.or(run.truncation),
-    };
-    let choose = |problem: Problem| {
-        let choice = tolerance::choose(&problem.with_defaults(), &target, AFFORDABLE);
-        choice.map(|choice| (Problem { truncation: choice.truncation, ..problem }, choice))
-    };
-    // Of the frames that the system leaves the choice of, the one in which steps are cheaper.
-    let found = match (choose(problem.clone()), in_other_frame(problem).map(choose)) {
-        (Ok(one), Some(Ok(other))) if one.1.operations <= other.1.operations => Ok(one),
-        (_, Some(Ok(other))) => Ok(other),
-        (one, _) => one,
-    };
-    let (chosen, choice) = found.map_err(RunError::of(path))?;
-    *problem = chosen;
-    *run = Run { step: Some(choice.step), ..run.clone() };
-    Ok(Some(choice))
 }

@@ -59,7 +59,7 @@ pub enum StepError {
     },
     /// The energy or its gradient is not finite at a momentum that the step needs: outside the domain of a function, or at
     /// a pole.
-    #[error("the energy is not defined at time {time}: {expression} of {argument}{}", Hint(at))]
+    #[error("the energy is not defined at time {time}: {expression} {}{}", Of(*argument), Hint(at))]
     Undefined {
         /// The expression as the Hamiltonian has it.
         expression: &'static str,
@@ -100,6 +100,18 @@ pub enum StepError {
         /// Its value.
         value: f64,
     },
+}
+
+/// The argument of an expression that is not defined, where it is known.
+struct Of(f64);
+
+impl fmt::Display for Of {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0.is_nan() {
+            true => f.write_str("is not finite"),
+            false => write!(f, "of {}", self.0),
+        }
+    }
 }
 
 /// The circumstances of a step that was refused.

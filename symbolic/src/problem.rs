@@ -158,6 +158,30 @@ impl FrameChoice {
     }
 }
 
+/// The method by which steps are made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// The generating function, as a series in the step: for polynomials, and their default.
+    Series,
+    /// Gauss's method in a chart about the middle of the step, from the gradient of H alone: the default for other functions.
+    Collocation,
+}
+
+impl Method {
+    /// The names users write, `series` and `collocation`.
+    pub const NAMES: [&str; 2] = ["series", "collocation"];
+
+    /// The method of this name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        match name {
+            "series" => Some(Self::Series),
+            "collocation" => Some(Self::Collocation),
+            _ => None,
+        }
+    }
+}
+
 /// A Hamiltonian H_red on the dual of a Lie algebra, a chart and a truncation.
 ///
 /// H_red is a polynomial over ℚ in the coordinates of the momentum (the first `algebra.dim()`

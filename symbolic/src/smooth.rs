@@ -1,6 +1,9 @@
 //! A Lie–Poisson system whose Hamiltonian is no polynomial, or moves in time: programs, for steps that need its gradient alone.
 
+use std::sync::Arc;
+
 use coadjoint_program::Program;
+use num_traits::ToPrimitive;
 
 use crate::lie::LieAlgebra;
 use crate::problem::{Parameter, Problem, Symbol};
@@ -35,13 +38,81 @@ pub struct Smooth {
     pub source: String,
     /// The truncation K asked for: steps have order K + 1.
     pub truncation: usize,
+    /// A function in place of the programs, which are then empty.
+    pub given: Option<Given>,
+}
+
+/// A Hamiltonian that is a function of the user's.
+pub trait Function: Send + Sync {
+    /// H(t, μ); NaN where it is not defined.
+    fn value(&self, time: f64, mu: &[f64]) -> f64;
+
+    /// ∂H/∂μ(t, μ), as many numbers as μ has; NaN where it is not defined.
+    fn gradient(&self, time: f64, mu: &[f64]) -> Vec<f64>;
+}
+
+/// A function of the user's, shared.
+#[derive(Clone)]
+pub struct Given(pub Arc<dyn Function>);
+
+impl std::fmt::Debug for Given {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Given").finish_non_exhaustive()
+    }
+}
+
+/// The facts of a system that hold however its steps are made.
+#[derive(Clone, Copy, Debug)]
+pub struct Facts<'a> {
+    /// The name of the system.
+    pub name: &'a str,
+    /// The Lie algebra 𝔤.
+    pub algebra: &'a LieAlgebra,
+    /// The names of the momentum's coordinates, dual to the basis of 𝔤.
+    pub coordinates: &'a [String],
+    /// The parameters that are kept.
+    pub parameters: &'a [Parameter],
+    /// The truncation K asked for.
+    pub truncation: usize,
+}
+
+impl Facts<'_> {
+    /// The values that the input gives the parameters that are kept; NaN where it gives none.
+    #[must_use]
+    pub fn defaults(&self) -> Vec<f64> {
+        let values =
+            self.parameters.iter().flat_map(|parameter| parameter.default.iter().flatten());
+        values.map(|value| value.to_f64().unwrap_or(f64::NAN)).collect()
+    }
+}
+
+impl Problem {
+    /// The facts of the system.
+    #[must_use]
+    pub fn facts(&self) -> Facts<'_> {
+        let Self { name, algebra, coordinates, parameters, truncation, .. } = self;
+        Facts { name, algebra, coordinates, parameters, truncation: *truncation }
+    }
 }
 
 impl Smooth {
+    /// The facts of the system.
+    #[must_use]
+    pub fn facts(&self) -> Facts<'_> {
+        let Self { name, algebra, coordinates, parameters, truncation, .. } = self;
+        Facts { name, algebra, coordinates, parameters, truncation: *truncation }
+    }
+
     /// The nodes of a step of collocation, (K + 1)/2: its order is twice their number.
     #[must_use]
     pub fn nodes(&self) -> usize {
         self.truncation.div_ceil(2)
+    }
+
+    /// The values of the symbols for these of the parameters that are kept.
+    #[must_use]
+    pub fn symbols_at(&self, parameters: &[f64]) -> Vec<f64> {
+        self.symbols.iter().map(|symbol| symbol.expr.evaluate(parameters)).collect()
     }
 
     /// The inputs of the programs at (t, μ).
@@ -54,12 +125,18 @@ impl Smooth {
     /// H(t, μ) for these values of the symbols.
     #[must_use]
     pub fn energy(&self, symbols: &[f64], time: f64, mu: &[f64]) -> f64 {
+        if let Some(Given(function)) = &self.given {
+            return function.value(time, mu);
+        }
         self.value.run(&Self::inputs(time, mu), symbols).first().copied().unwrap_or(f64::NAN)
     }
 
     /// ∂H/∂μ(t, μ) for these values of the symbols.
     #[must_use]
     pub fn gradient(&self, symbols: &[f64], time: f64, mu: &[f64]) -> Vec<f64> {
+        if let Some(Given(function)) = &self.given {
+            return function.gradient(time, mu);
+        }
         self.gradient.run(&Self::inputs(time, mu), symbols)
     }
 
@@ -84,12 +161,29 @@ pub enum Hamiltonian {
 }
 
 impl Hamiltonian {
-    /// The truncation K asked for.
+    /// The facts of the system.
     #[must_use]
-    pub fn truncation(&self) -> usize {
+    pub fn facts(&self) -> Facts<'_> {
         match self {
-            Self::Polynomial(problem) => problem.truncation,
-            Self::Smooth(smooth) => smooth.truncation,
+            Self::Polynomial(problem) => problem.facts(),
+            Self::Smooth(smooth) => smooth.facts(),
+        }
+    }
+
+    /// Asks for another truncation.
+    pub fn set_truncation(&mut self, truncation: usize) {
+        match self {
+            Self::Polynomial(problem) => problem.truncation = truncation,
+            Self::Smooth(smooth) => smooth.truncation = truncation,
+        }
+    }
+
+    /// The polynomial, where it is one.
+    #[must_use]
+    pub fn polynomial(&self) -> Option<&Problem> {
+        match self {
+            Self::Polynomial(problem) => Some(problem),
+            Self::Smooth(_) => None,
         }
     }
 }

@@ -11,7 +11,6 @@ pub(crate) use shard::Shard;
 
 use std::path::Path;
 
-use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::system::Parameters;
 use coadjoint_program::{Precision, WIDTH};
 use coadjoint_run::ensemble::{Asked, Attitude, Course, Engine, How, Known, Shape, Use, in_lanes};
@@ -42,7 +41,7 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
         }
         None => (load::source(&source, Parameters::Substituted)?, true, None),
     };
-    let known = Known::of(&system.problem, &system.parameters);
+    let known = Known::of(&system.problem.facts(), &system.parameters);
     // Refused before the derivation, which may take long.
     run::Files::of(&options.out).check(&inputs)?;
     let form = Form::of(&options.out, "--out")?;
@@ -71,21 +70,24 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let at = options.at.as_deref().map(|at| Times::read(at, &schedule)).transpose()?;
     states.times = at.as_ref().map(|times| times.0.clone());
     let derived = Derived::of_file(path, in_lanes(system)?)?;
-    let integrator = &derived.integrator;
+    let facts = derived.facts();
     let precision = options.precision;
     let device = options.device.map(|device| Asked { device, precision });
     // Little is left of what a device makes.
-    let work = if device.is_some() { 0.0 } else { work(options, integrator, steps) };
+    let work = if device.is_some() { 0.0 } else { work(options, facts.algebra.dim(), steps) };
     let how = How { backend: options.backend, work, device };
     let engine = Engine::new(&derived, step, how)?;
-    let problem = &integrator.problem;
+    let [chart, frame] = match derived.series().map(|series| &series.integrator.problem) {
+        Some(problem) => [problem.chart.to_string(), problem.frame_name().to_owned()],
+        None => ["collocation", "fixed"].map(str::to_owned),
+    };
     let mut identity: Identity = [
         ("version", env!("CARGO_PKG_VERSION").to_owned()),
         ("system file", fingerprint(path)?),
         ("initial file", fingerprint(initial)?),
-        ("truncation", problem.truncation.to_string()),
-        ("chart", problem.chart.to_string()),
-        ("frame", problem.frame_name().to_owned()),
+        ("truncation", facts.truncation.to_string()),
+        ("chart", chart),
+        ("frame", frame),
         ("step", step.to_string()),
         ("number of steps", steps.to_string()),
         ("shard", options.shard.to_string()),
@@ -124,9 +126,8 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     engine.notes().iter().for_each(|note| eprintln!("warning: {note}"));
     let outcome = outcome?;
     report::warnings(&outcome).iter().for_each(|(_, text)| eprintln!("warning: {text}"));
-    let problem = &integrator.problem;
     let report =
-        report::report(&outcome, (problem, &parameters), (step, steps), &engine, options.format);
+        report::report(&outcome, (&derived, &parameters), (step, steps), &engine, options.format);
     out!("{report}");
     let failed = outcome.journal.rejected;
     if outcome.trajectories > 0 && failed == outcome.trajectories {
@@ -136,11 +137,11 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
 }
 
 /// About how many steps all lanes together make: rows are guessed from the size of the file.
-fn work(options: &EnsembleOptions, integrator: &Integrator, steps: u64) -> f64 {
+fn work(options: &EnsembleOptions, dim: usize, steps: u64) -> f64 {
     /// Bytes of a number in a file, about.
     const NUMBER: f64 = 16.0;
     let bytes = std::fs::metadata(&options.initial).map_or(0.0, |found| found.len() as f64);
-    let rows = bytes / (NUMBER * integrator.problem.algebra.dim() as f64);
+    let rows = bytes / (NUMBER * dim as f64);
     steps as f64 * (rows / WIDTH as f64).max(1.0)
 }
 

@@ -1,7 +1,7 @@
 //! The report of an ensemble, for people and for programs.
 
-use coadjoint_codegen::problem::Problem;
 use coadjoint_program::Precision;
+use coadjoint_run::Derived;
 use coadjoint_run::engine::STEEP;
 use coadjoint_run::ensemble::{Engine, Rejected};
 use coadjoint_run::simulate::LARGE;
@@ -34,12 +34,12 @@ pub(crate) fn warnings(outcome: &Outcome) -> Vec<(Value, String)> {
 /// The text to print.
 pub(crate) fn report(
     outcome: &Outcome,
-    (problem, parameters): (&Problem, &[String]),
+    (system, parameters): (&Derived, &[String]),
     (step, steps): (f64, u64),
     engine: &Engine<'_>,
     format: Format,
 ) -> String {
-    let (truncation, chart) = (problem.truncation, problem.chart);
+    let series = system.series().map(|series| &series.integrator.problem);
     let Outcome { trajectories, resumed, kept, first, list, journal, seconds } = outcome;
     let (made_by, failed, redone) = (&journal.made_by, journal.rejected, journal.redone);
     let drift = journal.drift();
@@ -58,9 +58,8 @@ pub(crate) fn report(
             "failed": failed,
             "first_failed": first.iter().map(row).collect::<Value>(),
             "rejected": list,
-            "truncation": truncation,
-            "chart": chart.to_string(),
-            "frame": problem.frame_name(),
+            "method": system.label(),
+            "truncation": system.facts().truncation,
             "step": step,
             "steps": steps,
             "made_by": made_by,
@@ -75,6 +74,10 @@ pub(crate) fn report(
             "warnings": warnings(outcome).into_iter().map(|(object, _)| object).collect::<Value>(),
             "seconds": seconds,
         });
+        if let Some(problem) = series {
+            value["chart"] = json!(problem.chart.to_string());
+            value["frame"] = json!(problem.frame_name());
+        }
         if !parameters.is_empty() {
             value["parameters"] = json!(parameters);
         }
@@ -85,10 +88,9 @@ pub(crate) fn report(
         }
         return format!("{value:#}\n");
     }
-    let frame = if problem.comoving.is_some() { ", comoving" } else { "" };
-    let mut lines = vec![format!(
-        "K = {truncation}, {chart}{frame}: {trajectories} trajectories of {steps} steps of {step}"
-    )];
+    let label = system.label();
+    let mut lines =
+        vec![format!("{label}: {trajectories} trajectories of {steps} steps of {step}")];
     if *kept {
         lines.push("  finished by an earlier run, and kept".to_owned());
     } else if *resumed > 0 {

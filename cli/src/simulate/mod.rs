@@ -13,11 +13,11 @@ mod target;
 
 use std::path::Path;
 
-use coadjoint_codegen::smooth::{Hamiltonian, Smooth};
-use coadjoint_codegen::system::{Parameters, Run, System, Units};
+use coadjoint_codegen::smooth::{Facts, Hamiltonian};
+use coadjoint_codegen::system::{Parameters, Run, Units};
 use coadjoint_learn::{LearnError, ModelFile};
-use coadjoint_run::simulate::{Schedule, Setup, Sink, run_model, run_smooth};
-use coadjoint_run::{Backend, Derived, text_hash};
+use coadjoint_run::simulate::{Schedule, Setup, Sink, run_model};
+use coadjoint_run::{Derived, System, read_varying, text_hash};
 
 use crate::arguments::SimulateOptions;
 use crate::error::CliError;
@@ -61,9 +61,9 @@ fn runs(
     let read = |truncation| {
         let source = Source { truncation, ..source.clone() };
         let options = source.options(Parameters::Substituted);
-        coadjoint_run::read_either(&path.display().to_string(), &text, options)
+        read_varying(&path.display().to_string(), &text, options, &[])
     };
-    let systems: Vec<System<Hamiltonian>> = if options.truncation.is_empty() {
+    let systems: Vec<System> = if options.truncation.is_empty() {
         vec![read(None)?]
     } else {
         options.truncation.iter().map(|&k| read(Some(k))).collect::<Result<_, _>>()?
@@ -71,17 +71,8 @@ fn runs(
     let outs = outs(out, &systems)?;
     let mut runs = Vec::new();
     let units = systems[0].units.clone();
-    for (system, out) in systems.into_iter().zip(outs) {
-        let System { problem, potential, run, units, parameters } = system;
-        let problem = match problem {
-            Hamiltonian::Polynomial(problem) => *problem,
-            Hamiltonian::Smooth(smooth) => {
-                runs.push(collocated(options, (path, &hash), out, &smooth, &run)?);
-                continue;
-            }
-        };
-        let mut system = System { problem, potential, run, units, parameters };
-        let truncation = system.problem.truncation;
+    for (mut system, out) in systems.into_iter().zip(outs) {
+        let truncation = system.problem.facts().truncation;
         let phase = progress::phase("choosing the step");
         let fixed = (!options.truncation.is_empty()).then_some(truncation);
         load::meet_tolerance(path, &mut system, &options.accuracy, fixed, options.time)?;
@@ -93,17 +84,23 @@ fn runs(
         if let Some(line) = announcement.filter(|_| runs.is_empty()) {
             eprintln!("{line}");
         }
-        let phase =
-            progress::phase(&format!("deriving the series, K = {}", system.problem.truncation));
+        if let (Some(path), Hamiltonian::Smooth(_)) = (&options.checkpoint, &system.problem) {
+            return Err(CliError::Option(format!(
+                "--checkpoint {}: steps by collocation go by those before them, which a checkpoint does not hold; leave it out",
+                path.display()
+            )));
+        }
+        let phase = system.problem.polynomial().map(|problem| {
+            progress::phase(&format!("deriving the series, K = {}", problem.truncation))
+        });
         let system = Derived::of_file(path, system)?;
         drop(phase);
-        let problem = &system.integrator.problem;
-        let splitting = system.forces.as_ref().map(|forces| forces.splitting);
-        let header = Header::new(&settings, problem, splitting);
-        let (label, coordinates) = (system.label(), &problem.coordinates);
+        let header = Header::new(&settings, &system);
+        let Facts { coordinates, truncation, .. } = system.facts();
+        let label = system.label();
         let drive = |sink: &mut dyn Sink| coadjoint_run::simulate::run(&system, setup, sink);
         let made = keep(&settings, label, header.clone(), coordinates, drive)?;
-        runs.push(Trajectory { truncation: Some(problem.truncation), ..made });
+        runs.push(Trajectory { truncation: Some(truncation), ..made });
         // The rival knows no truncation: once is enough.
         if options.compare.is_some() && runs.len() == 1 {
             runs.insert(0, rival::rk45(&system, &settings, header, options.compare_tolerance)?);
@@ -114,44 +111,6 @@ fn runs(
         runs.rotate_left(1);
     }
     Ok((runs, units))
-}
-
-/// Runs a system whose Hamiltonian is no polynomial.
-fn collocated(
-    options: &SimulateOptions,
-    (path, hash): (&Path, &str),
-    out: Option<Target>,
-    smooth: &Smooth,
-    run: &Run,
-) -> Result<Trajectory, CliError> {
-    let by_tolerance = options.accuracy.tolerance.is_some()
-        || options.accuracy.step.or(run.step).is_none() && run.tolerance.is_some();
-    for (asked, option, advice) in [
-        (by_tolerance, "a tolerance", "give --step"),
-        (options.compare.is_some(), "--compare", "leave it out"),
-        (options.checkpoint.is_some(), "--checkpoint", "leave it out"),
-        (
-            !matches!(options.backend, Backend::Auto | Backend::Interpreter),
-            "a compiled --backend",
-            "leave it out",
-        ),
-    ] {
-        if asked {
-            return Err(CliError::Option(format!(
-                "{option} is for polynomials: the Hamiltonian of {} is none, and runs by collocation; {advice}",
-                path.display()
-            )));
-        }
-    }
-    let setup = settings::setup(options, path, run)?;
-    let settings = Settings::new(options, (path, hash), out, setup)?;
-    if let Some(line) = settings.setup.schedule.announcement() {
-        eprintln!("{line}");
-    }
-    let label = format!("collocation, {} nodes", smooth.nodes());
-    let header = Header::of_smooth(&settings, smooth);
-    let drive = |sink: &mut dyn Sink| run_smooth(path, smooth, &settings.setup, sink);
-    keep(&settings, label, header, &smooth.coordinates, drive)
 }
 
 /// Follows a learned map, which has its own step.
@@ -218,14 +177,11 @@ pub(crate) fn schedule(
 }
 
 /// Where the records of each system go. Several truncations go to a file each; the names are announced.
-fn outs(
-    out: Option<&Target>,
-    systems: &[System<Hamiltonian>],
-) -> Result<Vec<Option<Target>>, CliError> {
+fn outs(out: Option<&Target>, systems: &[System]) -> Result<Vec<Option<Target>>, CliError> {
     let (Some(out), true) = (out, systems.len() > 1) else {
         return Ok(vec![out.cloned(); systems.len()]);
     };
-    let numbered = systems.iter().map(|system| out.numbered(system.problem.truncation()));
+    let numbered = systems.iter().map(|system| out.numbered(system.problem.facts().truncation));
     let targets: Vec<Target> = numbered.collect::<Result<_, _>>()?;
     let names: Vec<String> = targets.iter().map(|t| t.path.display().to_string()).collect();
     eprintln!("--out: a file for each truncation, {}", names.join(", "));

@@ -3,8 +3,6 @@
 use std::sync::Arc;
 
 use coadjoint::{LieGroup, groups::DirectProduct, groups::MatrixGroup};
-use coadjoint_codegen::poly::Numeric;
-use coadjoint_codegen::step::Energy;
 use coadjoint_run::engine::{Elements, Numbers, Restore, Torque};
 use coadjoint_run::simulate::{Moment, Recorder};
 use coadjoint_run::{Derived, RunError};
@@ -35,13 +33,18 @@ pub(crate) fn rk45(
         let what = "--compare-tolerance must be finite and positive; try 1e-6";
         return Err(CliError::Option(what.to_owned()));
     }
-    let (problem, setup) = (&system.integrator.problem, &settings.setup);
+    let (facts, setup) = (system.facts(), &settings.setup);
     let group = &system.group()?;
-    let torque = system.forces.as_ref().map(|forces| Torque::new(&forces.kick, group.clone()));
+    let forces = system.series().and_then(|series| series.forces.as_ref());
+    let torque = forces.map(|forces| Torque::new(&forces.kick, group.clone()));
     let torque = torque.transpose().map_err(|source| RunError::Step { time: 0.0, source })?;
-    let (n, size) = (problem.algebra.dim(), group.matrix_size());
-    let hamiltonian = system.invariants.hamiltonian.as_ref().and_then(Energy::polynomial);
-    let gradient: Vec<Numeric> = hamiltonian.map(|h| h.gradient(n)).unwrap_or_default();
+    let (n, size) = (facts.algebra.dim(), group.matrix_size());
+    let Some(energy) = &system.invariants.hamiltonian else {
+        let what =
+            "--compare: the Hamiltonian depends on time, and the comparison takes none that does";
+        return Err(CliError::Option(what.to_owned()));
+    };
+    let gradient = energy.gradient(n);
     let space = Elements { group: Arc::new(group.clone()), compiled: None };
     let start = setup.start(&system.file, &space)?;
     // μ, and the matrix of g row by row.
@@ -51,7 +54,7 @@ pub(crate) fn rk45(
     let flow = |_t: f64, y: &Vec<f64>, rate: &mut Vec<f64>| {
         let mu = DVector::from_column_slice(&y[..n]);
         let g = DMatrix::from_row_slice(size, size, &y[n..]);
-        let xi = DVector::from_iterator(n, gradient.iter().map(|slope| slope.value(&y[..n])));
+        let xi = DVector::from_vec(gradient(&y[..n]));
         let mut force = group.ad_star(&xi, &mu);
         if let Some(torque) = &torque {
             force += torque.torque(&group.restore(&|i, j| g[(i, j)]));
@@ -85,7 +88,7 @@ pub(crate) fn rk45(
         header: header.only(&KNOWN).with("method", json!(name)),
         label: name,
         truncation: None,
-        coordinates: problem.coordinates.clone(),
+        coordinates: facts.coordinates.to_vec(),
         samples: if settings.sampled { samples.finish() } else { Vec::new() },
         announcement: None,
         outcome,

@@ -4,14 +4,14 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use coadjoint_codegen::file;
-use coadjoint_codegen::problem::{Problem, Solver};
-use coadjoint_codegen::smooth::Smooth;
-use coadjoint_codegen::system::{Run, Splitting};
+use coadjoint_codegen::problem::Solver;
+use coadjoint_codegen::smooth::Facts;
+use coadjoint_codegen::system::Run;
 use coadjoint_learn::ModelFile;
 use coadjoint_program::quoting::line;
-use coadjoint_run::RunError;
 use coadjoint_run::number::shortest;
 use coadjoint_run::simulate::{Event, Scales, Schedule, Setup, Times};
+use coadjoint_run::{Derived, Flow, RunError};
 use serde_json::{Map, Value, json};
 
 use super::target::{Place, Target, paths};
@@ -151,37 +151,33 @@ pub(crate) fn check_names(options: &SimulateOptions) -> Result<Option<Target>, C
 pub(crate) struct Header(Vec<(&'static str, Value)>);
 
 impl Header {
-    /// The description of a run of this problem.
-    pub(crate) fn new(
-        settings: &Settings<'_>,
-        problem: &Problem,
-        splitting: Option<Splitting>,
-    ) -> Self {
-        let solver = match problem.solver() {
-            Solver::Newton => Solver::NAMES[0],
-            Solver::FixedPoint => Solver::NAMES[1],
-        };
+    /// The description of a run of this system.
+    pub(crate) fn new(settings: &Settings<'_>, system: &Derived) -> Self {
+        let Facts { name, algebra, truncation, .. } = system.facts();
         let mut own = vec![
-            ("name", json!(problem.name)),
-            ("group", json!(problem.algebra.name())),
-            ("truncation", json!(problem.truncation)),
-            ("chart", json!(problem.chart.name())),
-            ("frame", json!(problem.frame_name())),
-            ("solver", json!(solver)),
+            ("name", json!(name)),
+            ("group", json!(algebra.name())),
+            ("truncation", json!(truncation)),
         ];
-        own.extend(splitting.map(|splitting| ("splitting", json!(splitting.name()))));
-        Self::of(settings, ["system", "system_sha256"], own)
-    }
-
-    /// The description of a run by collocation.
-    pub(crate) fn of_smooth(settings: &Settings<'_>, smooth: &Smooth) -> Self {
-        let own = vec![
-            ("name", json!(smooth.name)),
-            ("group", json!(smooth.algebra.name())),
-            ("truncation", json!(smooth.truncation)),
-            ("method", json!("collocation")),
-            ("nodes", json!(smooth.nodes())),
-        ];
+        match &system.flow {
+            Flow::Series(series) => {
+                let problem = &series.integrator.problem;
+                let solver = match problem.solver() {
+                    Solver::Newton => Solver::NAMES[0],
+                    Solver::FixedPoint => Solver::NAMES[1],
+                };
+                own.extend([
+                    ("chart", json!(problem.chart.name())),
+                    ("frame", json!(problem.frame_name())),
+                    ("solver", json!(solver)),
+                ]);
+                let splitting = series.forces.as_ref().map(|forces| forces.splitting.name());
+                own.extend(splitting.map(|splitting| ("splitting", json!(splitting))));
+            }
+            Flow::Collocation(smooth, _) => {
+                own.extend([("method", json!("collocation")), ("nodes", json!(smooth.nodes()))])
+            }
+        }
         Self::of(settings, ["system", "system_sha256"], own)
     }
 

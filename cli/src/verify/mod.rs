@@ -7,11 +7,11 @@ use std::path::{Path, PathBuf};
 
 use coadjoint_codegen::file::beside;
 use coadjoint_codegen::lie::Chart;
-use coadjoint_codegen::problem::FrameChoice;
+use coadjoint_codegen::problem::{FrameChoice, Method};
 use coadjoint_codegen::system::{Options, System};
 use coadjoint_learn::table::{Row, Table};
 use coadjoint_run::verify::{Follower, Found, Sample, judge_of};
-use coadjoint_run::{RunError, read_with, text_hash};
+use coadjoint_run::{RunError, polynomial, read_varying, text_hash};
 use serde_json::Value;
 
 use crate::arguments::VerifyOptions;
@@ -100,11 +100,18 @@ fn judge(
     let read = Options {
         truncation: options.truncation.or_else(|| number("truncation").map(|k| k as usize)),
         chart: options.chart.or(said),
+        // Only the series has a chart of its own.
+        method: table.value("chart").map(|_| Method::Series),
         frame: table.value("frame").and_then(FrameChoice::named),
         ..Options::default()
     };
-    let System { problem, potential, run, parameters, .. } =
-        read_with(&system.display().to_string(), &text, read)?;
+    let found = read_varying(&system.display().to_string(), &text, read, &[])?;
+    let System { problem, potential, run, parameters, .. } = polynomial(
+        &system,
+        found,
+        "there is no judge of it",
+        "compare it with a run of half the step",
+    )?;
     if potential.is_some() {
         return refuse(kicked);
     }

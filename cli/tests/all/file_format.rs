@@ -4,7 +4,7 @@ use crate::support::{Folder, run, text_of};
 use coadjoint_codegen::expr::Function;
 use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
 use coadjoint_codegen::lie::Chart;
-use coadjoint_codegen::problem::{FrameChoice, Solver};
+use coadjoint_codegen::problem::{FrameChoice, Method, Solver};
 use coadjoint_codegen::system::{Options, Splitting, read};
 
 fn page() -> String {
@@ -88,7 +88,7 @@ fn every_key_and_every_name_is_on_the_page() {
     for name in Splitting::ALL.map(Splitting::name) {
         assert!(quoted(name), "{name}");
     }
-    for name in Solver::NAMES.into_iter().chain(FrameChoice::NAMES) {
+    for name in Solver::NAMES.into_iter().chain(FrameChoice::NAMES).chain(Method::NAMES) {
         assert!(quoted(name), "{name}");
     }
     assert!(quoted(Chart::Exponential.name()) && quoted(Chart::Cayley.name()));

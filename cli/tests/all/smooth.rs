@@ -1,6 +1,6 @@
 //! Runs of Hamiltonians that are no polynomials, by collocation.
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::support::{Folder, distance, numbers};
 
@@ -20,7 +20,7 @@ momentum = [2.0, 0.5, 1.0]
 time = 200.0
 "#;
 
-fn report(folder: &Folder, options: &str) -> Value {
+fn report_of(folder: &Folder, options: &str) -> Value {
     let ran = folder.run(&format!("simulate system.toml --format json {options}")).ok();
     serde_json::from_str(&ran.out).unwrap()
 }
@@ -28,7 +28,7 @@ fn report(folder: &Folder, options: &str) -> Value {
 #[test]
 fn momentum_casimirs_and_energy_are_kept() {
     let folder = Folder::with(FAST_BODY);
-    let report = report(&folder, "--out rows.csv");
+    let report = report_of(&folder, "--out rows.csv");
     assert_eq!(report["method"], "collocation, 4 nodes");
     assert_eq!(report["steps"], 1000);
     let drift = |name: &str| report["drift"][name].as_f64().unwrap();
@@ -46,7 +46,7 @@ fn momentum_casimirs_and_energy_are_kept() {
 fn the_order_is_that_of_the_truncation() {
     let folder = Folder::with(FAST_BODY);
     let end = |step: f64| -> Vec<f64> {
-        let report = report(&folder, &format!("--time 8 --step {step}"));
+        let report = report_of(&folder, &format!("--time 8 --step {step}"));
         let end = report["momentum"].as_array().unwrap();
         end.iter().map(|value| value.as_f64().unwrap()).collect()
     };
@@ -64,19 +64,123 @@ fn refusals_name_expression_argument_and_time() {
     let folder = Folder::with(&FAST_BODY.replace("sqrt(1 + x^2/I1", "x + ln(x - 3"));
     let expected = "at time 0: ln(x - 3 + y^2/2 + z^2/(5/2)) of -0.475";
     folder.run("simulate system.toml").fails(1, &[expected]);
-    for option in ["--tolerance 1e-8", "--compare rk45", "--checkpoint c", "--backend c"] {
+    for (option, reason) in [
+        ("--checkpoint c", "steps by collocation go by those before them"),
+        ("--backend c", "no compiled --backend: the steps of this system are made by collocation"),
+    ] {
         let folder = Folder::with(FAST_BODY);
-        let error = folder.run(&format!("simulate system.toml {option}")).fails(2, &[]).error;
-        assert!(error.contains("runs by collocation"), "{option}: {error}");
+        folder.run(&format!("simulate system.toml {option}")).fails(2, &[reason]);
     }
     let chosen = FAST_BODY.replace("step = 0.2", "step = 0.2\nchart = \"cayley\"");
     let ran = Folder::with(&chosen).run("simulate system.toml");
     ran.fails(2, &["`chart` is one of a series"]);
     let pushed = FAST_BODY.replace("[parameters]", "potential = \"g[2][2]\"\n[parameters]");
     Folder::with(&pushed).run("simulate system.toml").fails(2, &["`potential`: "]);
-    // Where there is no collocation yet.
-    let ran = Folder::with(FAST_BODY).run("derive system.toml");
-    ran.fails(2, &["`sqrt` of the momentum is not a polynomial", "collocation"]);
+    let folder = Folder::with(FAST_BODY);
+    for (verb, lacking, instead) in [
+        ("derive", "there is no series", "`check` tries the laws"),
+        ("emit --language c", "there is no header of it", "emit --language rust"),
+        ("emit --language cuda", "there is no kernel of it", "emit --language rust"),
+    ] {
+        folder.run(&format!("{verb} system.toml")).fails(2, &[lacking, "collocation", instead]);
+    }
+}
+
+/// Rows are runs of their own: with the parameters of their columns, whatever the threads, and whatever becomes of others.
+#[test]
+fn rows_of_an_ensemble_are_runs() {
+    let folder = Folder::with(FAST_BODY);
+    let rows = [([2.0, 0.5, 1.0], 1.5), ([1.0, 0.2, 0.3], 1.2), ([-1.0, 0.5, 2.0], 3.0)];
+    let line = |([x, y, z], inertia): &([f64; 3], f64)| format!("{x},{y},{z},{inertia}\n");
+    let given: String = rows.iter().map(line).collect();
+    folder.write("in.csv", format!("mu_1,mu_2,mu_3,I1\n{given}1,1,1,0\n"));
+    let ensemble = |out: &str, more: &str| {
+        let command = format!("ensemble system.toml --initial in.csv --out {out} --time 20 {more}");
+        folder.run(&command).ok().out
+    };
+    let report = ensemble("one.csv", "--threads 1 --estimate 3 --format json");
+    let report: Value = serde_json::from_str(&report).unwrap();
+    assert_eq!((&report["method"], &report["failed"]), (&json!("collocation, 4 nodes"), &json!(1)));
+    assert!(report["estimated_error"]["largest"].as_f64().unwrap() < 1e-12, "{report}");
+    assert!(report["drift"]["casimirs"].as_f64().unwrap() < 1e-13, "{report}");
+    ensemble("three.csv", "--threads 3");
+    assert_eq!(folder.text("one.csv"), folder.text("three.csv"));
+    let found = folder.text("one.csv");
+    for (found, (start, inertia)) in found.lines().skip(1).zip(rows) {
+        let found: Vec<f64> = found.split(',').take(3).map(|cell| cell.parse().unwrap()).collect();
+        let system = FAST_BODY.replace("I1 = 1.5", &format!("I1 = {inertia}"));
+        let system = system.replace("[2.0, 0.5, 1.0]", &format!("{start:?}"));
+        let alone = &report_of(&Folder::with(&system), "--time 20")["momentum"];
+        let alone: Vec<f64> =
+            alone.as_array().unwrap().iter().map(|value| value.as_f64().unwrap()).collect();
+        let apart = found.iter().zip(&alone).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(apart < 1e-13, "{inertia}: {apart:e}");
+    }
+}
+
+#[test]
+fn laws_hold_and_can_be_broken_by_long_steps() {
+    let six = FAST_BODY
+        .replace("SO3", "SE3")
+        .replace(
+            "coordinates = [\"x\", \"y\", \"z\"]",
+            "coordinates = [\"x\", \"y\", \"z\", \"p\", \"q\", \"r\"]",
+        )
+        .replace("z^2/2.5)", "z^2/2.5) + 1/sqrt(2 + p^2 + q^2) + exp(-r^2)")
+        .replace("[2.0, 0.5, 1.0]", "[0.4, -0.5, 1.1, 0.3, 0.2, -0.9]");
+    let folder = Folder::with(&six);
+    let ran = folder.run("check system.toml --format json").ok();
+    let found: Value = serde_json::from_str(&ran.out).unwrap();
+    let laws = found["laws"].as_array().unwrap();
+    assert_eq!(laws.len(), 7, "{found}");
+    assert!(laws.iter().all(|law| law["pass"] == true), "{found}");
+    folder.run("check system.toml --step 30").fails(1, &["step"]);
+}
+
+/// The choice meets its tolerance against a run of far smaller steps, and takes more nodes for more digits.
+#[test]
+fn a_tolerance_chooses_nodes_and_step() {
+    let folder = Folder::with(&FAST_BODY.replace("truncation = 7\nstep = 0.2\n", ""));
+    let end = |options: &str| -> (u64, Vec<f64>) {
+        let report = report_of(&folder, &format!("--time 40 {options}"));
+        let end = report["momentum"].as_array().unwrap();
+        let end = end.iter().map(|value| value.as_f64().unwrap()).collect();
+        (report["truncation"].as_u64().unwrap(), end)
+    };
+    let (_, exact) = end("--step 0.05 --truncation 13");
+    let mut before = 0;
+    for tolerance in [1e-4, 1e-8, 1e-12] {
+        let (truncation, found) = end(&format!("--tolerance {tolerance:e}"));
+        let apart = found.iter().zip(&exact).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(apart < 2.3 * tolerance, "{tolerance}: {apart:e}");
+        assert!(truncation >= before, "{tolerance}: K = {truncation} after {before}");
+        before = truncation;
+    }
+    assert!(before > 3);
+}
+
+/// A polynomial by its series and by collocation: the same motion to the error of both, other steps.
+#[test]
+fn a_polynomial_takes_either_method() {
+    let body = FAST_BODY
+        .replace("sqrt(1 + x^2/I1 + y^2/2 + z^2/2.5)", "x^2/(2*I1) + y^2/4 + z^2/5")
+        .replace("truncation = 7", "truncation = 11\nmethod = \"collocation\"");
+    let folder = Folder::with(&body);
+    let run = |options: &str| report_of(&folder, &format!("--time 20 {options}"));
+    let (own, series) = (run(""), run("--method series"));
+    assert_eq!(
+        (&own["method"], &series["method"]),
+        (&json!("collocation, 6 nodes"), &json!("K = 11, exp"))
+    );
+    let end = |report: &Value| -> Vec<f64> {
+        report["momentum"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
+    };
+    let apart = end(&own).iter().zip(&end(&series)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!(apart < 1e-12, "{apart:e}");
+    let folder = Folder::with(&FAST_BODY.replace("step = 0.2", "step = 0.2\nmethod = \"series\""));
+    let reasons = ["`sqrt` of the momentum is not a polynomial", "without `method = \"series\"`"];
+    folder.run("simulate system.toml").fails(2, &reasons);
+    folder.run("simulate system.toml --method collocation").ok();
 }
 
 /// A spin in a field that turns about the third axis.
@@ -123,7 +227,7 @@ fn driven(t: f64) -> [f64; 3] {
 #[test]
 fn a_hamiltonian_that_moves_in_time_is_followed_at_its_own_times() {
     let folder = Folder::with(DRIVEN);
-    let report = report(&folder, "--at 0.037,7.2,12.29 --out rows.csv");
+    let report = report_of(&folder, "--at 0.037,7.2,12.29 --out rows.csv");
     let close = |found: &[f64], time: f64, most: f64| {
         let error = distance(found, &driven(time));
         assert!(error < most, "{error:e} at {time}");

@@ -96,6 +96,8 @@ pub(crate) enum Mistake {
     UnknownChart(String, Option<String>),
     #[error("unknown solver `{0}`{did}", did = did_you_mean(.1))]
     UnknownSolver(String, Option<String>),
+    #[error("unknown method `{0}`{did}", did = did_you_mean(.1))]
+    UnknownMethod(String, Option<String>),
     #[error("unknown frame `{0}`{did}", did = did_you_mean(.1))]
     UnknownFrame(String, Option<String>),
     #[error(
@@ -204,8 +206,8 @@ impl Mistake {
     /// A correction, where there is more to say than the message does.
     pub(crate) fn help(&self) -> Option<String> {
         if self.is_of_series() {
-            let text = "a Hamiltonian that is no polynomial has no series, and needs steps by collocation: `coadjoint simulate` \
-                        and the attribute lie_poisson of the Rust crate coadjoint have them";
+            let text = "a Hamiltonian that is no polynomial has no series: without `method = \"series\"`, the command coadjoint, \
+                        Python and the attribute lie_poisson of Rust make its steps by collocation";
             return Some(text.to_owned());
         }
         self.correction()
@@ -281,6 +283,9 @@ impl Mistake {
             Self::TruncationNumber => "write for example truncation = 7",
             Self::UnknownChart(..) => "charts: exp (the default) and cayley",
             Self::UnknownSolver(..) => "solvers: newton and fixed_point",
+            Self::UnknownMethod(..) => {
+                "methods: series (the default for polynomials) and collocation (for any smooth Hamiltonian)"
+            }
             Self::UnknownFrame(..) => "frames: auto (the default), fixed and comoving",
             Self::NoFrame => {
                 "for a symmetric body, write both transverse moments of inertia as one parameter, and the axis \

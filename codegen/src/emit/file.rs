@@ -1,13 +1,16 @@
 //! A whole module as formatted text: for build scripts, the command line, and checking in.
 
+use coadjoint_program::quoting::rust_comment;
 use quote::{format_ident, quote};
 
+use super::collocation::collocation;
 use super::item::{Items, items};
 use super::layout::text;
 use super::legend;
 use super::opening::wrapped;
 use super::options::Options;
 use crate::integrator::{Integrator, Kick};
+use crate::smooth::Smooth;
 
 /// Columns of a comment.
 const WIDTH: usize = 97;
@@ -16,16 +19,36 @@ const WIDTH: usize = 97;
 /// then the items, tables last, and what the coefficients mean.
 #[must_use]
 pub fn file(integrator: &Integrator, options: &Options) -> String {
-    let Items { opening, struct_and_methods, programs } = items(integrator, options);
-    let mut result = comment(opening.iter().flat_map(|paragraph| wrapped(paragraph, WIDTH)));
-    result.push('\n');
-    result.push_str(&text(quote!(#struct_and_methods #programs)));
+    let mut result = module(items(integrator, options));
     let legend = legend::lines(&integrator.coefficients);
     if !legend.is_empty() {
         let about = "The coefficients of S = Σ C(m) m that programs read, C(m) being that of the monomial m:";
         result.push('\n');
         result.push_str(&comment(std::iter::once(about.to_owned()).chain(legend)));
     }
+    result
+}
+
+/// The integrator of a Hamiltonian that is no polynomial as a Rust source file; its steps are made by collocation.
+#[must_use]
+pub fn collocation_file(smooth: &Smooth, options: &Options) -> String {
+    let opening = format!(
+        "Written by coadjoint-codegen from H = {}; do not edit. `{}` makes steps of order {} by collocation at {} nodes; \
+         it needs the crate coadjoint.",
+        rust_comment(&smooth.source),
+        options.name,
+        2 * smooth.nodes(),
+        smooth.nodes()
+    );
+    module(Items { opening: vec![opening], ..collocation(smooth, options) })
+}
+
+/// Items as a source file.
+fn module(items: Items) -> String {
+    let Items { opening, struct_and_methods, programs } = items;
+    let mut result = comment(opening.iter().flat_map(|paragraph| wrapped(paragraph, WIDTH)));
+    result.push('\n');
+    result.push_str(&text(quote!(#struct_and_methods #programs)));
     result
 }
 

@@ -29,7 +29,7 @@ mod table;
 mod types;
 
 pub use collocation::collocation;
-pub use file::{file, potential_items};
+pub use file::{collocation_file, file, potential_items};
 pub use group::RUNTIME_TABLES;
 pub use hygiene::{fresh, hygienic, identifiers};
 pub use item::{Items, items, tokens};

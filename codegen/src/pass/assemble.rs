@@ -4,7 +4,7 @@ use super::choice::Choice;
 use super::coefficient::{ONE, Table};
 use super::frame;
 use super::polynomial::{Sum, polynomial};
-use super::program::lower;
+use super::program::{Lowered, lower};
 use crate::diagnostic::{Diagnostic, Diagnostics, Mistake, Span};
 use crate::expr::{Arena, ExprId, Node};
 use crate::lie::{Chart, LieAlgebra};
@@ -13,8 +13,8 @@ use crate::poly::Polynomial;
 use crate::potential::Potential;
 #[cfg(feature = "system")]
 use crate::problem::values;
-use crate::problem::{FrameChoice, Parameter, Problem, Symbol};
-use crate::smooth::{Hamiltonian, Smooth};
+use crate::problem::{FrameChoice, Method, Parameter, Problem, Symbol};
+use crate::smooth::{Given, Hamiltonian, Smooth};
 
 /// An energy as a front end has read it: a Hamiltonian, or a potential.
 #[derive(Debug, Default)]
@@ -66,15 +66,19 @@ pub(crate) struct Draft {
     pub choice: Choice,
 }
 
-/// Checks what was read and turns it into a problem, or into programs where the Hamiltonian is smooth but no polynomial, or
-/// depends on time; `None` where something is wrong, which has then been reported.
+/// Checks what was read and turns it into a problem, or into programs where steps are to be made by collocation, as where the
+/// Hamiltonian is no polynomial or depends on time; `None` where something is wrong, which has then been reported.
 pub(crate) fn assemble_either(draft: Draft, diagnostics: &Diagnostics) -> Option<Hamiltonian> {
     let read = Read::new(&draft.hamiltonian);
     let of_series = |found: &Diagnostic| found.mistake.is_of_series();
-    if draft.hamiltonian.moves() || read.found.iter().any(of_series) {
+    let smooth = match draft.choice.method {
+        Some((method, _)) => method == Method::Collocation,
+        None => draft.hamiltonian.moves() || read.found.iter().any(of_series),
+    };
+    if smooth {
         let others = read.found.into_iter().filter(|found| !found.mistake.is_of_series());
         others.for_each(|found| diagnostics.report(found.span, found.mistake));
-        return assemble_smooth(draft, diagnostics).map(Box::new).map(Hamiltonian::Smooth);
+        return assemble_smooth(draft, None, diagnostics).map(Box::new).map(Hamiltonian::Smooth);
     }
     let problem = assemble_polynomial(draft, read, diagnostics);
     problem.map(Box::new).map(Hamiltonian::Polynomial)
@@ -94,23 +98,43 @@ fn check_dimension(
     }
 }
 
+/// The same for a function in place of the Hamiltonian, of which the draft has the name alone.
+#[cfg(feature = "system")]
+pub(crate) fn assemble_given(
+    draft: Draft,
+    function: Given,
+    diagnostics: &Diagnostics,
+) -> Option<Hamiltonian> {
+    if let Some((Method::Series, place)) = draft.choice.method {
+        let message = "`method = \"series\"`: a Hamiltonian that is a function has no series";
+        diagnostics.report_other(place, message, "leave `method` out");
+    }
+    if !draft.hamiltonian.parameters.is_empty() {
+        let message = "[parameters]: a Hamiltonian that is a function has its own";
+        diagnostics.report_other(Span::Whole, message, "leave them out");
+    }
+    assemble_smooth(draft, Some(function), diagnostics).map(Box::new).map(Hamiltonian::Smooth)
+}
+
 /// The largest truncation of collocation: 8 nodes.
 const MOST_OF_COLLOCATION: usize = 15;
 
-/// The same for a Hamiltonian that is no polynomial.
-fn assemble_smooth(draft: Draft, diagnostics: &Diagnostics) -> Option<Smooth> {
+/// The same for steps by collocation, of a function where one is given.
+fn assemble_smooth(
+    draft: Draft,
+    given: Option<Given>,
+    diagnostics: &Diagnostics,
+) -> Option<Smooth> {
     let Draft { name, algebra, coordinates, coordinates_span, hamiltonian: energy, choice } = draft;
     check_dimension(algebra.as_ref(), coordinates.len(), coordinates_span, diagnostics);
-    let given = |place| !matches!(place, Span::Whole);
+    let placed = |place| !matches!(place, Span::Whole);
     let chosen = [
-        ("chart", choice.chart.0 != Chart::default() || given(choice.chart.1), choice.chart.1),
+        ("chart", choice.chart.0 != Chart::default() || placed(choice.chart.1), choice.chart.1),
         ("solver", choice.solver.is_some(), Span::Whole),
         ("frame", choice.frame.0 == FrameChoice::Comoving, choice.frame.1),
     ];
     for (key, _, place) in chosen.into_iter().filter(|(_, chosen, _)| *chosen) {
-        let message = format!(
-            "`{key}` is one of a series: this Hamiltonian is no polynomial, and runs by collocation"
-        );
+        let message = format!("`{key}` is one of a series: here steps are made by collocation");
         diagnostics.report_other(place, message, &format!("leave `{key}` out"));
     }
     if let Some(k) = choice.truncation.filter(|k| *k > MOST_OF_COLLOCATION) {
@@ -120,15 +144,21 @@ fn assemble_smooth(draft: Draft, diagnostics: &Diagnostics) -> Option<Smooth> {
     if !diagnostics.is_empty() {
         return None;
     }
-    let (root, place) = energy.root?;
     let moves = energy.moves();
-    let mut table = Table::new();
-    let names = (&coordinates[..], &energy.scalar_names()[..]);
-    let lowered = lower(&energy.arena, root, names, &mut table, diagnostics)?;
-    if !lowered.gradient.nodes().iter().any(|node| *node != coadjoint_program::Node::Zero) {
-        diagnostics.report(place, Mistake::NoDependence);
-        return None;
-    }
+    let lowered = match &given {
+        Some(_) => Lowered::default(),
+        None => {
+            let (root, place) = energy.root?;
+            let mut table = Table::new();
+            let names = (&coordinates[..], &energy.scalar_names()[..]);
+            let lowered = lower(&energy.arena, root, names, &mut table, diagnostics)?;
+            if lowered.gradient.nodes().iter().all(|node| *node == coadjoint_program::Node::Zero) {
+                diagnostics.report(place, Mistake::NoDependence);
+                return None;
+            }
+            lowered
+        }
+    };
     Some(Smooth {
         moves,
         name,
@@ -142,11 +172,16 @@ fn assemble_smooth(draft: Draft, diagnostics: &Diagnostics) -> Option<Smooth> {
         parameters: energy.parameters,
         source: energy.source,
         truncation: choice.truncation?,
+        given,
     })
 }
 
 /// Checks what was read and turns it into a problem; `None` where something is wrong, which has then been reported.
 pub(crate) fn assemble(draft: Draft, diagnostics: &Diagnostics) -> Option<Problem> {
+    if let Some((Method::Collocation, place)) = draft.choice.method {
+        let message = "`method = \"collocation\"`: here steps are made by the series alone";
+        diagnostics.report_other(place, message, "leave `method` out");
+    }
     let read = Read::new(&draft.hamiltonian);
     assemble_polynomial(draft, read, diagnostics)
 }

@@ -4,7 +4,7 @@ use num_integer::Integer;
 
 use crate::diagnostic::{Diagnostics, Mistake, Span, nearest};
 use crate::lie::Chart;
-use crate::problem::{FrameChoice, Solver};
+use crate::problem::{FrameChoice, Method, Solver};
 
 /// The truncation where none is given: order of accuracy 8.
 const DEFAULT_TRUNCATION: usize = 7;
@@ -20,6 +20,8 @@ pub(crate) struct Choice {
     /// The solver, if one is asked for.
     pub solver: Option<Solver>,
     pub frame: (FrameChoice, Span),
+    /// The method, if one is asked for, and where.
+    pub method: Option<(Method, Span)>,
 }
 
 impl Default for Choice {
@@ -29,6 +31,7 @@ impl Default for Choice {
             chart: (Chart::default(), Span::Whole),
             solver: None,
             frame: (FrameChoice::default(), Span::Whole),
+            method: None,
         }
     }
 }
@@ -45,7 +48,7 @@ impl Choice {
         self.truncation = diagnostics.check(span, checked);
     }
 
-    /// Sets the chart, the solver or the frame by its name, or reports that there is none of this name.
+    /// Sets the chart, the solver, the method or the frame by its name, or reports that there is none of this name.
     pub(crate) fn set_named(
         &mut self,
         key: &str,
@@ -66,6 +69,10 @@ impl Choice {
             "solver" => match Solver::named(name) {
                 None => unknown(Mistake::UnknownSolver, &Solver::NAMES),
                 solver => self.solver = solver,
+            },
+            "method" => match Method::named(name) {
+                None => unknown(Mistake::UnknownMethod, &Method::NAMES),
+                Some(method) => self.method = Some((method, span)),
             },
             _ => match FrameChoice::named(name) {
                 None => unknown(Mistake::UnknownFrame, &FrameChoice::NAMES),

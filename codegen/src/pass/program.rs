@@ -17,6 +17,7 @@ const LARGEST_POWER: u32 = 1000;
 const LONGEST_TEXT: usize = 80;
 
 /// The programs of a Hamiltonian of n coordinates; [`Smooth`](crate::smooth::Smooth) says their inputs and outputs.
+#[derive(Default)]
 pub(super) struct Lowered {
     pub value: Program,
     pub gradient: Program,

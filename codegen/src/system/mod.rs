@@ -23,7 +23,7 @@
 //! then picked too unless it is given. `region = 2.5` (a norm of the momentum, or [low, high] for each
 //! coordinate) says where it is to hold; without it, along the run from the initial state.
 //!
-//! In `[integrator]`, `solver` is `newton` or `fixed_point`, and `frame = "comoving"` leaves what is
+//! In `[integrator]`, `method` is `series` or `collocation` (the default for a Hamiltonian that is no polynomial), `solver` is `newton` or `fixed_point`, and `frame = "comoving"` leaves what is
 //! uniform in the motion (the precession in a field, the spin of a symmetric body, multiples of Casimirs) out of the
 //! series and lets it follow each step (see [`crate::comoving`]); without `frame`, where a field is such a part or steps
 //! that meet a tolerance are cheaper. For a power such as SO3^64, coordinates and
@@ -59,10 +59,12 @@ use toml::de::DeTable;
 use crate::diagnostic::{Diagnostics, Mistake, Span, unclosed_quote};
 use crate::lie::{LieAlgebra, catalogue};
 use crate::parse::Names;
-use crate::pass::{Choice, Draft, assemble, assemble_either, assemble_potential};
+use crate::pass::{
+    Choice, Draft, Energy, assemble, assemble_either, assemble_given, assemble_potential,
+};
 use crate::potential::Potential;
 use crate::problem::{Parameter, Problem};
-use crate::smooth::Hamiltonian;
+use crate::smooth::{Given, Hamiltonian};
 use table::Table;
 
 pub use coadjoint_program::splitting::Splitting;
@@ -89,6 +91,14 @@ pub struct System<H = Problem> {
     pub parameters: Vec<Parameter>,
 }
 
+impl From<System> for System<Hamiltonian> {
+    fn from(system: System) -> Self {
+        let System { problem, potential, run, units, parameters } = system;
+        let problem = Hamiltonian::Polynomial(Box::new(problem));
+        Self { problem, potential, run, units, parameters }
+    }
+}
+
 /// Reads the text of a system file.
 ///
 /// # Errors
@@ -106,9 +116,9 @@ pub fn read_varying(
     options: Options,
     varied: &[String],
 ) -> Result<System, Diagnostics> {
-    let kinds: (Assemble<_>, Polynomial<_>) = (assemble, |problem| Some(problem));
+    let kind = Kind { assemble: &assemble, polynomial: |problem| Some(problem), given: None };
     read_by(text, |document, diagnostics| {
-        system((document, text), (options, varied), kinds, diagnostics)
+        system((document, text), (options, varied), &kind, diagnostics)
     })
 }
 
@@ -121,13 +131,28 @@ pub fn read_either(
     options: Options,
     varied: &[String],
 ) -> Result<System<Hamiltonian>, Diagnostics> {
-    let polynomial: Polynomial<_> = |read| match read {
-        Hamiltonian::Polynomial(problem) => Some(problem),
-        Hamiltonian::Smooth(_) => None,
-    };
-    let kinds: (Assemble<_>, Polynomial<_>) = (assemble_either, polynomial);
+    let kind =
+        Kind { assemble: &assemble_either, polynomial: Hamiltonian::polynomial, given: None };
     read_by(text, |document, diagnostics| {
-        system((document, text), (options, varied), kinds, diagnostics)
+        system((document, text), (options, varied), &kind, diagnostics)
+    })
+}
+
+/// The same of a text without `hamiltonian`, in whose place is a function called `name`.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_given(
+    text: &str,
+    options: Options,
+    name: &str,
+    function: &Given,
+) -> Result<System<Hamiltonian>, Diagnostics> {
+    let assemble = |draft, diagnostics: &_| assemble_given(draft, function.clone(), diagnostics);
+    let polynomial = Hamiltonian::polynomial;
+    let kind = Kind { assemble: &assemble, polynomial, given: Some(name) };
+    read_by(text, |document, diagnostics| {
+        system((document, text), (options, &[]), &kind, diagnostics)
     })
 }
 
@@ -145,9 +170,15 @@ pub fn read_group(text: &str) -> Result<LieAlgebra, Diagnostics> {
     })
 }
 
-/// How a draft becomes a system, and the polynomial that this has if it has one.
-type Assemble<H> = fn(Draft, &Diagnostics) -> Option<H>;
-type Polynomial<H> = fn(&H) -> Option<&Problem>;
+/// A kind of Hamiltonian.
+struct Kind<'a, H> {
+    /// How a draft becomes a system.
+    assemble: &'a dyn Fn(Draft, &Diagnostics) -> Option<H>,
+    /// The polynomial that it has if it has one.
+    polynomial: fn(&H) -> Option<&Problem>,
+    /// The name of a function that stands in the place of the key.
+    given: Option<&'a str>,
+}
 
 /// The result of reading the tables of `text`.
 fn read_by<T>(
@@ -177,7 +208,7 @@ fn read_by<T>(
 fn system<H>(
     (document, text): (&DeTable<'_>, &str),
     (options, varied): (Options, &[String]),
-    (assemble, polynomial): (Assemble<H>, Polynomial<H>),
+    kind: &Kind<'_, H>,
     diagnostics: &Diagnostics,
 ) -> Option<System<H>> {
     let nothing = Names::default();
@@ -201,7 +232,13 @@ fn system<H>(
     let name = name(&root);
     let algebra = group(&root, &name);
     let (coordinates, coordinates_span) = energies::coordinates(&root, algebra.as_ref());
-    let hamiltonian = energies::hamiltonian(&root, algebra.as_ref(), &coordinates, &parameters);
+    let hamiltonian = match kind.given {
+        None => energies::hamiltonian(&root, algebra.as_ref(), &coordinates, &parameters),
+        Some(name) => {
+            let parameters = parameters.all();
+            Energy { source: name.to_owned(), parameters, ..Energy::default() }
+        }
+    };
     let coordinates: Vec<String> = coordinates.into_iter().map(|(name, _)| name).collect();
     let units = units::read(&root, &coordinates);
     let integrator = root.table("integrator");
@@ -219,9 +256,9 @@ fn system<H>(
         assemble_potential("potential".to_owned(), algebra.clone(), None, energy, diagnostics)
     });
     let draft = Draft { name, algebra, coordinates, coordinates_span, hamiltonian, choice };
-    let problem = assemble(draft, diagnostics)?;
-    let Some(known) = polynomial(&problem) else {
-        let what = "the Hamiltonian is no polynomial, and with collocation there is none";
+    let problem = (kind.assemble)(draft, diagnostics)?;
+    let Some(known) = (kind.polynomial)(&problem) else {
+        let what = "steps are made by collocation, and with it there is none";
         let potential = root.get("potential").map(table::span);
         let velocity = velocity.map(|(_, place)| place);
         for (key, place) in [("potential", potential), ("angular_velocity", velocity)] {
@@ -280,6 +317,7 @@ fn choice(table: Option<&Table<'_>>, options: Options, diagnostics: &Diagnostics
             "chart",
             "solver",
             "frame",
+            "method",
             "step",
             "tolerance",
             "region",
@@ -290,11 +328,17 @@ fn choice(table: Option<&Table<'_>>, options: Options, diagnostics: &Diagnostics
             choice.truncation = None;
             given.into_iter().for_each(|(k, place)| choice.set_truncation(k, place, diagnostics));
         }
-        let examples = ["chart = \"exp\"", "solver = \"fixed_point\"", "frame = \"comoving\""];
-        for (key, example) in ["chart", "solver", "frame"].into_iter().zip(examples) {
+        let examples = [
+            ("chart", "chart = \"exp\""),
+            ("solver", "solver = \"fixed_point\""),
+            ("frame", "frame = \"comoving\""),
+            ("method", "method = \"collocation\""),
+        ];
+        for (key, example) in examples {
             if let Some((name, place)) = table.string(key, example)
                 && (key != "chart" || options.chart.is_none())
                 && (key != "frame" || options.frame.is_none())
+                && (key != "method" || options.method.is_none())
             {
                 choice.set_named(key, name, place, diagnostics);
             }
@@ -307,6 +351,7 @@ fn choice(table: Option<&Table<'_>>, options: Options, diagnostics: &Diagnostics
         choice.chart = (chart, Span::Whole);
     }
     choice.solver = options.solver.or(choice.solver);
+    choice.method = options.method.map(|method| (method, Span::Whole)).or(choice.method);
     if let Some(frame) = options.frame {
         choice.frame = (frame, Span::Whole);
     }

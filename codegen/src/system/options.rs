@@ -1,7 +1,7 @@
 //! How a system file is to be read.
 
 use crate::lie::Chart;
-use crate::problem::{FrameChoice, Solver};
+use crate::problem::{FrameChoice, Method, Solver};
 
 /// The treatment of the parameters of a system file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -24,6 +24,8 @@ pub struct Options {
     pub chart: Option<Chart>,
     /// Replaces the solver of the file.
     pub solver: Option<Solver>,
+    /// Replaces the method of the file.
+    pub method: Option<Method>,
     /// Replaces the frame of the file.
     pub frame: Option<FrameChoice>,
 }

@@ -76,6 +76,7 @@ fn options_replace_what_the_file_says() {
         chart: Some(Chart::Exponential),
         solver: None,
         frame: None,
+        method: None,
     };
     let problem = system::read(RIGID_BODY, options).unwrap().problem;
     assert_eq!((problem.truncation, problem.chart), (9, Chart::Exponential));

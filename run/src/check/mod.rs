@@ -5,7 +5,7 @@ mod order;
 
 pub use law::Law;
 
-use coadjoint::groups::{Cayley, Chart, Exponential};
+use coadjoint::groups::{Cayley, Chart, DirectProduct, Exponential, MatrixGroup};
 use coadjoint::steps::advance;
 use coadjoint::{Phase, StepError, laws};
 use coadjoint_codegen::lie;
@@ -15,10 +15,11 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::engine::{
-    Group, Interpreter, Map, STEEP, Steepness, advise, cayley_group, product_group,
+    Group, Interpreter, Map, Numbers, STEEP, Steepness, advise, cayley_group, entries_of, phase_of,
+    product_group,
 };
 use crate::error::RunError;
-use crate::load::Derived;
+use crate::load::{Derived, Expansion, Flow};
 
 /// The step of a system that names none.
 const DEFAULT_STEP: f64 = 0.1;
@@ -62,6 +63,13 @@ impl Trial {
         Ok(Self { step, about, points, seed })
     }
 
+    /// Points at which laws are tried, and starts from which the order is measured.
+    fn states<G: Group>(&self, group: &G) -> (Vec<Phase<G>>, [Phase<G>; STARTS]) {
+        let mut random = ChaCha8Rng::seed_from_u64(self.seed);
+        let mut phase = || random_phase(group, self, &mut random);
+        ((0..self.points).map(|_| phase()).collect(), [(); STARTS].map(|()| phase()))
+    }
+
     /// The points in words.
     pub fn place(&self) -> &'static str {
         match self.about {
@@ -76,17 +84,19 @@ impl Trial {
 /// # Errors
 /// Where a step cannot be made.
 pub fn check(system: &Derived, trial: &Trial) -> Result<(Vec<Law>, Option<f64>), RunError> {
-    let problem = &system.integrator.problem;
-    let group = product_group(&system.file, &problem.algebra)?;
-    match problem.chart {
-        lie::Chart::Exponential => laws_of::<_, Exponential>(system, trial, group),
-        lie::Chart::Cayley => {
-            laws_of::<_, Cayley>(system, trial, cayley_group(&system.file, &group)?)
-        }
+    let group = product_group(&system.file, system.facts().algebra)?;
+    match &system.flow {
+        Flow::Collocation(..) => Ok((laws_of_steps(system, trial, &group)?, None)),
+        Flow::Series(series) => match series.integrator.problem.chart {
+            lie::Chart::Exponential => laws_of::<_, Exponential>(series, trial, group),
+            lie::Chart::Cayley => {
+                laws_of::<_, Cayley>(series, trial, cayley_group(&system.file, &group)?)
+            }
+        },
     }
 }
 
-/// The laws of [`coadjoint::laws::check`] that are printed: its name, ours, and what it says.
+/// The laws of [`coadjoint::laws::check_map`] that are printed: its name, ours, and what it says.
 const LAWS: [(&str, &str, &str); 6] = [
     ("poisson", "Poisson", "DΦ B(μ) DΦᵀ = B(Φ(μ))"),
     ("symplectic", "symplectic", "Φ*ω = ω on T*G"),
@@ -97,15 +107,12 @@ const LAWS: [(&str, &str, &str); 6] = [
 ];
 
 fn laws_of<G: Group, C: Chart<G> + Send + Sync>(
-    system: &Derived,
+    series: &Expansion,
     trial: &Trial,
     group: G,
 ) -> Result<(Vec<Law>, Option<f64>), RunError> {
-    let (integrator, h) = (&system.integrator, trial.step);
-    let mut random = ChaCha8Rng::seed_from_u64(trial.seed);
-    let mut phase = || random_phase(&group, trial, &mut random);
-    let points: Vec<_> = (0..trial.points).map(|_| phase()).collect();
-    let starts = [(); STARTS].map(|()| phase());
+    let (integrator, h) = (&series.integrator, trial.step);
+    let (points, starts) = trial.states(&group);
     let at = |source| RunError::Step { time: 0.0, source };
     let make = |h| Interpreter::<G, C>::new(integrator, group.clone(), h, &[]);
     let there = make(h).map_err(at)?;
@@ -119,23 +126,54 @@ fn laws_of<G: Group, C: Chart<G> + Send + Sync>(
         };
         at(advise(error, h, |h| make(h).is_ok_and(|step| works(&step))))
     })?;
-    let printed = LAWS.iter().filter_map(|&(known, name, statement)| {
-        let law = tried.iter().find(|law| law.name == known)?;
-        let (value, bound, pass) = (law.value, law.bound, law.pass());
-        Some(Law { name, statement, value, bound, pass })
-    });
-    let mut laws: Vec<Law> = printed.collect();
+    let mut laws = printed(&tried);
     let expected = integrator.order() as f64;
     laws.push(order::measure(h, expected, &group, &starts, |h, steps, state| {
         let map = make(h)?;
         (0..steps).try_for_each(|_| advance(&map, state).map(|_| ()))
     }));
-    if let Some(forces) = &system.forces {
+    if let Some(forces) = &series.forces {
         let make = |h| forces.step::<G, C>(integrator, &group, h);
         let expected = forces.splitting.order().min(integrator.order() as u32);
         laws.extend(kicked(h, make, expected.into(), &group, (&points, &starts)).map_err(at)?);
     }
     Ok((laws, ratio))
+}
+
+/// The laws of those tried that are printed.
+fn printed(tried: &[laws::Law]) -> Vec<Law> {
+    let printed = LAWS.iter().filter_map(|&(known, name, statement)| {
+        let law = tried.iter().find(|law| law.name == known)?;
+        let (value, bound, pass) = (law.value, law.bound, law.pass());
+        Some(Law { name, statement, value, bound, pass })
+    });
+    printed.collect()
+}
+
+/// The laws of steps by collocation. Each is made as the first of a run: only then is it a map of the state alone.
+fn laws_of_steps(
+    system: &Derived,
+    trial: &Trial,
+    group: &DirectProduct<MatrixGroup>,
+) -> Result<Vec<Law>, RunError> {
+    let h = trial.step;
+    let (points, starts) = trial.states(group);
+    let at = |source| RunError::Step { time: 0.0, source };
+    let step = |h: f64, count: u32, phase: &mut Phase<DirectProduct<MatrixGroup>>| {
+        let motion = system.steps(h, None)?;
+        let g = motion.space().numbers(&entries_of(group, &phase.group_element));
+        let mut state = Numbers { g, mu: phase.momentum.as_slice().to_vec() };
+        motion.advance(&mut state, 0, count.into()).map_err(|(_, error)| error)?;
+        *phase = phase_of(group, &motion.space().matrix(&state.g), &state.mu);
+        Ok(())
+    };
+    let (mut there, mut back) =
+        (|phase: &mut _| step(h, 1, phase), |phase: &mut _| step(-h, 1, phase));
+    let mut laws =
+        printed(&laws::check_map(group, &mut there, Some(&mut back), &points).map_err(at)?);
+    let expected = f64::from(system.order());
+    laws.push(order::measure(h, expected, group, &starts, step));
+    Ok(laws)
 }
 
 /// The laws that are left to the whole step where a potential breaks the symmetry.

@@ -7,7 +7,6 @@ use coadjoint_codegen::system::Options;
 use num_traits::ToPrimitive;
 
 use super::*;
-use crate::engine::Equations;
 use crate::load::read_varying;
 
 /// A system, the parameters in which it is differentiated, a momentum, and a step.
@@ -110,8 +109,7 @@ fn coordinates(algebra: &LieAlgebra, g: &[f64], change: &[f64]) -> DVector<f64> 
 
 /// The state after steps by the generic solver, its matrix by rows, with other values of the parameters.
 fn end(case: &Case, system: &Derived, parameters: Vec<f64>, start: Numbers, steps: u64) -> Numbers {
-    let equations = Equations { parameters, ..system.equations() };
-    let motion = system.charted().unwrap().steps(equations, case.step, None);
+    let motion = system.varied(case.step, &parameters, None).unwrap();
     let mut state = start;
     motion.advance(&mut state, 0, steps).unwrap();
     state
@@ -129,8 +127,8 @@ fn whole(derivatives: &Derivatives<'_>) -> DMatrix<f64> {
 fn tangents_are_the_derivatives_of_runs() {
     for case in &CASES {
         let system = case.system();
-        let algebra = &system.integrator.problem.algebra;
-        let (theta, n) = (system.equations().parameters, algebra.dim());
+        let algebra = system.facts().algebra;
+        let (theta, n) = (system.facts().defaults(), algebra.dim());
         let mut derivatives = Derivatives::new(&system, &case.setup(4)).unwrap();
         // From an attitude other than the identity.
         let mut moved = derivatives.start.clone();
@@ -174,8 +172,8 @@ fn tangents_are_the_derivatives_of_runs() {
 fn tangents_of_a_step_are_those_in_doubled_precision() {
     for case in &CASES[..2] {
         let system = case.system();
-        let problem = &system.integrator.problem;
-        let (theta, n) = (system.equations().parameters, problem.algebra.dim());
+        let problem = &system.series().unwrap().integrator.problem;
+        let (theta, n) = (system.facts().defaults(), problem.algebra.dim());
         let judge = Judge::of_problem(problem, TermLimit::default()).unwrap();
         let at = |column: usize, s: f64| {
             let (mut theta, mut mu) = (theta.clone(), case.momentum.to_vec());
@@ -249,7 +247,7 @@ fn tangents_are_symplectic_and_adjoints_are_their_transposes() {
         }
         assert!(adjoint.kept as u64 <= 2 * steps.isqrt() + 2, "{} states", adjoint.kept);
 
-        let algebra = &system.integrator.problem.algebra;
+        let algebra = system.facts().algebra;
         let mut state = derivatives.start.clone();
         derivatives.motion.advance(&mut state, 0, steps).unwrap();
         let tangent = found.columns(0, 2 * n).into_owned();

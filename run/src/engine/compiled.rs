@@ -5,10 +5,8 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use coadjoint::StepError;
 use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::problem::Problem;
 use coadjoint_codegen::step::{Spatial, Step};
 use coadjoint_program::{Kernel, Outcome, Trajectories, WIDTH};
-use num_traits::ToPrimitive;
 
 use super::interpreter::{STEEP, coefficients, refusal, symbols};
 use crate::backend::{Backend, Code};
@@ -151,7 +149,7 @@ impl Compiled {
             ));
         }
         let backend = if large { Backend::Interpreter } else { backend };
-        let folded = fold(integrator, step, size, &defaults(&integrator.problem));
+        let folded = fold(integrator, step, size, &integrator.problem.facts().defaults());
         let folded = folded.map_err(|source| RunError::Step { time: 0.0, source })?;
         let framed = parts.frame.is_some();
         let code = match kept.find(backend, trajectories) {
@@ -307,12 +305,6 @@ fn fold(
     let folded = step.fold_rows(size, &symbols, STEEP);
     let (slots, quiet) = folded.map_err(|error| refusal(error, size, &symbols))?;
     Ok(Folded { slots, quiet })
-}
-
-/// The values that the parameters of a problem have in its file.
-pub fn defaults(problem: &Problem) -> Vec<f64> {
-    let values = problem.parameters.iter().flat_map(|parameter| parameter.default.iter().flatten());
-    values.map(|value| value.to_f64().unwrap_or(f64::NAN)).collect()
 }
 
 fn note(total: &mut Outcome, corrections: u32, residual: f64) {

@@ -2,6 +2,7 @@
 
 mod advise;
 mod card;
+mod collocation;
 mod compiled;
 mod group;
 mod interpreter;
@@ -15,7 +16,8 @@ mod tangent;
 
 pub use advise::advise;
 pub use card::{card, device_text};
-pub use compiled::{Compiled, Folded, Kept, Numbers, Solves, defaults};
+pub(crate) use collocation::collocated;
+pub use compiled::{Compiled, Folded, Kept, Numbers, Solves};
 pub use group::{cayley_group, product_group, whole_group};
 pub(crate) use interpreter::Interpreter;
 pub use interpreter::STEEP;

@@ -55,6 +55,14 @@ pub trait Motion: Send + Sync {
         None
     }
 
+    /// Whether the Hamiltonian is defined in a state.
+    ///
+    /// # Errors
+    /// The expression in it that is not.
+    fn defined(&self, _: &Numbers) -> Result<(), StepError> {
+        Ok(())
+    }
+
     /// The programs that move many states side by side, where there are any.
     fn lanes(&self) -> Option<&Compiled> {
         None

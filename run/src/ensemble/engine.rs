@@ -5,8 +5,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use coadjoint::StepError;
 use coadjoint_codegen::problem::{Parameter, Solver};
+use coadjoint_codegen::smooth::Hamiltonian;
 use coadjoint_codegen::step::{Invariants, nudge};
-use coadjoint_codegen::system::System;
 use coadjoint_native::cards::{Card, Device};
 use coadjoint_program::{Precision, Trajectories, WIDTH};
 use rayon::prelude::*;
@@ -15,9 +15,9 @@ use super::drift::{Drift, larger};
 use super::layout::{Attitude, Layout, Shape};
 use super::march::{March, STRETCH, Way};
 use crate::backend::Backend;
-use crate::engine::{Charted, Compiled, Equations, Motion, Numbers, STEEP, Varied, card, identity};
+use crate::engine::{Compiled, Motion, Numbers, STEEP, Varied, card, identity};
 use crate::error::RunError;
-use crate::load::Derived;
+use crate::load::{Derived, System};
 use crate::number::shortest;
 use crate::simulate::{Stop, estimate};
 
@@ -32,7 +32,9 @@ pub fn in_lanes(mut system: System) -> Result<System, RunError> {
             "the event `{name}`: ensembles do not look for events; leave [[event]] out, or use simulate"
         )));
     }
-    system.problem.solver = Some(Solver::Newton);
+    if let Hamiltonian::Polynomial(problem) = &mut system.problem {
+        problem.solver = Some(Solver::Newton);
+    }
     Ok(system)
 }
 
@@ -142,8 +144,9 @@ pub struct How {
 
 /// Advances rows of states of one system by steps of one size.
 pub struct Engine<'a> {
-    group: Charted,
-    equations: Equations<'a>,
+    system: &'a Derived,
+    /// The values of the parameters that are kept, as the file has them.
+    parameters: Vec<f64>,
     step: f64,
     /// With the parameters as the file has them.
     motion: Box<dyn Motion + 'a>,
@@ -164,30 +167,36 @@ impl<'a> Engine<'a> {
     /// # Errors
     /// Where the step makes no sense, or the backend or device that the user named cannot be had.
     pub fn new(system: &'a Derived, step: f64, how: How) -> Result<Self, RunError> {
-        let Derived { integrator, kept, .. } = system;
-        let (group, equations) = (system.charted()?, system.equations());
         // Lanes have their coefficients in common.
-        let (trajectories, work) = if integrator.problem.parameters.is_empty() {
+        let alike = system.facts().parameters.is_empty();
+        let (trajectories, work) = if alike && system.series().is_some() {
             (Trajectories::Lanes, how.work)
         } else if how.device.is_some() {
-            let what = "--device: parameters that vary from row to row are not made on devices";
+            let what = match alike {
+                true => "--device: steps by collocation are not made on devices",
+                false => "--device: parameters that vary from row to row are not made on devices",
+            };
             return Err(RunError::Option(what.to_owned()));
         } else {
             (Trajectories::One, how.work * WIDTH as f64)
         };
-        let compiled = Compiled::new(integrator, step, how.backend, work, trajectories, kept)?;
-        let card = how.device.map(|asked| card(integrator, step, asked.device, asked.precision));
+        let compiled = system.compiled(step, how.backend, work, trajectories)?;
+        let asked = how.device.and_then(|asked| Some((&system.series()?.integrator, asked)));
+        let card =
+            asked.map(|(integrator, asked)| card(integrator, step, asked.device, asked.precision));
         let card = card.transpose()?.map(Mutex::new);
-        let motion = group.steps(equations.clone(), step, compiled.clone());
+        let motion = system.steps(step, compiled.as_ref());
+        let motion = motion.map_err(|source| RunError::Step { time: 0.0, source })?;
         let identity = motion.space().numbers(&identity(motion.space().size()));
         // Energies are not measured.
         let invariants =
             Invariants { hamiltonian: None, potential: None, ..system.invariants.clone() };
         let redone = AtomicU64::new(0);
         let order = system.order();
+        let parameters = system.facts().defaults();
         Ok(Self {
-            group,
-            equations,
+            system,
+            parameters,
             step,
             motion,
             compiled,
@@ -201,7 +210,7 @@ impl<'a> Engine<'a> {
 
     /// The shape of a row.
     pub fn shape(&self) -> Shape {
-        let algebra = &self.equations.integrator.problem.algebra;
+        let algebra = self.system.facts().algebra;
         Shape { matrix_size: self.motion.space().size(), ..Shape::of(algebra) }
     }
 
@@ -273,7 +282,8 @@ impl<'a> Engine<'a> {
                 Err(reason) => rows.rejected.push(Rejected { row, step: 0, reason }),
             }
         }
-        let ways = if layout.parameters.is_empty() {
+        // Steps by collocation go by those before them, so that each row has its own.
+        let ways = if layout.parameters.is_empty() && self.system.series().is_some() {
             self.march(before.clone(), course, watch)?
         } else {
             let own = places.iter().map(|place| &rows.values[place * width..][state..width]);
@@ -379,14 +389,13 @@ impl<'a> Engine<'a> {
 
     /// The place of each parameter among the columns of those that vary, where it does.
     fn places(&self, layout: &Layout) -> Vec<Option<usize>> {
-        let parameters = &self.equations.integrator.problem.parameters;
-        let names = parameters.iter().flat_map(Parameter::scalar_names);
+        let names = self.system.facts().parameters.iter().flat_map(Parameter::scalar_names);
         names.map(|name| layout.parameters.iter().position(|column| *column == name)).collect()
     }
 
     /// The values of all parameters with those of a row.
     fn parameters(&self, places: &[Option<usize>], own: &[f64]) -> Vec<f64> {
-        let values = self.equations.parameters.iter().zip(places);
+        let values = self.parameters.iter().zip(places);
         values.map(|(&value, place)| place.map_or(value, |place| own[place])).collect()
     }
 
@@ -401,8 +410,7 @@ impl<'a> Engine<'a> {
         let estimate = |row: &&[f64]| {
             let start = self.read(layout, row)?;
             let parameters = self.parameters(&places, &row[layout.state()..]);
-            let equations = Equations { parameters, ..self.equations.clone() };
-            let of = |size| self.group.anew(equations.clone(), size, self.compiled.as_ref());
+            let of = |size| self.system.varied(size, &parameters, self.compiled.as_ref());
             let motion = of(self.step).map_err(|error| error.to_string())?;
             let mut end = start.clone();
             let made = motion.advance(&mut end, 0, steps);
@@ -417,8 +425,7 @@ impl<'a> Engine<'a> {
     /// The shorter steps to each stop, where there is one.
     fn shorter(&self, course: &Course) -> Result<Vec<Option<Box<dyn Motion + 'a>>>, StepError> {
         let shorter = |stop: &Stop| {
-            let equations = self.equations.clone();
-            let motion = || self.group.anew(equations, stop.part, self.compiled.as_ref());
+            let motion = || self.system.varied(stop.part, &self.parameters, self.compiled.as_ref());
             (stop.part != 0.0).then(motion).transpose()
         };
         course.stops.iter().map(shorter).collect()
@@ -505,14 +512,14 @@ impl<'a> Engine<'a> {
         course: &Course,
         watch: &Watch<'_>,
     ) -> Vec<Way> {
-        let (integrator, places) = (self.equations.integrator, self.places(layout));
+        let (series, places) = (self.system.series(), self.places(layout));
         let parts = course.stops.iter().map(|stop| stop.part);
         let sizes: Vec<f64> = [self.step].into_iter().chain(parts).collect();
-        // The steps, and the shorter ones to each stop, where there are any.
+        // The steps, and the shorter ones to each stop, where there are any: those of size 0 are not made.
         let motions = || {
-            let steps =
-                |&size| self.group.steps(self.equations.clone(), size, self.compiled.clone());
-            sizes.iter().map(steps).collect::<Vec<Box<dyn Varied>>>()
+            let size = |&size: &f64| if size == 0.0 { self.step } else { size };
+            let steps = |size| self.system.steps(size, self.compiled.as_ref()).ok();
+            sizes.iter().map(size).filter_map(steps).collect::<Vec<Box<dyn Varied>>>()
         };
         let stop = watch.stop;
         let advance = |motions: &mut Vec<Box<dyn Varied>>, (ways, own): (&mut [Way], &[&[f64]])| {
@@ -520,7 +527,9 @@ impl<'a> Engine<'a> {
             let parameters: Vec<Vec<f64>> = parameters.collect();
             let fold = |&size: &f64| {
                 let compiled = self.compiled.as_ref().filter(|_| size != 0.0);
-                let rows = compiled.map(|own| own.fold_rows(integrator, size, &parameters));
+                let rows = compiled.zip(series);
+                let rows =
+                    rows.map(|(own, series)| own.fold_rows(&series.integrator, size, &parameters));
                 rows.unwrap_or_default().into_iter()
             };
             let mut folded: Vec<_> = sizes.iter().map(fold).collect();

@@ -4,12 +4,13 @@ use std::collections::HashMap;
 
 use coadjoint::{LieGroup, SO3};
 use coadjoint_codegen::lie::LieAlgebra;
-use coadjoint_codegen::problem::{Parameter, Problem};
-use coadjoint_codegen::system::System;
+use coadjoint_codegen::problem::Parameter;
+use coadjoint_codegen::smooth::Facts;
 use coadjoint_learn::DataGroup;
 use nalgebra::UnitQuaternion;
 
 use crate::error::RunError;
+use crate::load::System;
 
 /// How far an attitude may be from the group, as for `coadjoint learn`: far above rounding in files, far below noise.
 const TOLERANCE: f64 = 1e-6;
@@ -45,9 +46,10 @@ impl Shape {
 
     /// Of a system: with a potential, its group is no product of factors.
     pub fn of_system(system: &System) -> Self {
-        let shape = Self::of(&system.problem.algebra);
+        let algebra = system.problem.facts().algebra;
+        let shape = Self::of(algebra);
         match system.potential {
-            Some(_) => Self { matrix_size: system.problem.algebra.matrix_size(), ..shape },
+            Some(_) => Self { matrix_size: algebra.matrix_size(), ..shape },
             None => shape,
         }
     }
@@ -66,12 +68,12 @@ pub struct Known {
 }
 
 impl Known {
-    /// By this problem, and all parameters of its file.
-    pub fn of(problem: &Problem, parameters: &[Parameter]) -> Self {
+    /// By these facts, and all parameters of the system's file.
+    pub fn of(facts: &Facts<'_>, parameters: &[Parameter]) -> Self {
         Self {
-            coordinates: problem.coordinates.clone(),
+            coordinates: facts.coordinates.to_vec(),
             parameters: parameters.to_vec(),
-            blocks: problem.algebra.factors().iter().map(LieAlgebra::matrix_size).collect(),
+            blocks: facts.algebra.factors().iter().map(LieAlgebra::matrix_size).collect(),
         }
     }
 

@@ -55,6 +55,27 @@ pub(crate) fn estimate<'a>(
     Err("not known: steps of twice and of half the size are refused")
 }
 
+/// The same for a run from `start` in steps of this size over this time, which `make` makes.
+///
+/// # Errors
+/// Why there is no estimate.
+pub(crate) fn estimate_from<'a>(
+    make: impl Fn(f64) -> Result<Box<dyn Motion + 'a>, StepError>,
+    start: &Numbers,
+    (step, duration): (f64, f64),
+    order: u32,
+) -> Result<f64, &'static str> {
+    let refused = "not known: steps are refused";
+    let motion = make(step).map_err(|_| refused)?;
+    let steps = (duration / step).round() as u64;
+    let mut end = start.clone();
+    // The end of a run that is not gone along as a whole is not looked at.
+    if steps <= 2 * MOST + 1 {
+        motion.advance(&mut end, 0, steps).map_err(|_| refused)?;
+    }
+    estimate(motion.as_ref(), |size| make(step * size), [start, &end], steps, order)
+}
+
 impl Outcome {
     /// Takes note of an estimate, with a warning where it is large.
     pub(crate) fn estimated(&mut self, found: Result<f64, &'static str>, sink: &mut dyn Sink) {

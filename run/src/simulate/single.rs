@@ -7,7 +7,7 @@ use coadjoint_program::Trajectories;
 
 use super::setup::not_an_element;
 use crate::backend::Backend;
-use crate::engine::{Charted, Compiled, Motion, Numbers};
+use crate::engine::{Compiled, Motion, Numbers};
 use crate::error::RunError;
 use crate::load::Derived;
 
@@ -18,8 +18,9 @@ const SAME: f64 = 1e-12;
 #[derive(Debug)]
 pub struct Single<S> {
     system: S,
-    group: Charted,
     step: f64,
+    /// Rows of the group's matrices.
+    size: usize,
     compiled: Option<Arc<Compiled>>,
 }
 
@@ -29,10 +30,11 @@ impl<S: AsRef<Derived>> Single<S> {
     /// # Errors
     /// Where the step makes no sense, or the backend asked for cannot be had.
     pub fn new(system: S, step: f64, backend: Backend, steps: f64) -> Result<Self, RunError> {
-        let derived = system.as_ref();
-        let (integrator, kept) = (&derived.integrator, &derived.kept);
-        let compiled = Compiled::new(integrator, step, backend, steps, Trajectories::One, kept)?;
-        Ok(Self { group: derived.charted()?, system, step, compiled })
+        let compiled = system.as_ref().compiled(step, backend, steps, Trajectories::One)?;
+        let motion = system.as_ref().steps(step, compiled.as_ref()).map_err(not_made)?;
+        let size = motion.space().size();
+        drop(motion);
+        Ok(Self { system, step, size, compiled })
     }
 
     /// The backend that makes the steps.
@@ -40,14 +42,13 @@ impl<S: AsRef<Derived>> Single<S> {
         Compiled::maker(self.compiled.as_deref())
     }
 
-    fn motion(&self) -> Box<dyn Motion + '_> {
-        let equations = self.system.as_ref().equations();
-        self.group.steps(equations, self.step, self.compiled.clone())
+    fn motion(&self) -> Result<Box<dyn Motion + '_>, StepError> {
+        Ok(self.system.as_ref().steps(self.step, self.compiled.as_ref())?)
     }
 
     /// Rows of the group's matrices.
     pub fn matrix_size(&self) -> usize {
-        self.motion().space().size()
+        self.size
     }
 
     /// The matrix, row by row, of the element of the group that this one is, up to rounding; one that is an element to
@@ -56,7 +57,7 @@ impl<S: AsRef<Derived>> Single<S> {
     /// # Errors
     /// Where it is none.
     pub fn element(&self, matrix: &[f64]) -> Result<Vec<f64>, RunError> {
-        let found = self.motion().space().nearest(matrix);
+        let found = self.motion().map_err(not_made)?.space().nearest(matrix);
         let found = found.map_err(|error| not_an_element(&self.system.as_ref().file, &error))?;
         let far = found.iter().zip(matrix).any(|(a, b)| (a - b).abs() > SAME * (1.0 + a.abs()));
         Ok(if far { found } else { matrix.to_vec() })
@@ -73,11 +74,15 @@ impl<S: AsRef<Derived>> Single<S> {
         mu: &mut [f64],
         steps: u64,
     ) -> Result<(), (u64, StepError)> {
-        let motion = self.motion();
+        let motion = self.motion().map_err(|error| (1, error))?;
         let mut state = Numbers { g: motion.space().numbers(matrix), mu: mu.to_vec() };
         let made = motion.advance(&mut state, 0, steps);
         matrix.copy_from_slice(&motion.space().matrix(&state.g));
         mu.copy_from_slice(&state.mu);
         made.map(drop).map_err(|(done, error)| (done + 1, error))
     }
+}
+
+fn not_made(source: StepError) -> RunError {
+    RunError::Step { time: 0.0, source }
 }

@@ -49,7 +49,8 @@ impl Columns {
     ) -> Result<Self, RunError> {
         let (shape, names) = (Shape::of(&problem.algebra), table.names());
         let shape = Shape { quaternions: shape.dim == 3 && shape.matrix_size == 3, ..shape };
-        let found = Found::of(shape, &Known::of(problem, parameters), names, table.width());
+        let found =
+            Found::of(shape, &Known::of(&problem.facts(), parameters), names, table.width());
         let found = found.map_err(|error| refused(table, error))?;
         if let Some(name) = found.layout.parameters.first() {
             let what =
@@ -103,7 +104,14 @@ impl Invariants {
     /// Of a problem whose parameters have values.
     pub(crate) fn new(problem: &Problem) -> Result<Self, RunError> {
         let group = product_group(Path::new(&problem.name), &problem.algebra)?;
-        Ok(Self { functions: step::Invariants::new(problem, None), group })
+        Ok(Self {
+            functions: step::Invariants::new(
+                &problem.algebra,
+                step::Energy::of_polynomial(problem),
+                None,
+            ),
+            group,
+        })
     }
 
     /// The energy of a momentum, and the sum of the absolute values of its terms.

@@ -10,7 +10,6 @@ use crate::group::phase::Phase;
 use crate::linear::coordinates::Coordinates;
 use crate::solve::Integrator;
 use crate::solve::solve;
-use crate::step::{advance, poisson_map};
 
 /// Weights of the central difference of eighth order at ±1, ±2, ±3, ±4 steps
 /// (B. Fornberg, Math. Comp. 51 (1988) 699, table 1).
@@ -47,18 +46,17 @@ fn shifted<V: Coordinates<f64>>(v: &V, i: usize, by: f64) -> V {
 
 /// DΦ B(μ) DΦᵀ = B(Φ(μ)), with B_jk(μ) = −⟨μ, [e_j, e_k]⟩: the largest difference of an entry,
 /// relative to the largest entry of B or of the products summed.
-pub(super) fn poisson_defect<S>(map: &S, mu: &VectorOf<S>) -> Result<f64, StepError>
-where
-    S: Integrator,
-    S::Group: LieGroup<Scalar = f64>,
-{
-    let group = map.group();
+pub(super) fn poisson_defect<G: LieGroup<Scalar = f64>>(
+    group: &G,
+    mu: &G::Vector,
+    map: &mut dyn FnMut(&G::Vector) -> Result<G::Vector, StepError>,
+) -> Result<f64, StepError> {
     let dim = group.dim();
-    let image = poisson_map(map, mu)?;
+    let image = map(mu)?;
     let step = STEP * mu.largest_entry().max(f64::MIN_POSITIVE);
     let mut columns = Vec::with_capacity(dim);
     for i in 0..dim {
-        let mut image = |s: f64| poisson_map(map, &shifted(mu, i, s)).map(|image| Some([image]));
+        let mut image = |s: f64| map(&shifted(mu, i, s)).map(|image| Some([image]));
         if let Some([column]) = derivative(dim, step, &mut image)? {
             columns.push(column);
         }
@@ -106,21 +104,19 @@ struct Tangent<V> {
 }
 
 /// Φ\*ω = ω on T\*G, ω((ξ₁, ν₁), (ξ₂, ν₂)) = ⟨ν₂, ξ₁⟩ − ⟨ν₁, ξ₂⟩ + ⟨μ, [ξ₁, ξ₂]⟩: the largest
-/// difference on pairs of basis vectors, relative to the largest pairing. Where the group has no
-/// logarithm (adjoint matrices of an algebra with a centre), the chart gives the derivative.
-pub(super) fn symplectic_defect<S>(map: &S, point: &Phase<S::Group>) -> Result<f64, StepError>
+/// difference on pairs of basis vectors, relative to the largest pairing, where the group has no logarithm (adjoint
+/// matrices of an algebra with a centre): the chart gives the derivative.
+pub(super) fn symplectic_defect_in_chart<S>(
+    map: &S,
+    point: &Phase<S::Group>,
+) -> Result<f64, StepError>
 where
     S: Integrator,
     S::Group: LieGroup<Scalar = f64>,
 {
-    let group = map.group();
-    let by_logarithm =
-        symplectic_defect_of(group, point, &mut |state| advance(map, state).map(|_| ()))?;
-    if let Some(defect) = by_logarithm {
-        return Ok(defect);
-    }
     let image = generated(map, &point.momentum)?.1;
-    Ok(form_defect(group, &point.momentum, &image, &pairs_by_chart(map, &point.momentum)?))
+    let pairs = pairs_by_chart(map, &point.momentum)?;
+    Ok(form_defect(map.group(), &point.momentum, &image, &pairs))
 }
 
 /// x and μ″ of the map of S alone: the frame moves by exact flows of functions of μ.

@@ -18,7 +18,7 @@ use crate::solve::Integrator;
 use crate::step::monitor::Monitor;
 use crate::step::{advance, poisson_map};
 
-use differences::{poisson_defect, symplectic_defect};
+use differences::{poisson_defect, symplectic_defect_in_chart};
 
 pub use differences::symplectic_defect_of;
 pub use order::{OrderError, measured_order};
@@ -47,9 +47,7 @@ const DIFFERENCES: f64 = 1e-9;
 /// The bound of laws that hold to rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// Tries every law at each of `points` and returns the worst defects: `poisson`, `symplectic`,
-/// `equivariant`, `momentum`, `casimirs`, `diagram`, `inverse`, and, where the map of the negative
-/// step is given, `symmetric`.
+/// Tries every law at each of `points` and returns the worst defects: those of [`check_map`] and `inverse`.
 ///
 /// # Errors
 /// [`StepError`] where a map cannot be made.
@@ -62,49 +60,90 @@ where
     S: Integrator,
     S::Group: LieGroup<Scalar = f64>,
 {
-    let mut laws: Vec<Law> = Vec::new();
-    let mut note = |name: &'static str, value: f64, bound: f64| {
-        match laws.iter_mut().find(|law| law.name == name) {
-            // NaN must stay.
-            Some(law) if law.value.is_nan() || value <= law.value => {}
-            Some(law) => law.value = value,
-            None => laws.push(Law { name, value, bound }),
+    let mut there = |phase: &mut Phase<S::Group>| advance(map, phase).map(|_| ());
+    let mut laws = match backward {
+        None => check_map(map.group(), &mut there, None, points)?,
+        Some(backward) => {
+            let mut back = |phase: &mut Phase<S::Group>| advance(backward, phase).map(|_| ());
+            check_map(map.group(), &mut there, Some(&mut back), points)?
         }
     };
-    let group = map.group();
+    let by_logarithm = laws.iter().any(|law| law.name == "symplectic");
+    for point in points {
+        if !by_logarithm {
+            note(&mut laws, "symplectic", symplectic_defect_in_chart(map, point)?, DIFFERENCES);
+        }
+        let covered = poisson_map(map, &point.momentum)?;
+        let back = poisson_map(&Reversed(map), &covered)?;
+        note(&mut laws, "inverse", relative(&back, &point.momentum), ROUNDING);
+    }
+    Ok(laws)
+}
+
+/// Makes a step of a state.
+pub type Advance<'a, G> = dyn FnMut(&mut Phase<G>) -> Result<(), StepError> + 'a;
+
+/// Tries the laws that any map of T\*G must pass, given as that which advances a state, at each of `points` and returns the
+/// worst defects: `poisson`, `symplectic` (where the group has a logarithm), `equivariant`, `momentum`, `casimirs`,
+/// `diagram`, and, where the map of the negative step is given, `symmetric`.
+///
+/// # Errors
+/// [`StepError`] where a step cannot be made.
+pub fn check_map<G: LieGroup<Scalar = f64>>(
+    group: &G,
+    there: &mut Advance<'_, G>,
+    mut back: Option<&mut Advance<'_, G>>,
+    points: &[Phase<G>],
+) -> Result<Vec<Law>, StepError> {
+    let mut laws: Vec<Law> = Vec::new();
     for (at, point) in points.iter().enumerate() {
-        note("poisson", poisson_defect(map, &point.momentum)?, DIFFERENCES);
-        note("symplectic", symplectic_defect(map, point)?, DIFFERENCES);
+        let mut covered = |mu: &G::Vector| {
+            let mut state = Phase::<G>::new(group.identity(), mu.clone());
+            there(&mut state).map(|()| state.momentum)
+        };
+        let defect = poisson_defect(group, &point.momentum, &mut covered)?;
+        note(&mut laws, "poisson", defect, DIFFERENCES);
+        let covered = covered(&point.momentum)?;
+        if let Some(defect) = symplectic_defect_of(group, point, there)? {
+            note(&mut laws, "symplectic", defect, DIFFERENCES);
+        }
 
         let mut image = point.clone();
-        advance(map, &mut image)?;
+        there(&mut image)?;
         // Φ(k·α) = k·Φ(α) for some k other than the point's own element; the last point is its own neighbour's.
         let k = points.get(at + 1).map_or(&point.group_element, |next| &next.group_element);
         let mut moved = Phase::new(group.compose(k, &point.group_element), point.momentum.clone());
-        advance(map, &mut moved)?;
+        there(&mut moved)?;
         let element = group.compose(k, &image.group_element);
         let difference = element_difference(group, &moved.group_element, &element);
         let difference = difference.worse(relative(&moved.momentum, &image.momentum));
-        note("equivariant", difference, ROUNDING);
+        note(&mut laws, "equivariant", difference, ROUNDING);
         // J_L(Φ(α)) = J_L(α)
         let spatial = relative(&image.spatial_momentum(group), &point.spatial_momentum(group));
-        note("momentum", spatial, ROUNDING);
+        note(&mut laws, "momentum", spatial, ROUNDING);
         // C(Φ(μ)) = C(μ), relative to the scale of `Drift::casimirs`.
         let mut monitor = Monitor::new(group.clone(), point, 1.0);
         monitor.observe(&image, 1.0);
-        note("casimirs", monitor.drift().casimirs, ROUNDING);
+        note(&mut laws, "casimirs", monitor.drift().casimirs, ROUNDING);
         // J_R∘Φ̂ = Φ∘J_R: the map of T\*G covers that of 𝔤\*.
-        let covered = poisson_map(map, &point.momentum)?;
-        note("diagram", relative(&image.momentum, &covered), ROUNDING);
+        note(&mut laws, "diagram", relative(&image.momentum, &covered), ROUNDING);
         // Φ_{−h}∘Φ_h = id
-        let back = poisson_map(&Reversed(map), &covered)?;
-        note("inverse", relative(&back, &point.momentum), ROUNDING);
-        if let Some(backward) = backward {
-            let back = poisson_map(backward, &covered)?;
-            note("symmetric", relative(&back, &point.momentum), ROUNDING);
+        if let Some(back) = &mut back {
+            back(&mut image)?;
+            note(&mut laws, "symmetric", relative(&image.momentum, &point.momentum), ROUNDING);
         }
     }
     Ok(laws)
+}
+
+/// Takes note of a defect.
+fn note(laws: &mut Vec<Law>, name: &'static str, value: f64, bound: f64) {
+    match laws.iter_mut().find(|law| law.name == name) {
+        // NaN must stay.
+        Some(law) if law.value.is_nan() || value <= law.value => {}
+        Some(law) => law.value = value,
+        None => laws.push(Law { name, value, bound }),
+    }
 }
 
 /// The largest difference of two vectors, relative to the larger of them.

@@ -6,7 +6,7 @@ use crate::lie::{LieAlgebra, watched_casimirs};
 use crate::poly::Numeric;
 use crate::potential::Potential;
 use crate::problem::{Problem, values};
-use crate::smooth::Smooth;
+use crate::smooth::{Hamiltonian, Smooth};
 
 /// The largest differences from the start, each relative to its [scale](Scales). `None` where a quantity is not known, is
 /// not conserved, or cannot be measured: an unknown drift is never 0.
@@ -56,7 +56,25 @@ pub enum Energy {
 }
 
 impl Energy {
-    /// The value at μ.
+    /// A polynomial without parameters.
+    #[must_use]
+    pub fn of_polynomial(problem: &Problem) -> Self {
+        let Problem { hamiltonian, algebra, symbols, .. } = problem;
+        Self::Polynomial(Numeric::new(hamiltonian, algebra.dim(), &values(symbols)))
+    }
+
+    /// A Hamiltonian; a smooth one with the values that its input gives the parameters.
+    #[must_use]
+    pub fn new(hamiltonian: &Hamiltonian) -> Self {
+        match hamiltonian {
+            Hamiltonian::Polynomial(problem) => Self::of_polynomial(problem),
+            Hamiltonian::Smooth(smooth) => {
+                Self::Smooth(smooth.clone(), smooth.symbols_at(&smooth.facts().defaults()))
+            }
+        }
+    }
+
+    /// The value at μ; at time 0 where it moves in time.
     #[must_use]
     pub fn value(&self, mu: &[f64]) -> f64 {
         match self {
@@ -74,12 +92,15 @@ impl Energy {
         }
     }
 
-    /// The polynomial, where it is one.
+    /// ∂H/∂μ in `dim` coordinates; at time 0 where it moves in time.
     #[must_use]
-    pub fn polynomial(&self) -> Option<&Numeric> {
+    pub fn gradient(&self, dim: usize) -> Box<dyn Fn(&[f64]) -> Vec<f64> + '_> {
         match self {
-            Self::Polynomial(polynomial) => Some(polynomial),
-            Self::Smooth(..) => None,
+            Self::Polynomial(polynomial) => {
+                let slopes = polynomial.gradient(dim);
+                Box::new(move |mu| slopes.iter().map(|slope| slope.value(mu)).collect())
+            }
+            Self::Smooth(smooth, symbols) => Box::new(|mu| smooth.gradient(symbols, 0.0, mu)),
         }
     }
 }
@@ -108,28 +129,19 @@ impl Invariants {
         Self { casimirs: casimirs.collect(), ..Self::default() }
     }
 
-    /// Of the motion in this smooth system, whose symbols have these values.
+    /// Of the motion with this Hamiltonian, with the kicks of a potential if there is one.
     #[must_use]
-    pub fn of_smooth(smooth: &Smooth, symbols: Vec<f64>) -> Self {
-        let of_algebra = Self::of(&smooth.algebra);
-        if smooth.moves {
-            let why = "not conserved: the Hamiltonian depends on time";
-            return Self { no_energy: Some(why), ..of_algebra };
-        }
-        let energy = Energy::Smooth(Box::new(smooth.clone()), symbols);
-        Self { hamiltonian: Some(energy), ..of_algebra }
-    }
-
-    /// Of the motion in this problem, with the kicks of a potential if there is one.
-    #[must_use]
-    pub fn new(problem: &Problem, potential: Option<&Potential>) -> Self {
-        let dim = problem.algebra.dim();
-        let hamiltonian = Numeric::new(&problem.hamiltonian, dim, &values(&problem.symbols));
-        let hamiltonian = Energy::Polynomial(hamiltonian);
+    pub fn new(algebra: &LieAlgebra, hamiltonian: Energy, potential: Option<&Potential>) -> Self {
+        let dim = algebra.dim();
         let Some(potential) = potential else {
-            return Self { hamiltonian: Some(hamiltonian), ..Self::of(&problem.algebra) };
+            let of_algebra = Self::of(algebra);
+            if matches!(&hamiltonian, Energy::Smooth(smooth, _) if smooth.moves) {
+                let why = "not conserved: the Hamiltonian depends on time";
+                return Self { no_energy: Some(why), ..of_algebra };
+            }
+            return Self { hamiltonian: Some(hamiltonian), ..of_algebra };
         };
-        let kept = watched_casimirs(&problem.algebra).into_iter();
+        let kept = watched_casimirs(algebra).into_iter();
         let kept = kept.filter(|casimir| potential.keeps(casimir));
         let direction = |xi: Vec<crate::number::Rational>| {
             let xi: Vec<f64> = xi.iter().map(|x| x.to_f64().unwrap_or(f64::NAN)).collect();

@@ -62,8 +62,9 @@ pub struct Choice {
     pub comoving: bool,
     /// h; it divides the duration.
     pub step: f64,
-    /// h^{K+1} max |∂S_{K+2}|: the error the first missing term makes per unit time.
-    pub next_term: f64,
+    /// h^{K+1} max |∂S_{K+2}|: the error the first missing term makes per unit time; none with collocation, which has no
+    /// series.
+    pub next_term: Option<f64>,
     /// The error expected at the end, of all missing terms.
     pub error: f64,
     /// Where the maximum is taken.
@@ -77,18 +78,14 @@ pub struct Choice {
 impl fmt::Display for Choice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let run = if self.along_run { "along the run, " } else { "over " };
-        write!(
-            f,
-            "tolerance {:e}: K = {}{}, h = {} (next term {:.1e} per unit time {run}{}; {:.1e} at the \
-             end)",
-            self.tolerance,
-            self.truncation,
-            if self.comoving { ", comoving" } else { "" },
-            self.step,
-            self.next_term,
-            self.region,
-            self.error
-        )
+        let Self { tolerance, truncation, step, region, error, .. } = self;
+        let comoving = if self.comoving { ", comoving" } else { "" };
+        write!(f, "tolerance {tolerance:e}: K = {truncation}{comoving}, h = {step} (")?;
+        match self.next_term {
+            Some(term) => write!(f, "next term {term:.1e} per unit time ")?,
+            None => write!(f, "collocation, {} nodes, ", truncation.div_ceil(2))?,
+        }
+        write!(f, "{run}{region}; {error:.1e} at the end)")
     }
 }
 
@@ -224,7 +221,7 @@ pub fn choose(
     limit: TermLimit,
 ) -> Result<Choice, ToleranceError> {
     let dim = problem.algebra.dim();
-    check(target, dim)?;
+    target.check(dim)?;
     let mut symbols = Vec::new();
     for symbol in &problem.symbols {
         let value = symbol.expr.evaluate(&[]);
@@ -256,7 +253,7 @@ pub fn choose(
                 truncation,
                 comoving: problem.comoving.is_some(),
                 step,
-                next_term: sizes.rates[place] * step.powi(truncation as i32 + 1),
+                next_term: Some(sizes.rates[place] * step.powi(truncation as i32 + 1)),
                 error: sizes.error(&orders, truncation, step),
                 region: sizes.region.clone(),
                 along_run: target.region.is_none(),
@@ -283,21 +280,27 @@ pub fn choose(
     Ok(choice)
 }
 
-fn check(target: &Target, dim: usize) -> Result<(), ToleranceError> {
-    if !(1e-14..=1e-1).contains(&target.tolerance) {
-        return Err(ToleranceError::Tolerance(target.tolerance));
-    }
-    if target.duration <= 0.0 || !target.duration.is_finite() {
-        return Err(ToleranceError::Duration(target.duration));
-    }
-    match &target.start {
-        Some(start) if start.len() != dim || start.iter().any(|x| !x.is_finite()) => {
-            return Err(ToleranceError::Start { dim });
+impl Target {
+    /// Refuses a target that makes no sense for momenta of this dimension.
+    ///
+    /// # Errors
+    /// Why it makes none.
+    pub fn check(&self, dim: usize) -> Result<(), ToleranceError> {
+        if !(1e-14..=1e-1).contains(&self.tolerance) {
+            return Err(ToleranceError::Tolerance(self.tolerance));
         }
-        None if target.region.is_none() => return Err(ToleranceError::Nowhere),
-        _ => {}
+        if self.duration <= 0.0 || !self.duration.is_finite() {
+            return Err(ToleranceError::Duration(self.duration));
+        }
+        match &self.start {
+            Some(start) if start.len() != dim || start.iter().any(|x| !x.is_finite()) => {
+                return Err(ToleranceError::Start { dim });
+            }
+            None if self.region.is_none() => return Err(ToleranceError::Nowhere),
+            _ => {}
+        }
+        self.region.as_ref().map_or(Ok(()), |region| region.check(dim))
     }
-    target.region.as_ref().map_or(Ok(()), |region| region.check(dim))
 }
 
 /// S₁, S₃, … as far as they are affordable, at least as far as the smallest truncation needs.

@@ -72,6 +72,13 @@ impl Region {
             .collect()
     }
 
+    /// Points spread over the region, half of them on its boundary.
+    #[must_use]
+    pub fn points(&self, dim: usize, count: usize) -> Vec<Vec<f64>> {
+        let mut random = Random(1);
+        (0..count).map(|number| self.point(dim, number, &mut random)).collect()
+    }
+
     /// A point of the region: half of them on its boundary, where most maxima are.
     fn point(&self, dim: usize, number: usize, random: &mut Random) -> Vec<f64> {
         let inside = number % 2 == 1;

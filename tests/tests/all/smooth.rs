@@ -15,6 +15,11 @@ fn relativistic(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
     sum.sqrt()
 }
 
+/// The same from a system file by a build script.
+mod fast_body {
+    include!(concat!(env!("OUT_DIR"), "/fast_body.rs"));
+}
+
 #[lie_poisson(group = SE3, truncation = 5)]
 fn six_variables(mu: [f64; 6], stiffness: f64) -> f64 {
     let [x, y, z, p, q, r] = mu;
@@ -67,6 +72,10 @@ fn steps_are_those_of_closures() {
     assert!((before - root(&phase.momentum)).abs() < 1e-15);
     steps.advance_by(&mut phase, 500).unwrap();
     expected.advance_by(&mut other, 0.0, 500).unwrap();
+    assert!((phase.momentum - other.momentum).norm() < 1e-12);
+    let [a, b, c] = inertia;
+    let (mut steps, mut other) = (fast_body::FastBody::new(0.2, a, b, c).unwrap(), start.clone());
+    steps.advance_by(&mut other, 500).unwrap();
     assert!((phase.momentum - other.momentum).norm() < 1e-12);
     assert!((steps.energy(&phase.momentum) - before).abs() < 1e-11);
     let spatial = |phase: &Phase<SO3>| phase.spatial_momentum(&SO3::new());

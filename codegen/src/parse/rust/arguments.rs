@@ -7,7 +7,8 @@ use crate::lie::{LieAlgebra, catalogue};
 use crate::pass::Choice;
 
 /// `crate` is taken out by the attributes before.
-const OF_SYSTEM: [&str; 7] = ["group", "truncation", "chart", "solver", "frame", "time", "crate"];
+const OF_SYSTEM: [&str; 8] =
+    ["group", "truncation", "chart", "solver", "frame", "time", "method", "crate"];
 const OF_POTENTIAL: [&str; 2] = ["group", "crate"];
 
 /// Reads `group = SO3, truncation = 7, chart = exp`: the algebra, `None` where it was missing or wrong, which is reported;

@@ -1,0 +1,136 @@
+//! Hamiltonians as functions of Python.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use coadjoint_codegen::smooth::{Function, Given};
+use numpy::{PyArray1, PyReadonlyArray1};
+use pyo3::prelude::*;
+
+/// The spacing of the differences by which a gradient is checked, relative to the momentum.
+const SPACING: f64 = 1e-5;
+/// A gradient may differ from these differences by this, relatively.
+const SAME: f64 = 1e-5;
+
+/// An energy and its gradient, functions of the time and the momentum.
+pub struct Functions {
+    energy: Py<PyAny>,
+    gradient: Py<PyAny>,
+    /// Whether the gradient was found to be the energy's, where it was first asked for.
+    checked: AtomicBool,
+    /// The first failure that nobody has been told.
+    failure: Mutex<Option<Failure>>,
+}
+
+/// Why a function has no value.
+pub struct Failure {
+    /// In words.
+    pub text: String,
+    /// The exception that it raised, if it did.
+    pub cause: Option<PyErr>,
+}
+
+impl Functions {
+    /// Of these two.
+    pub fn new(energy: Py<PyAny>, gradient: Py<PyAny>) -> Arc<Self> {
+        let (checked, failure) = (AtomicBool::new(false), Mutex::new(None));
+        Arc::new(Self { energy, gradient, checked, failure })
+    }
+
+    /// The function of a system.
+    pub fn given(self: &Arc<Self>) -> Given {
+        Given(self.clone())
+    }
+
+    /// The first failure since this was last asked.
+    pub fn failure(&self) -> Option<Failure> {
+        self.failure.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+
+    fn fail(&self, text: String, cause: Option<PyErr>) {
+        let mut failure = self.failure.lock().unwrap_or_else(PoisonError::into_inner);
+        failure.get_or_insert(Failure { text, cause });
+    }
+
+    /// The numbers that a function gives; NaN where it fails, which is noted.
+    fn call(&self, gradient: bool, time: f64, mu: &[f64]) -> Vec<f64> {
+        let (function, name, count) = match gradient {
+            true => (&self.gradient, "the gradient", mu.len()),
+            false => (&self.energy, "the energy", 1),
+        };
+        let called = Python::attach(|py| {
+            let found = function.bind(py).call1((time, PyArray1::from_slice(py, mu)))?;
+            if !gradient {
+                return Ok(vec![found.extract::<f64>()?]);
+            }
+            match found.extract::<PyReadonlyArray1<'_, f64>>() {
+                Ok(array) => Ok(array.as_array().to_vec()),
+                Err(_) => found.extract::<Vec<f64>>(),
+            }
+        });
+        match called {
+            Ok(numbers) if numbers.len() == count => {
+                if let Some(number) = numbers.iter().find(|number| !number.is_finite()) {
+                    self.fail(format!("{name} is {number} at time {time}, momentum {mu:?}"), None);
+                }
+                numbers
+            }
+            Ok(numbers) => {
+                let found = numbers.len();
+                self.fail(format!("{name} has {found} numbers; {count} are needed"), None);
+                vec![f64::NAN; count]
+            }
+            Err(error) => {
+                self.fail(format!("{name} raised {error}, at time {time}"), Some(error));
+                vec![f64::NAN; count]
+            }
+        }
+    }
+
+    /// Whether the gradient is that of the energy, by central differences; where it is not, that is noted.
+    fn check(&self, time: f64, mu: &[f64]) -> bool {
+        let gradient = self.call(true, time, mu);
+        let size = mu.iter().fold(1e-3_f64, |size, x| size.max(x.abs()));
+        let spacing = SPACING * size;
+        let difference = |i: usize| {
+            let at = |by: f64| {
+                let mut mu = mu.to_vec();
+                mu[i] += by;
+                self.value(time, &mu)
+            };
+            (at(spacing) - at(-spacing)) / (2.0 * spacing)
+        };
+        let differences: Vec<f64> = (0..mu.len()).map(difference).collect();
+        let both = gradient.iter().chain(&differences);
+        let scale = both.fold(0.0_f64, |scale, x| scale.max(x.abs()));
+        // What rounding of the energy makes of a difference.
+        let rounding = 1e-15 * self.value(time, mu).abs() / spacing;
+        let apart = |i: &usize| (gradient[*i] - differences[*i]).abs() > SAME * scale + rounding;
+        let Some(i) = (0..mu.len()).find(apart) else { return true };
+        self.fail(
+            format!(
+                "the gradient is not that of the energy: at time {time}, momentum {mu:?}, its number {i} is {}, and {} by \
+                 differences of the energy",
+                gradient[i], differences[i]
+            ),
+            None,
+        );
+        false
+    }
+}
+
+impl Function for Functions {
+    fn value(&self, time: f64, mu: &[f64]) -> f64 {
+        self.call(false, time, mu).first().copied().unwrap_or(f64::NAN)
+    }
+
+    fn gradient(&self, time: f64, mu: &[f64]) -> Vec<f64> {
+        if !self.checked.load(Ordering::Relaxed) {
+            if !self.check(time, mu) {
+                return vec![f64::NAN; mu.len()];
+            }
+            self.checked.store(true, Ordering::Relaxed);
+        }
+        self.call(true, time, mu)
+    }
+}

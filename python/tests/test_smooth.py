@@ -1,0 +1,112 @@
+"""Hamiltonians that are no polynomials: as text, as SymPy, and as functions."""
+
+from __future__ import annotations
+
+import pickle
+
+import numpy as np
+import pytest
+import sympy
+
+import coadjoint as ca
+from coadjoint import InputError, RunError
+
+INERTIA = np.array([1.5, 2, 2.5])
+START = [2, 0.5, 1]
+TEXT = "sqrt(1 + x^2/I + y^2/2 + z^2/2.5)"
+
+
+def energy(t: float, mu: np.ndarray) -> float:
+    return float(np.sqrt(1 + mu @ (mu / INERTIA)))
+
+
+def gradient(t: float, mu: np.ndarray) -> np.ndarray:
+    return mu / INERTIA / energy(t, mu)
+
+
+@pytest.fixture
+def text() -> ca.System:
+    return ca.System("SO3", TEXT, coordinates="x y z", parameters={"I": 1.5})
+
+
+@pytest.fixture
+def functions() -> ca.System:
+    return ca.System("SO3", energy, gradient=gradient, coordinates="x y z")
+
+
+def test_text_sympy_and_functions_are_one_system(text: ca.System, functions: ca.System) -> None:
+    x, y, z = sympy.symbols("x y z")
+    third = ca.System("SO3", sympy.sqrt(1 + x**2 / 1.5 + y**2 / 2 + z**2 / 2.5), coordinates=[x, y, z])
+    systems = [text, functions, third, pickle.loads(pickle.dumps(functions))]
+    runs = [system.simulate(START, time=20, step=0.2) for system in systems]
+    for run in runs:
+        assert np.abs(run.momentum[-1] - runs[0].momentum[-1]).max() < 1e-13
+        assert run.largest_drift.spatial_momentum < 1e-13 and run.largest_drift.energy < 1e-12
+        assert run.label == "collocation, 4 nodes"
+    assert text.chart is None and functions.check() and text.check()
+    assert abs(float(text.hamiltonian.subs({x: 2, y: 0.5, z: 1})) - energy(0, np.array(START))) < 1e-15
+    rows = np.array([START, [1, 0.2, 0.3]])
+    ends = [system.ensemble(rows, time=20, step=0.2) for system in systems[:2]]
+    assert np.abs(ends[0] - ends[1]).max() < 1e-13
+    assert np.abs(ends[0][0] - runs[0].momentum[-1]).max() < 1e-13
+    mu, g = functions.step(START, step=0.2, steps=100)
+    assert np.abs(mu - runs[0].momentum[-1]).max() < 1e-12
+    assert np.abs(g @ mu - START).max() < 1e-13
+    assert text.simulate(START, time=20, tolerance=1e-8).estimated_error < 1e-8
+
+
+def test_rows_have_parameters_of_their_own(text: ca.System) -> None:
+    found = text.ensemble({"x": [2, 2], "y": [0.5, 0.5], "z": [1, 1], "I": [1.5, 3]}, time=5, step=0.1)
+    other = ca.System("SO3", TEXT, coordinates="x y z", parameters={"I": 3})
+    assert np.abs(found[1] - other.simulate(START, time=5, step=0.1).momentum[-1]).max() < 1e-13
+    assert np.abs(found[0] - found[1]).max() > 0.1
+
+
+def test_a_polynomial_by_either_method() -> None:
+    body = dict(coordinates="x y z", truncation=11)
+    series, nodes = (ca.System("SO3", "x^2/3 + y^2/4 + z^2/5", method=m, **body) for m in ("series", "collocation"))
+    ends = [system.simulate(START, time=10, step=0.1).momentum[-1] for system in (series, nodes)]
+    assert np.abs(ends[0] - ends[1]).max() < 1e-12
+    with pytest.raises(InputError, match="no series"):
+        nodes.series(1)
+    with pytest.raises(InputError, match="polynomial"):
+        ca.System("SO3", TEXT, coordinates="x y z", parameters={"I": 1}, method="series")
+
+
+def test_functions_that_fail_are_told_with_the_time() -> None:
+    calls = []
+
+    def raising(t: float, mu: np.ndarray) -> np.ndarray:
+        calls.append(t)
+        if len(calls) > 200:
+            raise ZeroDivisionError("at last")
+        return gradient(t, mu)
+
+    with pytest.raises(RunError, match="the gradient raised ZeroDivisionError: at last") as caught:
+        ca.System("SO3", energy, gradient=raising).simulate(START, time=20, step=0.2)
+    assert caught.value.time is not None and caught.value.time > 0
+    assert isinstance(caught.value.__cause__, ZeroDivisionError)
+    for wrong, message in [
+        (lambda t, mu: gradient(t, mu) * [1, 1, 1.01], "not that of the energy"),
+        (lambda t, mu: gradient(t, mu)[:2], "has 2 numbers; 3 are needed"),
+        (lambda t, mu: gradient(t, mu) * np.nan, "the gradient is NaN"),
+        (lambda t, mu: "one", "the gradient raised"),
+    ]:
+        with pytest.raises(RunError, match=message):
+            ca.System("SO3", energy, gradient=wrong).simulate(START, time=20, step=0.2)
+        with pytest.raises(RunError, match=message):
+            ca.System("SO3", energy, gradient=wrong).step(START, step=0.2)
+
+
+def test_what_functions_have_not_is_refused(functions: ca.System) -> None:
+    with pytest.raises(InputError, match="needs its gradient"):
+        ca.System("SO3", energy)
+    with pytest.raises(InputError, match="gradient is a function"):
+        ca.System("SO3", "x^2", coordinates="x y z", gradient=gradient)
+    with pytest.raises(InputError, match="no series"):
+        ca.System("SO3", energy, gradient=gradient, method="series")
+    with pytest.raises(InputError, match="has its own"):
+        ca.System("SO3", energy, gradient=gradient, parameters={"a": 1})
+    for ask in (lambda: functions.emit("rust"), lambda: functions.hamiltonian, lambda: functions.identity):
+        with pytest.raises(InputError):
+            ask()
