@@ -210,15 +210,17 @@ impl Fold<'_> {
     ///
     /// # Errors
     /// As [`Fold::fold`].
-    #[cfg(feature = "programs")]
     pub fn fold_rows<T: Values>(
         &self,
         step: f64,
-        known: (&[T], &[T]),
+        (symbols, products): (&[T], &[T]),
         ratio: f64,
         coefficients: &mut [T],
     ) -> Result<T, FoldError> {
-        crate::dispatch::fold(self, step, known, ratio, coefficients)
+        let nothing = T::each(|_| f64::NAN);
+        let product = |number: u32| products.get(number as usize).copied().unwrap_or(nothing);
+        self.fold_by(step, symbols, product, coefficients)?;
+        Ok(self.radius_by(step, product, ratio))
     }
 
     /// The radius where the products of symbols are known, for rows side by side.

@@ -222,8 +222,8 @@ fn bad_rows_are_told_and_do_not_stop_the_rest() {
     assert_eq!(list[..2], ["row,step,reason", "2,0,\"mu_2 is inf\""]);
     assert!(list[2].starts_with("3,0,\"the attitude is off the group by 4.1e-1"), "{list:?}");
     assert_eq!(list[3..5], ["4,0,\"6 cells instead of 7\"", "5,0,\"mu_3: 'one' is no number\""]);
-    // Far outside the chart; at which step it is noticed, and by what, depends on rounding.
-    assert!(list[5].starts_with("6,") && list[5].ends_with(" works here\""), "{list:?}");
+    // Far outside the chart; at which step it is noticed depends on rounding.
+    assert!(list[5].starts_with("6,") && list[5].contains("leaves the chart"), "{list:?}");
     // Without bad rows the list of an earlier run goes away.
     folder.write("in.csv", momenta(3));
     ensemble(&folder, "in.csv", "out.csv", "");

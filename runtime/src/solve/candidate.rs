@@ -30,6 +30,8 @@ pub enum Branch {
     /// The leading minors of 1 − ∂p/∂x·Hess S that belong to direct factors of the group are positive, as they are at the
     /// identity.
     Oriented,
+    /// The equation bends much between the guess and x, which may be any of its solutions.
+    Bent,
     /// Nothing is known, or the equation is not solved to rounding.
     Unknown,
 }

@@ -7,7 +7,7 @@
 //! are symmetric, a solution can go on through a fork without a correction. Otherwise the stretch is halved, and given up
 //! below [`SHORTEST`].
 
-use super::candidate::CandidateOf;
+use super::candidate::{Branch, CandidateOf};
 use super::{Integrator, propose_scaled};
 use crate::chart::Chart;
 use crate::generating::{ScalarOf, VectorOf};
@@ -38,7 +38,7 @@ pub(super) fn follow<S: Integrator + ?Sized>(
         let scale = ScalarOf::<S>::of(next);
         let found = propose_scaled(generating, mu, scale, guess);
         iterations += found.iterations;
-        if found.is_solution_within(CORRECTED) {
+        if found.branch != Branch::Bent && found.is_solution_within(CORRECTED) {
             if next >= 1.0 {
                 return Ok(CandidateOf::<S> { iterations, ..found });
             }

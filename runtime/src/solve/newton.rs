@@ -46,7 +46,7 @@ pub(super) fn newton<S: GeneratingFunction + ?Sized>(
         if residual.simd_le(rounding).all() {
             let apart = first.is_some_and(|first| bends::<S>(dim, &first, &jacobian));
             let branch = match apart {
-                true => Branch::Unknown,
+                true => Branch::Bent,
                 false => branch::<S>(dim, &derivative, jacobian),
             };
             return Candidate { x, moved, residual, branch, iterations };
