@@ -19,6 +19,9 @@ const WEIGHTS: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
 /// neglected ninth derivative with step⁸.
 const STEP: f64 = 4e-3;
 
+/// A map of momenta.
+type MapOf<'a, V> = dyn FnMut(&V) -> Result<V, StepError> + 'a;
+
 /// The derivative at 0 of `f`, in coordinates.
 fn derivative<V: Coordinates<f64>, const K: usize>(
     dim: usize,
@@ -49,7 +52,7 @@ fn shifted<V: Coordinates<f64>>(v: &V, i: usize, by: f64) -> V {
 pub(super) fn poisson_defect<G: LieGroup<Scalar = f64>>(
     group: &G,
     mu: &G::Vector,
-    map: &mut dyn FnMut(&G::Vector) -> Result<G::Vector, StepError>,
+    map: &mut MapOf<'_, G::Vector>,
 ) -> Result<f64, StepError> {
     let dim = group.dim();
     let image = map(mu)?;

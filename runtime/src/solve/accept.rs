@@ -42,7 +42,9 @@ pub(crate) fn accept<S: Integrator + ?Sized>(
         return Err(refuse(generating, mu, &candidate, not_solved));
     }
     let followed = follow(generating, mu).map_err(|reached| {
-        refuse(generating, mu, &candidate, |at| StepError::NotFollowed { reached, at })
+        let not_followed = |at| StepError::NotFollowed { reached, at };
+        let outside = check_chart(generating, mu, &candidate).err();
+        outside.unwrap_or_else(|| refuse(generating, mu, &candidate, not_followed))
     })?;
     check_domain(generating, mu, &followed)?;
     Ok(followed)
@@ -57,12 +59,7 @@ fn check_domain<S: Integrator + ?Sized>(
     mu: &VectorOf<S>,
     candidate: &CandidateOf<S>,
 ) -> Result<(), StepError> {
-    let extent = S::Chart::default().extent(generating.group(), &candidate.x);
-    if !extent.simd_le(ScalarOf::<S>::of(1.0)).all() {
-        let extent = extent.simd_sqrt().largest_lane();
-        let outside = |at| StepError::OutsideChart { extent, at };
-        return Err(refuse(generating, mu, candidate, outside));
-    }
+    check_chart(generating, mu, candidate)?;
     let p = S::Chart::default().pull_back(generating.group(), &candidate.x, mu);
     // Of the ratio at p and the bound for all momenta as long as μ the smaller counts.
     let radius = generating.radius();
@@ -73,6 +70,23 @@ fn check_domain<S: Integrator + ?Sized>(
         return Err(refuse(generating, mu, candidate, |at| StepError::SeriesDiverges { at }));
     }
     Ok(())
+}
+
+/// Whether x lies in the chart.
+///
+/// # Errors
+/// [`StepError::OutsideChart`].
+fn check_chart<S: Integrator + ?Sized>(
+    generating: &S,
+    mu: &VectorOf<S>,
+    candidate: &CandidateOf<S>,
+) -> Result<(), StepError> {
+    let extent = S::Chart::default().extent(generating.group(), &candidate.x);
+    if extent.simd_le(ScalarOf::<S>::of(1.0)).all() {
+        return Ok(());
+    }
+    let extent = extent.simd_sqrt().largest_lane();
+    Err(refuse(generating, mu, candidate, |at| StepError::OutsideChart { extent, at }))
 }
 
 /// A refusal with its circumstances.

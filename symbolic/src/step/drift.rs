@@ -94,7 +94,7 @@ impl Energy {
 
     /// ∂H/∂μ in `dim` coordinates; at time 0 where it moves in time.
     #[must_use]
-    pub fn gradient(&self, dim: usize) -> Box<dyn Fn(&[f64]) -> Vec<f64> + '_> {
+    pub fn gradient(&self, dim: usize) -> Gradient<'_> {
         match self {
             Self::Polynomial(polynomial) => {
                 let slopes = polynomial.gradient(dim);
@@ -104,6 +104,9 @@ impl Energy {
         }
     }
 }
+
+/// The gradient of a function of the momentum.
+pub type Gradient<'a> = Box<dyn Fn(&[f64]) -> Vec<f64> + 'a>;
 
 /// The quantities that a motion conserves, as functions of its states.
 #[derive(Clone, Debug, Default)]

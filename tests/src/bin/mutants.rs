@@ -126,8 +126,8 @@ const MUTANTS: &[Mutant] = &[
     mutant(
         "generic: chart ignored",
         ACCEPT,
-        "if !extent.simd_le(ScalarOf::<S>::of(1.0)).all() {",
-        "if !extent.simd_le(ScalarOf::<S>::of(1e9)).all() {",
+        "if extent.simd_le(ScalarOf::<S>::of(1.0)).all() {",
+        "if extent.simd_le(ScalarOf::<S>::of(1e9)).all() {",
     ),
     mutant(
         "generic: rate ignored",
