@@ -52,7 +52,7 @@ impl<'a> Derivatives<'a> {
     }
 
     fn steps(&self) -> Result<&dyn Differentiable, RunError> {
-        let what = "no derivatives are known of steps that are not made by a series";
+        let what = "no derivatives are known of learned maps and of functions of the user's";
         self.motion.differentiable().ok_or_else(|| RunError::Option(what.to_owned()))
     }
 
@@ -82,7 +82,8 @@ impl<'a> Derivatives<'a> {
 
     /// The derivative of the step after `done`, from the state before it.
     fn linear(&self, done: u64, state: &Numbers) -> Result<Linear, RunError> {
-        let linear = self.steps()?.linear(state).map_err(|error| self.failed(done, &error))?;
+        let linear = self.steps()?.linear(state, done);
+        let linear = linear.map_err(|error| self.failed(done, &error))?;
         self.finite(done, [&linear.state, &linear.parameters])?;
         Ok(linear)
     }

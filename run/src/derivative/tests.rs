@@ -25,7 +25,7 @@ const BODY: Case = Case {
     step: 0.25,
 };
 
-const CASES: [Case; 5] = [
+const CASES: [Case; 8] = [
     BODY,
     Case {
         text: "group = 'SE3'\nhamiltonian = 'mu[0]^2/2 + mu[1]^2/3 + mu[2]^2 + f*mu[5] + mu[3]*mu[4]/5'\n\
@@ -56,6 +56,28 @@ const CASES: [Case; 5] = [
         varied: &[],
         momentum: &[0.5, 0.25, 1.0],
         step: 0.25,
+    },
+    // By collocation at four nodes, at one, and at three on a product.
+    Case {
+        text: "group = 'SO3'\nhamiltonian = 'sqrt(1 + a*mu[0]^2 + mu[1]^2/b + exp(mu[2]/4))'\n\
+               [parameters]\na = 0.5\nb = 2",
+        varied: &["a", "b"],
+        momentum: &[2.0, 0.5, 1.0],
+        step: 0.25,
+    },
+    Case {
+        text: "group = 'SE3'\nhamiltonian = 'sqrt(1 + mu[0]^2 + mu[1]^2/2 + mu[3]^2) + f*mu[5] + mu[2]^2/4'\n\
+               [parameters]\nf = 0.5\n[integrator]\ntruncation = 1",
+        varied: &["f"],
+        momentum: &[0.5, -0.25, 1.0, 0.75, 0.5, -0.5],
+        step: 0.125,
+    },
+    Case {
+        text: "group = 'SL2 * SO3'\nhamiltonian = 'sqrt(4 + mu[0]^2 + (mu[1] + mu[3])^2) + cos(mu[2]) + a*ln(3 + mu[4]*mu[5])'\n\
+               [parameters]\na = 0.5\n[integrator]\ntruncation = 5",
+        varied: &["a"],
+        momentum: &[0.5, 0.25, -0.5, 0.75, 0.5, 0.25],
+        step: 0.125,
     },
 ];
 
@@ -108,8 +130,8 @@ fn coordinates(algebra: &LieAlgebra, g: &[f64], change: &[f64]) -> DVector<f64> 
 }
 
 /// The state after steps by the generic solver, its matrix by rows, with other values of the parameters.
-fn end(case: &Case, system: &Derived, parameters: Vec<f64>, start: Numbers, steps: u64) -> Numbers {
-    let motion = system.varied(case.step, &parameters, None).unwrap();
+fn end(case: &Case, system: &Derived, parameters: &[f64], start: Numbers, steps: u64) -> Numbers {
+    let motion = system.varied(case.step, parameters, None).unwrap();
     let mut state = start;
     motion.advance(&mut state, 0, steps).unwrap();
     state
@@ -150,7 +172,7 @@ fn tangents_are_the_derivatives_of_runs() {
                 j => theta[j - 2 * n] += s,
             }
             let g = g.transpose().as_slice().to_vec();
-            end(case, &system, theta, Numbers { g, mu }, 4)
+            end(case, &system, &theta, Numbers { g, mu }, 4)
         };
         let here = at(0, 0.0);
         for (column, found) in found.column_iter().enumerate() {

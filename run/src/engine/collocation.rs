@@ -1,18 +1,20 @@
 //! Steps by collocation, for Hamiltonians that are no polynomials: the gradient is interpreted.
 
 use std::collections::BTreeSet;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use coadjoint::collocation::{Collocation, Energy, Undefined};
-use coadjoint::groups::{DirectProduct, MatrixGroup};
-use coadjoint::{Phase, StepError};
+use coadjoint::groups::{DirectProduct, Exponential, MatrixGroup};
+use coadjoint::{LieGroup, Phase, StepError};
 use coadjoint_codegen::cancel;
 use coadjoint_codegen::smooth::Smooth;
 use nalgebra::DVector;
 
 use super::advise::advise;
 use super::compiled::{Folded, Numbers, Solves};
+use super::linear::{Differentiable, Linear};
 use super::motion::{Motion, Varied, one_by_one};
+use super::response::Response;
 use super::space::{Elements, Space};
 
 /// The steps of this size of a smooth system, for these values of the parameters that it keeps.
@@ -29,7 +31,7 @@ pub fn collocated<'a>(
     if let Some(value) = symbols.iter().copied().find(|value| !value.is_finite()) {
         return Err(StepError::InvalidParameter { name: "of the Hamiltonian", value });
     }
-    let energy = Interpreted { smooth, symbols };
+    let energy = Interpreted { smooth, symbols, parameters: parameters.into() };
     let group = group.clone();
     Ok(match smooth.nodes() {
         1 => Box::new(Collocated::<1>::new(group, energy, size)?),
@@ -48,6 +50,7 @@ pub fn collocated<'a>(
 struct Interpreted<'a> {
     smooth: &'a Smooth,
     symbols: Arc<[f64]>,
+    parameters: Arc<[f64]>,
 }
 
 impl Energy<DVector<f64>> for Interpreted<'_> {
@@ -86,12 +89,15 @@ pub type Group = DirectProduct<MatrixGroup>;
 struct Collocated<'a, const M: usize> {
     elements: Elements<Group>,
     step: Mutex<Collocation<Group, Interpreted<'a>, M>>,
+    /// The second derivatives, once they were asked for.
+    response: OnceLock<Response<'a>>,
 }
 
 impl<'a, const M: usize> Collocated<'a, M> {
     fn new(group: Arc<Group>, energy: Interpreted<'a>, size: f64) -> Result<Self, StepError> {
         let step = Mutex::new(Collocation::new((*group).clone(), energy, size)?);
-        Ok(Self { elements: Elements { group, compiled: None }, step })
+        let elements = Elements { group, compiled: None };
+        Ok(Self { elements, step, response: OnceLock::new() })
     }
 
     /// One step of another size from this time, which knows no steps before it.
@@ -147,6 +153,12 @@ impl<const M: usize> Motion for Collocated<'_, M> {
         0.0
     }
 
+    /// Of a function of the user's there is no Hessian.
+    fn differentiable(&self) -> Option<&dyn Differentiable> {
+        let step = self.step.lock().unwrap_or_else(PoisonError::into_inner);
+        step.energy().smooth.given.is_none().then_some(self)
+    }
+
     fn defined(&self, state: &Numbers) -> Result<(), StepError> {
         let step = self.step.lock().unwrap_or_else(PoisonError::into_inner);
         let found = step.energy().undefined(0.0, &DVector::from_column_slice(&state.mu));
@@ -163,8 +175,33 @@ impl<const M: usize> Varied for Collocated<'_, M> {
         let (group, size) = (step.group().clone(), step.step());
         let mut energy = step.energy().clone();
         energy.symbols = energy.smooth.symbols_at(parameters).into();
+        energy.parameters = parameters.into();
+        self.response = OnceLock::new();
         if let Ok(varied) = Collocation::new(group, energy, size) {
             *step = varied;
         }
+    }
+}
+
+impl<const M: usize> Differentiable for Collocated<'_, M> {
+    fn parameters(&self) -> usize {
+        let step = self.step.lock().unwrap_or_else(PoisonError::into_inner);
+        step.energy().parameters.len()
+    }
+
+    fn linear(&self, state: &Numbers, first: u64) -> Result<Linear, StepError> {
+        let step = self.step.lock().unwrap_or_else(PoisonError::into_inner);
+        let (group, place) = (step.group(), (Exponential, step.group()));
+        let response = self.response.get_or_init(|| {
+            let Interpreted { smooth, symbols, parameters } = step.energy().clone();
+            Response::new(smooth, symbols, &parameters)
+        });
+        let mu = DVector::from_column_slice(&state.mu);
+        let solution = step.solution(&mu, first as f64 * step.step())?;
+        let [hessian, mixed] = response.of(group, &solution, step.step())?;
+        let of_momentum = Linear::response(place, &solution.x, &mu, [&hessian, &mixed])?;
+        // In the chart of tables, which is exp.
+        let after = group.middle_transport(&solution.x, &mu).1;
+        Ok(Linear::of_motion(place, &solution.x, &after, &of_momentum))
     }
 }

@@ -23,11 +23,11 @@ pub trait Differentiable {
     /// q, the number of parameters that derivatives are taken in.
     fn parameters(&self) -> usize;
 
-    /// The derivative of the next step of a state.
+    /// The derivative of the next step of a state that `first` steps from time 0 have reached.
     ///
     /// # Errors
     /// Where there is no step.
-    fn linear(&self, state: &Numbers) -> Result<Linear, StepError>;
+    fn linear(&self, state: &Numbers, first: u64) -> Result<Linear, StepError>;
 }
 
 /// The derivative of a step, or of several, in the state before it and in the parameters θ.
@@ -43,6 +43,12 @@ pub struct Linear {
 pub(super) fn columns(dim: usize, map: impl Fn(&DVector<f64>) -> DVector<f64>) -> DMatrix<f64> {
     let unit = |j| DVector::from_fn(dim, |i, _| if i == j { 1.0 } else { 0.0 });
     DMatrix::from_columns(&(0..dim).map(|j| map(&unit(j))).collect::<Vec<_>>())
+}
+
+/// The error of a step whose solution is also that of another one.
+pub(super) fn meeting(x: &DVector<f64>) -> StepError {
+    let at = Circumstances { x: x.amax(), ratio: 0.0, usable_step: None };
+    StepError::NotFollowed { reached: 1.0, at }
 }
 
 impl Linear {
@@ -107,8 +113,7 @@ impl Linear {
         let solver = (DMatrix::identity(dim, dim) - hessian * slope).lu();
         let solved = [solver.solve(&(hessian * back)), solver.solve(mixed)];
         let [Some(by_momentum), Some(by_parameters)] = solved else {
-            let at = Circumstances { x: x.amax(), ratio: 0.0, usable_step: None };
-            return Err(StepError::NotFollowed { reached: 1.0, at });
+            return Err(meeting(x));
         };
         Ok([by_momentum, by_parameters])
     }

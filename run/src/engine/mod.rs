@@ -9,6 +9,7 @@ mod interpreter;
 mod kick;
 mod linear;
 mod motion;
+mod response;
 mod restore;
 mod space;
 mod steep;

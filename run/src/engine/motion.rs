@@ -275,7 +275,7 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Differentiable for Ste
         self.equations.parameters.len()
     }
 
-    fn linear(&self, state: &Numbers) -> Result<Linear, StepError> {
+    fn linear(&self, state: &Numbers, _: u64) -> Result<Linear, StepError> {
         let tangent = match self.tangent.get() {
             Some(tangent) => tangent,
             None => {

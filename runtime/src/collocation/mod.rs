@@ -18,10 +18,12 @@
 mod energy;
 mod nodes;
 mod rates;
+mod solution;
 mod solving;
 
 pub use energy::{Energy, Undefined};
 pub use nodes::MAX_NODES;
+pub use solution::{Node, Solution};
 
 use nalgebra::SimdComplexField;
 
