@@ -37,7 +37,7 @@ class System:
     matrices, or ``generators`` and ``brackets``. ``hamiltonian`` is text or a SymPy expression in the ``coordinates`` of the
     body momentum: a polynomial, whose steps are made by a series, or any other smooth function (roots, quotients, exp, ln,
     sin, …), whose steps are made by collocation. Numbers are taken as their decimals, exactly: 0.1 is one tenth.
-    It may also be a function of (t, μ), with its ``gradient``, another one, which is checked against it once; t is 0 throughout.
+    It may also be a function of (t, μ), with its ``gradient``, another one, which is checked against it once; neither may depend on t.
 
     The other arguments are the keys of a system file: ``truncation`` K (odd; the method has order K + 1), ``chart``
     (``"exp"`` or ``"cayley"``), ``frame`` (``"auto"``, ``"fixed"`` or ``"comoving"``), ``solver``, ``method`` (``"series"`` or

@@ -9,6 +9,8 @@ use pyo3::prelude::*;
 
 /// The spacing of the differences by which a gradient is checked, relative to the momentum.
 const SPACING: f64 = 1e-5;
+/// Later times at which the energy must be the same, when it is first asked for.
+const LATER: [f64; 3] = [0.3, 1.0, 7.0];
 /// A gradient may differ from these differences by this, relatively.
 const SAME: f64 = 1e-5;
 
@@ -87,8 +89,15 @@ impl Functions {
         }
     }
 
-    /// Whether the gradient is that of the energy, by central differences; where it is not, that is noted.
+    /// Whether the energy does not depend on the time, as far as a few times tell, and the gradient is its own, by central
+    /// differences; where not, that is noted.
     fn check(&self, time: f64, mu: &[f64]) -> bool {
+        let energy = self.value(time, mu);
+        if LATER.iter().any(|later| (self.value(time + later, mu) - energy).abs() > 0.0) {
+            let help = "write it as text, in which t is the time";
+            self.fail(format!("the energy depends on the time, as no function may: {help}"), None);
+            return false;
+        }
         let gradient = self.call(true, time, mu);
         let size = mu.iter().fold(1e-3_f64, |size, x| size.max(x.abs()));
         let spacing = SPACING * size;
@@ -104,7 +113,7 @@ impl Functions {
         let both = gradient.iter().chain(&differences);
         let scale = both.fold(0.0_f64, |scale, x| scale.max(x.abs()));
         // What rounding of the energy makes of a difference.
-        let rounding = 1e-15 * self.value(time, mu).abs() / spacing;
+        let rounding = 1e-15 * energy.abs() / spacing;
         let apart = |i: &usize| (gradient[*i] - differences[*i]).abs() > SAME * scale + rounding;
         let Some(i) = (0..mu.len()).find(apart) else { return true };
         self.fail(

@@ -96,6 +96,9 @@ def test_functions_that_fail_are_told_with_the_time() -> None:
             ca.System("SO3", energy, gradient=wrong).simulate(START, time=20, step=0.2)
         with pytest.raises(RunError, match=message):
             ca.System("SO3", energy, gradient=wrong).step(START, step=0.2)
+    with pytest.raises(RunError, match="depends on the time"):
+        moving = ca.System("SO3", lambda t, mu: energy(t, mu) + t, gradient=gradient)
+        moving.simulate(START, time=20, step=0.2)
 
 
 def test_what_functions_have_not_is_refused(functions: ca.System) -> None:

@@ -256,6 +256,16 @@ fn a_hamiltonian_that_moves_in_time_is_followed_at_its_own_times() {
     assert!(report["drift"]["energy"].is_null() && report["energy"].is_null(), "{report}");
     let text = folder.run("simulate system.toml --step 0.4").ok();
     text.prints(&["energy           not conserved: the Hamiltonian depends on time"]);
+    // Rows of an ensemble, too.
+    folder.write("in.csv", "mu_1,mu_2,mu_3\n0.5,-0.3,0.9\n");
+    let ensemble = "ensemble system.toml --initial in.csv --at 0.037,7.2,12.29 --out rows.npy";
+    folder.run(ensemble).ok();
+    let bytes = std::fs::read(folder.path().join("rows.npy")).unwrap();
+    let (cells, _) = bytes[bytes.len() - 9 * 8..].as_chunks::<8>();
+    let cells: Vec<f64> = cells.iter().map(|cell| f64::from_le_bytes(*cell)).collect();
+    for (row, time) in cells.chunks(3).zip([0.037, 7.2, 12.29]) {
+        close(row, time, 1e-11);
+    }
     // Of an odd number of steps too.
     for step in ["0.41", "0.4"] {
         let report = folder.json(&format!("simulate system.toml --step {step}"));

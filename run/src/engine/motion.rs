@@ -47,6 +47,14 @@ pub trait Motion: Send + Sync {
     /// Where there is none.
     fn beside(&self, state: &Numbers, time: f64, size: f64) -> Result<Numbers, StepError>;
 
+    /// Makes one step from this time, whatever steps were made before.
+    ///
+    /// # Errors
+    /// Why there is none.
+    fn from_time(&self, state: &mut Numbers, _time: f64) -> Result<(), StepError> {
+        self.advance(state, 0, 1).map(drop).map_err(|(_, error)| error)
+    }
+
     /// The ratio of the last two terms of the series at a momentum, where it may be worth a warning; else 0.
     fn ratio(&self, mu: &[f64]) -> f64;
 

@@ -490,7 +490,8 @@ impl<'a> Engine<'a> {
                     march.march(&mut ways, first, end, watch.made);
                     let Some(stop) = stop else { continue };
                     let shorter = shorter[stop].as_deref();
-                    ways.par_iter_mut().for_each(|way| March::keep(way, end, shorter));
+                    let time = end as f64 * self.step;
+                    ways.par_iter_mut().for_each(|way| March::keep(way, end, time, shorter));
                 }
             }
             Some(card) => {
@@ -548,7 +549,7 @@ impl<'a> Engine<'a> {
                     }
                 }
                 if way.stopped.is_none() {
-                    follow(motions, way, course, stop);
+                    follow((motions, self.step), way, course, stop);
                 }
             }
         };
@@ -566,8 +567,13 @@ impl<'a> Engine<'a> {
     }
 }
 
-/// Makes the steps of a row alone; `motions` are the steps and the shorter ones to each stop.
-fn follow(motions: &[Box<dyn Varied + '_>], way: &mut Way, course: &Course, stop: &AtomicBool) {
+/// Makes the steps of a row alone; `motions` are the steps, of this size, and the shorter ones to each stop.
+fn follow(
+    (motions, size): (&[Box<dyn Varied + '_>], f64),
+    way: &mut Way,
+    course: &Course,
+    stop: &AtomicBool,
+) {
     let Some((motion, shorter)) = motions.split_first() else { return };
     let march = March { motion: motion.as_ref(), stop };
     way.ratio = motion.ratio(&way.state.mu);
@@ -581,7 +587,7 @@ fn follow(motions: &[Box<dyn Varied + '_>], way: &mut Way, course: &Course, stop
         let Some(place) = place else { continue };
         let whole = course.stops[place].part == 0.0;
         let shorter: Option<&dyn Motion> = if whole { None } else { Some(shorter[place].as_ref()) };
-        March::keep(way, end, shorter);
+        March::keep(way, end, end as f64 * size, shorter);
     }
 }
 

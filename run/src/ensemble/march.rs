@@ -96,16 +96,16 @@ impl March<'_> {
         }
     }
 
-    /// Keeps the state of a trajectory after `step` steps, or that after a shorter step from there.
-    pub(super) fn keep(way: &mut Way, step: u64, shorter: Option<&dyn Motion>) {
+    /// Keeps the state of a trajectory after `step` steps, or that after a shorter step from there, which is at `time`.
+    pub(super) fn keep(way: &mut Way, step: u64, time: f64, shorter: Option<&dyn Motion>) {
         if way.stopped.is_some() {
             return;
         }
         let mut state = way.state.clone();
-        let made = shorter.map_or(Ok(None), |shorter| shorter.advance(&mut state, 0, 1));
+        let made = shorter.map_or(Ok(()), |shorter| shorter.from_time(&mut state, time));
         match made {
-            Ok(_) => way.kept.push(state),
-            Err((_, error)) => way.stopped = Some((step + 1, error.to_string())),
+            Ok(()) => way.kept.push(state),
+            Err(error) => way.stopped = Some((step + 1, error.to_string())),
         }
     }
 
