@@ -74,7 +74,7 @@ fn stand_in(function: &ItemFn, options: &Options, first: &TokenStream) -> TokenS
         FnArg::Receiver(_) => None,
     });
     let result = quote!(::core::result::Result);
-    let report = quote!(#result<#krate::StepReport<T>, #krate::StepError>);
+    let report = quote!(#result<#krate::steps::StepReport<T>, #krate::StepError>);
     quote! {
         #[allow(dead_code)]
         #[derive(::core::clone::Clone, ::core::fmt::Debug)]
