@@ -258,7 +258,8 @@ fn a_hamiltonian_that_moves_in_time_is_followed_at_its_own_times() {
     text.prints(&["energy           not conserved: the Hamiltonian depends on time"]);
     // Rows of an ensemble, too.
     folder.write("in.csv", "mu_1,mu_2,mu_3\n0.5,-0.3,0.9\n");
-    let ensemble = "ensemble system.toml --initial in.csv --at 0.037,7.2,12.29 --out rows.npy";
+    folder.write("rows.toml", DRIVEN.split("[[event]]").next().unwrap());
+    let ensemble = "ensemble rows.toml --initial in.csv --at 0.037,7.2,12.29 --out rows.npy";
     folder.run(ensemble).ok();
     let bytes = std::fs::read(folder.path().join("rows.npy")).unwrap();
     let (cells, _) = bytes[bytes.len() - 9 * 8..].as_chunks::<8>();
