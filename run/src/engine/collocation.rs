@@ -148,7 +148,7 @@ impl<const M: usize> Motion for Collocated<'_, M> {
         Ok(self.elements.state(&phase))
     }
 
-    fn from_time(&self, state: &mut Numbers, time: f64) -> Result<(), StepError> {
+    fn one_at(&self, state: &mut Numbers, time: f64) -> Result<(), StepError> {
         let size = self.step.lock().unwrap_or_else(PoisonError::into_inner).step();
         *state = self.beside(state, time, size)?;
         Ok(())

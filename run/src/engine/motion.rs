@@ -51,7 +51,7 @@ pub trait Motion: Send + Sync {
     ///
     /// # Errors
     /// Why there is none.
-    fn from_time(&self, state: &mut Numbers, _time: f64) -> Result<(), StepError> {
+    fn one_at(&self, state: &mut Numbers, _time: f64) -> Result<(), StepError> {
         self.advance(state, 0, 1).map(drop).map_err(|(_, error)| error)
     }
 

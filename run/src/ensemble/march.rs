@@ -102,7 +102,7 @@ impl March<'_> {
             return;
         }
         let mut state = way.state.clone();
-        let made = shorter.map_or(Ok(()), |shorter| shorter.from_time(&mut state, time));
+        let made = shorter.map_or(Ok(()), |shorter| shorter.one_at(&mut state, time));
         match made {
             Ok(()) => way.kept.push(state),
             Err(error) => way.stopped = Some((step + 1, error.to_string())),
