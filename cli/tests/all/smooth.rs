@@ -21,8 +21,7 @@ time = 200.0
 "#;
 
 fn report_of(folder: &Folder, options: &str) -> Value {
-    let ran = folder.run(&format!("simulate system.toml --format json {options}")).ok();
-    serde_json::from_str(&ran.out).unwrap()
+    folder.json(&format!("simulate system.toml {options}"))
 }
 
 #[test]

@@ -173,7 +173,24 @@ impl FoldTable {
     /// # Errors
     /// [`FoldError`] where one is not finite.
     pub fn fold(&self, step: f64, symbols: &[f64]) -> Result<Vec<f64>, FoldError> {
-        self.fold_rows(step, symbols, 1.0).map(|(coefficients, _)| coefficients)
+        let products = self.products_of(symbols);
+        let product = |number: u32| products.get(number as usize).copied().unwrap_or(f64::NAN);
+        let mut coefficients = vec![0.0; self.len];
+        self.lists().fold_by(step, symbols, product, &mut coefficients)?;
+        Ok(coefficients)
+    }
+
+    /// The products of symbols, each made of an earlier one, once.
+    fn products_of<T: Values>(&self, symbols: &[T]) -> Vec<T> {
+        let [nothing, one] = [f64::NAN, 1.0].map(|value| T::each(|_| value));
+        let mut products = Vec::with_capacity(self.products.len() + 1);
+        products.push(one);
+        for &(of, symbol) in &self.products {
+            let value = symbols.get(symbol as usize).copied().unwrap_or(nothing);
+            let product = products[of as usize];
+            products.push(T::each(|l| product.lane(l) * value.lane(l)));
+        }
+        products
     }
 
     /// The same for rows side by side; also the |p| up to which the last two terms of the series have at most this ratio.
@@ -186,16 +203,8 @@ impl FoldTable {
         symbols: &[T],
         ratio: f64,
     ) -> Result<(Vec<T>, T), FoldError> {
-        let [nothing, zero, one] = [f64::NAN, 0.0, 1.0].map(|value| T::each(|_| value));
-        let mut coefficients = vec![zero; self.len];
-        // Each is made of an earlier one, once.
-        let mut products = Vec::with_capacity(self.products.len() + 1);
-        products.push(one);
-        for &(of, symbol) in &self.products {
-            let value = symbols.get(symbol as usize).copied().unwrap_or(nothing);
-            let product = products[of as usize];
-            products.push(T::each(|l| product.lane(l) * value.lane(l)));
-        }
+        let mut coefficients = vec![T::each(|_| 0.0); self.len];
+        let products = self.products_of(symbols);
         let known = (symbols, &products[..]);
         let radius = self.lists().fold_rows(step, known, ratio, &mut coefficients)?;
         Ok((coefficients, radius))
