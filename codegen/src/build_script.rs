@@ -145,6 +145,8 @@ impl Build {
         let name = self.input.display().to_string();
         let system = system::read_either(&text, self.options, &[])
             .map_err(|mistakes| BuildError::System(mistakes.render(&name, &text)))?;
+        let refused = |why| BuildError::System(format!("{name}: {why}"));
+        system.writable().map_err(refused)?;
         let options = emit::Options::for_problem(system.problem.facts().name);
         let mut module = match system.problem {
             Hamiltonian::Smooth(smooth) => emit::collocation_file(&smooth, &options),

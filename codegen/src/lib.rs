@@ -64,5 +64,5 @@ pub use pass::in_other_frame;
 pub use coadjoint_symbolic::judge;
 pub use coadjoint_symbolic::{
     cancel, comoving, graph, hamilton_jacobi, integrator, lie, number, poly, potential, problem,
-    smooth, step, tolerance,
+    signal, smooth, step, tolerance,
 };

@@ -68,6 +68,7 @@ class System:
         gradient: Gradient | None = None,
         coordinates: str | Iterable[Any] | None = None,
         parameters: Mapping[str, Any] | None = None,
+        inputs: Mapping[str, Any] | None = None,
         units: Mapping[str, str] | None = None,
         potential: str | sympy.Expr | None = None,
         truncation: int | None = None,
@@ -115,6 +116,7 @@ class System:
         tables = {
             "algebra": {} if whole else _text.algebra(group),
             "parameters": {k: exact(v, f"parameter {k}") for k, v in _text.mapping(parameters, "parameters").items()},
+            "inputs": {k: exact(v, f"inputs {k}") for k, v in _text.mapping(inputs, "inputs").items()},
             "units": {k: text(v) for k, v in shown.items()},
             "integrator": {
                 "truncation": exact(truncation, "truncation"),

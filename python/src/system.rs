@@ -394,6 +394,7 @@ impl Core {
             let derived = derive(&cache, &here.name, system, Some(varied))?;
             let lanes = (count as f64 / coadjoint_program::WIDTH as f64).max(1.0);
             let how = How { backend, work: schedule.steps as f64 * lanes, device: None };
+            derived.reaches(schedule.end)?;
             let engine = Engine::new(&derived, schedule.step, how)?;
             control.total.store(schedule.steps * count as u64, Ordering::Relaxed);
             // Threads of its own: those of a parent process are not there in a fork.

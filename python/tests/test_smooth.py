@@ -113,3 +113,17 @@ def test_what_functions_have_not_is_refused(functions: ca.System) -> None:
     for ask in (lambda: functions.emit("rust"), lambda: functions.hamiltonian, lambda: functions.identity):
         with pytest.raises(InputError):
             ask()
+
+
+def test_inputs_are_arrays() -> None:
+    times = np.linspace(0, 4, 9)
+    system = ca.System(
+        "SO3", "z^2 + u*z", coordinates="x y z", inputs={"times": times, "u": 1 + times}, step=0.1, momentum=START, time=4
+    )
+    # z is kept, and μ turns backwards about it by the integral of 2z + u.
+    angle = 2 * 4 + 4 + 8
+    cosine, sine = np.cos(angle), np.sin(angle)
+    expected = [2 * cosine + 0.5 * sine, 0.5 * cosine - 2 * sine, 1]
+    assert np.abs(system.simulate().momentum[-1] - expected).max() < 1e-12
+    with pytest.raises(InputError, match="the input `u` goes from time 0 to 4"):
+        system.simulate(time=5)

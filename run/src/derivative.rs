@@ -43,7 +43,8 @@ impl<'a> Derivatives<'a> {
         if setup.momentum.len() != system.facts().algebra.dim() {
             return Err(RunError::Option("the momentum does not fit the group".to_owned()));
         }
-        let Schedule { step, steps, .. } = setup.schedule;
+        let Schedule { step, steps, end, .. } = setup.schedule;
+        system.reaches(end)?;
         let compiled = system.compiled(step, setup.backend, steps as f64, Trajectories::One)?;
         let motion = system.steps(step, compiled.as_ref());
         let motion = motion.map_err(|source| RunError::Step { time: 0.0, source })?;

@@ -44,6 +44,7 @@ pub fn rust(path: &Path, source: Source) -> Result<String, RunError> {
             ));
         }
     };
+    system.writable().map_err(RunError::of(path))?;
     let style = Options::for_problem(system.problem.facts().name);
     let mut module = match system.problem {
         Hamiltonian::Smooth(smooth) if smooth.given.is_some() => {

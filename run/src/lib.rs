@@ -8,6 +8,7 @@ pub mod emit;
 pub mod engine;
 pub mod ensemble;
 mod error;
+mod inputs;
 mod load;
 pub mod number;
 pub mod series;

@@ -21,6 +21,7 @@ use crate::engine::{
     whole_group,
 };
 use crate::error::RunError;
+use crate::inputs;
 
 /// A system as its file has it, its Hamiltonian a polynomial or another smooth function.
 pub type System = system::System<Hamiltonian>;
@@ -44,7 +45,8 @@ pub fn read_varying(
     varied: &[String],
 ) -> Result<System, RunError> {
     let read = system::read_either(text, options, varied);
-    let read = read.map_err(|mistakes| RunError::Input(mistakes.render(name, text)))?;
+    let mut read = read.map_err(|mistakes| RunError::Input(mistakes.render(name, text)))?;
+    inputs::fill(Path::new(name), &mut read)?;
     if let (Some(parameter), true) = (varied.first(), read.potential.is_some()) {
         let what = "parameters of a system with a potential do not vary from row to row";
         return Err(RunError::Input(format!("{name}: column {parameter}: {what}")));
@@ -215,6 +217,17 @@ impl Derived {
             }
         };
         Ok(Self { file: file.to_owned(), flow, invariants })
+    }
+
+    /// Whether all inputs have a value from time 0 to `end`.
+    ///
+    /// # Errors
+    /// The first that has not.
+    pub fn reaches(&self, end: f64) -> Result<(), RunError> {
+        match &self.flow {
+            Flow::Series(_) => Ok(()),
+            Flow::Collocation(smooth, _) => inputs::reach(&self.file, &smooth.signals, end),
+        }
     }
 
     /// The facts of the system.

@@ -39,6 +39,7 @@ pub mod number;
 pub mod poly;
 pub mod potential;
 pub mod problem;
+pub mod signal;
 pub mod smooth;
 pub mod step;
 pub mod tolerance;

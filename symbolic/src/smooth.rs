@@ -7,10 +7,12 @@ use num_traits::ToPrimitive;
 
 use crate::lie::LieAlgebra;
 use crate::problem::{Parameter, Problem, Symbol};
+use crate::signal::Signal;
 
 /// A smooth Hamiltonian H(t, μ) on the dual of a Lie algebra, as straight-line programs.
 ///
-/// The programs have n + 1 inputs, the coordinates of the momentum and the time t, and a slot for each of the symbols.
+/// The inputs of the programs are the n coordinates of the momentum, the time t, and the values of the signals at t; they have
+/// a slot for each of the symbols.
 #[derive(Clone, Debug)]
 pub struct Smooth {
     /// The name of the system.
@@ -21,6 +23,8 @@ pub struct Smooth {
     pub coordinates: Vec<String>,
     /// Whether H depends on the time.
     pub moves: bool,
+    /// The inputs u(t) in H.
+    pub signals: Vec<Signal>,
     /// H.
     pub value: Program,
     /// ∂H/∂μ, n outputs.
@@ -116,9 +120,11 @@ impl Smooth {
     }
 
     /// The inputs of the programs at (t, μ).
-    fn inputs(time: f64, mu: &[f64]) -> Vec<f64> {
+    #[must_use]
+    pub fn inputs(&self, time: f64, mu: &[f64]) -> Vec<f64> {
         let mut inputs = mu.to_vec();
         inputs.push(time);
+        inputs.extend(self.signals.iter().map(|signal| signal.at(time)));
         inputs
     }
 
@@ -128,7 +134,7 @@ impl Smooth {
         if let Some(Given(function)) = &self.given {
             return function.value(time, mu);
         }
-        self.value.run(&Self::inputs(time, mu), symbols).first().copied().unwrap_or(f64::NAN)
+        self.value.run(&self.inputs(time, mu), symbols).first().copied().unwrap_or(f64::NAN)
     }
 
     /// ∂H/∂μ(t, μ) for these values of the symbols.
@@ -137,13 +143,13 @@ impl Smooth {
         if let Some(Given(function)) = &self.given {
             return function.gradient(time, mu);
         }
-        self.gradient.run(&Self::inputs(time, mu), symbols)
+        self.gradient.run(&self.inputs(time, mu), symbols)
     }
 
     /// The first expression that is not defined, or has no derivative, at (t, μ), by its number, and its argument there.
     #[must_use]
     pub fn undefined(&self, symbols: &[f64], time: f64, mu: &[f64]) -> Option<(usize, f64)> {
-        let values = self.watched.run(&Self::inputs(time, mu), symbols);
+        let values = self.watched.run(&self.inputs(time, mu), symbols);
         let (pairs, _) = values.as_chunks::<2>();
         let found =
             pairs.iter().position(|[argument, test]| argument.is_finite() && !test.is_finite())?;

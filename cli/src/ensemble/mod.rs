@@ -76,6 +76,7 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     // Little is left of what a device makes.
     let work = if device.is_some() { 0.0 } else { work(options, facts.algebra.dim(), steps) };
     let how = How { backend: options.backend, work, device };
+    derived.reaches(schedule.end)?;
     let engine = Engine::new(&derived, step, how)?;
     let [chart, frame] = match derived.series().map(|series| &series.integrator.problem) {
         Some(problem) => [problem.chart.to_string(), problem.frame_name().to_owned()],

@@ -274,3 +274,100 @@ fn a_hamiltonian_that_moves_in_time_is_followed_at_its_own_times() {
         assert!((0.2..5.0).contains(&(estimate / error)), "{estimate:e} {error:e}");
     }
 }
+
+/// Inputs that are polynomials of degree three and two, which the splines are then too.
+const STEERED: &str = r#"
+group = "SO3"
+coordinates = ["x", "y", "z"]
+hamiltonian = "u*z^2/2 + v*z"
+[inputs]
+times = [0, 1.2, 2, 3.5, 6]
+u = [0.3, -0.0648, 0.3, 1.0875, -2.1]
+v = [0.5, 0.596, 0.5, -0.025, -1.9]
+[integrator]
+truncation = 5
+step = 0.1
+[initial]
+momentum = [0.5, -0.3, 0.9]
+[run]
+time = 6
+"#;
+
+#[test]
+fn inputs_are_splines_and_end_with_their_table() {
+    let folder = Folder::with(STEERED);
+    let report = report_of(&folder, "");
+    // The integral of z u + v, z = 0.9, by which μ turns backwards about the third axis.
+    let (sin, cos) = (0.9 * 1.8 - 0.6_f64).sin_cos();
+    let expected = [0.5 * cos - 0.3 * sin, -0.5 * sin - 0.3 * cos, 0.9];
+    let error = distance(&numbers(&report["momentum"]), &expected);
+    assert!(error < 1e-13, "{error:e}");
+    assert!(report["drift"]["energy"].is_null(), "{report}");
+    // Code has no inputs.
+    folder.run("emit system.toml").fails(2, &["no code is written of a system with the input `u`"]);
+    for run in ["simulate system.toml --time 8", "simulate system.toml --step=-0.1"] {
+        let ran =
+            folder.run(run).fails(2, &["the input `u` goes from time 0 to 6, and the run from"]);
+        assert!(ran.out.is_empty());
+    }
+    let starts = "x,y,z\n0.5,-0.3,0.9\n";
+    folder.write("starts.csv", starts);
+    let ensemble = "ensemble system.toml --initial starts.csv --out rows.csv --time";
+    folder.run(&format!("{ensemble} 7")).fails(2, &["to 6, and the run from 0 to 7"]);
+    folder.run(&format!("{ensemble} 6")).ok();
+}
+
+/// Columns of a file that stands beside the system, wherever the command is called.
+#[test]
+fn tables_of_inputs_may_be_files() {
+    let (first, rest) = STEERED.split_once("times").unwrap();
+    let (_, rest) = rest.split_once("[integrator]").unwrap();
+    let columns = "table = \"wheels.csv\"\ntimes = \"t\"\nu = \"speed\"\nv = \"other\"";
+    let folder = Folder::with(&format!("{first}{columns}\n[integrator]{rest}"));
+    let lines =
+        "t,other,speed\n0,0.5,0.3\n1.2,0.596,-0.0648\n2,0.5,0.3\n3.5,-0.025,1.0875\n6,-1.9,-2.1\n";
+    let write = |text: &str| folder.write("wheels.csv", text);
+    write(lines);
+    let listed = report_of(&Folder::with(STEERED), "");
+    assert_eq!(report_of(&folder, "")["momentum"], listed["momentum"]);
+    for (given, instead, expected) in [
+        ("3.5,-0.025", "3.5,wet", "wheels.csv: row 4, column other: `wet` is no finite number"),
+        ("1.0875", "NaN", "wheels.csv: row 4, column speed: `NaN` is no finite number"),
+        (
+            "3.5,",
+            "1.5,",
+            "wheels.csv: row 4, column t: 1.5 must be after the time of the row before",
+        ),
+        ("speed", "spd", "wheels.csv: column speed is missing; there are t, other, spd"),
+        (&lines[24..], "", "wheels.csv: an input has at least two times"),
+    ] {
+        write(&lines.replace(given, instead));
+        folder.run("simulate system.toml").fails(2, &[expected]);
+    }
+    folder.remove("wheels.csv");
+    folder.run("simulate system.toml").fails(2, &["wheels.csv"]);
+}
+
+#[test]
+fn mistakes_about_inputs() {
+    for (given, instead, expected) in [
+        ("times = [0, 1.2, 2, 3.5, 6]", "", "`times` is missing in [inputs]"),
+        (
+            "times = [0, 1.2, 2, 3.5, 6]",
+            "table = \"a.csv\"\ntimes = \"t\"",
+            "`u` must be a text in quotes",
+        ),
+        ("2, 3.5, 6]", "2, 2, 6]", "entry 3 of the times, 2, must be finite and after"),
+        ("times = [0, 1.2, 2, 3.5, 6]", "times = [0]", "`u` has 5 values for 1 times"),
+        ("1.0875, -2.1]", "1.0875]", "`u` has 4 values for 5 times"),
+        ("1.0875, -2.1]", "nan, -2.1]", "`nan` is not a number"),
+        ("v = [0.5", "x = [0.5", "the name `x` is already taken by a coordinate"),
+        (" + v*z", " + z", "the input `v` does not occur in the Hamiltonian"),
+        ("u*z^2/2 + v*z", "z^2", "the input `u` does not occur in the Hamiltonian"),
+        ("u*z^2/2", "u*w", "unknown variable `w`"),
+    ] {
+        let folder = Folder::with(&STEERED.replace(given, instead));
+        let ran = folder.run("simulate system.toml").fails(2, &[expected]);
+        assert!(ran.error.contains("system.toml:"), "{}", ran.error);
+    }
+}

@@ -65,7 +65,7 @@ pub(crate) enum Mistake {
     UnknownPower,
     #[error("the momentum stands in an exponent: the Hamiltonian must be a polynomial in it")]
     MomentumInExponent,
-    #[error("the Hamiltonian depends on the time t")]
+    #[error("the Hamiltonian depends on time")]
     MovesInTime,
     #[error("the power {0} is too large; at most {1} is allowed")]
     LargePower(String, u32),

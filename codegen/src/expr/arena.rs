@@ -27,6 +27,8 @@ pub enum Node {
     Parameter(usize),
     /// The time t.
     Time,
+    /// An input, a function of the time.
+    Signal(usize),
     /// −a.
     Neg(ExprId),
     /// a + b.
@@ -53,6 +55,7 @@ impl Node {
             | Self::Coordinate(_)
             | Self::Parameter(_)
             | Self::Time
+            | Self::Signal(_)
             | Self::Wrong => [None, None],
             Self::Neg(a) | Self::Call(_, a) => [Some(a), None],
             Self::Add(a, b)

@@ -17,6 +17,8 @@ pub enum Name {
     Number(Rational),
     /// The time t.
     Time,
+    /// An input, a function of the time, counted from 0.
+    Signal(usize),
 }
 
 impl Name {
@@ -25,6 +27,7 @@ impl Name {
             Self::Coordinate(_) => "a coordinate of the momentum",
             Self::Parameter(_) | Self::Number(_) => "a parameter",
             Self::Time => "the time",
+            Self::Signal(_) => "an input",
         }
     }
 }

@@ -201,6 +201,7 @@ impl Parser<'_> {
             Ok(Name::Parameter(i)) => Node::Parameter(i),
             Ok(Name::Number(value)) => Node::Number(value),
             Ok(Name::Time) => Node::Time,
+            Ok(Name::Signal(i)) => Node::Signal(i),
             Err(_) if Function::lookup(name).is_some() => {
                 return self.wrong(span, Mistake::FunctionWithoutArgument(name.to_owned()));
             }

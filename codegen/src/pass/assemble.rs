@@ -14,6 +14,7 @@ use crate::potential::Potential;
 #[cfg(feature = "system")]
 use crate::problem::values;
 use crate::problem::{FrameChoice, Method, Parameter, Problem, Symbol};
+use crate::signal::Signal;
 use crate::smooth::{Given, Hamiltonian, Smooth};
 
 /// An energy as a front end has read it: a Hamiltonian, or a potential.
@@ -44,7 +45,8 @@ impl Energy {
 
     /// Whether it is a function of the time too.
     fn moves(&self) -> bool {
-        self.arena.iter().any(|(_, node, _)| *node == Node::Time)
+        let of_time = |node: &Node| matches!(node, Node::Time | Node::Signal(_));
+        self.arena.iter().any(|(_, node, _)| of_time(node))
     }
 
     fn scalar_names(&self) -> Vec<String> {
@@ -63,6 +65,8 @@ pub(crate) struct Draft {
     /// The place where the coordinates are named.
     pub coordinates_span: Span,
     pub hamiltonian: Energy,
+    /// The inputs of the Hamiltonian.
+    pub signals: Vec<Signal>,
     pub choice: Choice,
 }
 
@@ -125,7 +129,8 @@ fn assemble_smooth(
     given: Option<Given>,
     diagnostics: &Diagnostics,
 ) -> Option<Smooth> {
-    let Draft { name, algebra, coordinates, coordinates_span, hamiltonian: energy, choice } = draft;
+    let Draft { name, algebra, coordinates, coordinates_span, hamiltonian: energy, .. } = draft;
+    let (signals, choice) = (draft.signals, draft.choice);
     check_dimension(algebra.as_ref(), coordinates.len(), coordinates_span, diagnostics);
     let placed = |place| !matches!(place, Span::Whole);
     let chosen = [
@@ -150,7 +155,8 @@ fn assemble_smooth(
         None => {
             let (root, place) = energy.root?;
             let mut table = Table::new();
-            let names = (&coordinates[..], &energy.scalar_names()[..]);
+            let inputs: Vec<String> = signals.iter().map(|signal| signal.name.clone()).collect();
+            let names = [&coordinates[..], &energy.scalar_names(), &inputs];
             let lowered = lower(&energy.arena, root, names, &mut table, diagnostics)?;
             if lowered.gradient.nodes().iter().all(|node| *node == coadjoint_program::Node::Zero) {
                 diagnostics.report(place, Mistake::NoDependence);
@@ -161,6 +167,7 @@ fn assemble_smooth(
     };
     Some(Smooth {
         moves,
+        signals,
         name,
         algebra: algebra?,
         coordinates,
@@ -254,7 +261,7 @@ pub(crate) fn function(
     diagnostics: &Diagnostics,
 ) -> Option<(coadjoint_program::Program, Vec<f64>)> {
     let (root, _) = energy.root?;
-    let lowered = lower(&energy.arena, root, (names, &[]), &mut Table::new(), diagnostics)?;
+    let lowered = lower(&energy.arena, root, [names, &[], &[]], &mut Table::new(), diagnostics)?;
     Some((lowered.value, values(&lowered.symbols)))
 }
 

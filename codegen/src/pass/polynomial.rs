@@ -136,7 +136,7 @@ impl Pass<'_> {
                 let value = self.table.parameter(i);
                 self.checked(span, value).map(Sum::constant)
             }
-            Node::Time => self.wrong(span, Mistake::MovesInTime),
+            Node::Time | Node::Signal(_) => self.wrong(span, Mistake::MovesInTime),
             Node::Neg(a) => Some(negated(self.take(a)?)),
             Node::Add(a, b) => {
                 let (a, b) = (self.take(a), self.take(b));

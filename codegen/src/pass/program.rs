@@ -34,15 +34,17 @@ enum Value {
     Number(Id),
 }
 
-/// Lowers the expression `root` in coordinates with these names; `None` if something was wrong, which is then reported.
+/// Lowers the expression `root` in coordinates, scalar parameters and inputs with these names; `None` if something was
+/// wrong, which is then reported.
 pub(super) fn lower(
     arena: &Arena,
     root: ExprId,
-    (coordinates, scalars): (&[String], &[String]),
+    names: [&[String]; 3],
     table: &mut Table,
     diagnostics: &Diagnostics,
 ) -> Option<Lowered> {
     let needed = needed(arena, root);
+    let [coordinates, scalars, signals] = names;
     let mut pass = Pass {
         time: coordinates.len(),
         table,
@@ -51,7 +53,7 @@ pub(super) fn lower(
         slots: BTreeMap::new(),
         watched: Vec::new(),
         values: Vec::new(),
-        texts: texts(arena, coordinates, scalars),
+        texts: texts(arena, names),
     };
     for (id, node, span) in arena.iter().take(root.index() + 1) {
         let value = if needed[id.index()] { pass.node(id, node, span) } else { None };
@@ -64,7 +66,7 @@ pub(super) fn lower(
     let inputs: Vec<Id> = (0..n).map(|i| graph.input(i)).collect();
     let one = graph.constant(1.0);
     let gradient = graph.pull_back(&[(root, one)], &inputs);
-    let finish = |outputs: &[Id]| graph.clone().finish(n + 1, outputs);
+    let finish = |outputs: &[Id]| graph.clone().finish(n + 1 + signals.len(), outputs);
     let pairs: Vec<Id> = watched.iter().flat_map(|&(_, argument, test)| [argument, test]).collect();
     let mut numbered: Vec<_> = slots.into_iter().collect();
     numbered.sort_by_key(|(_, slot)| *slot);
@@ -149,6 +151,13 @@ impl Pass<'_> {
                 return self.constant(span, value);
             }
             Node::Time => Number(self.graph.input(self.time)),
+            Node::Signal(i) => {
+                // Outside its table it is not finite.
+                let time = self.graph.input(self.time);
+                let value = self.graph.input(self.time + 1 + i);
+                self.watched.push((id, time, value));
+                Number(value)
+            }
             Node::Neg(a) => match self.take(a)? {
                 Constant(mut a) => {
                     a.negate();
@@ -308,7 +317,7 @@ impl Pass<'_> {
 }
 
 /// The texts of all nodes as a user would write them, with their binding strengths; those that are too long are cut.
-fn texts(arena: &Arena, coordinates: &[String], scalars: &[String]) -> Vec<(String, u8)> {
+fn texts(arena: &Arena, [coordinates, scalars, signals]: [&[String]; 3]) -> Vec<(String, u8)> {
     let mut texts: Vec<(String, u8)> = Vec::with_capacity(arena.len());
     for (_, node, _) in arena.iter() {
         let operand = |id: ExprId, least: u8| match &texts[id.index()] {
@@ -325,6 +334,7 @@ fn texts(arena: &Arena, coordinates: &[String], scalars: &[String]) -> Vec<(Stri
             Node::Coordinate(i) => (name(coordinates, i), 4),
             Node::Parameter(i) => (name(scalars, i), 4),
             Node::Time => ("t".to_owned(), 4),
+            Node::Signal(i) => (name(signals, i), 4),
             Node::Neg(a) => (format!("-{}", operand(a, 2)), 1),
             Node::Add(a, b) => binary(a, " + ", b, [1, 1, 1]),
             Node::Sub(a, b) => binary(a, " - ", b, [1, 2, 1]),

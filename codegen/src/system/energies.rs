@@ -4,9 +4,11 @@ use super::initial::copies;
 use super::parameters::Parameters;
 use super::table::Table;
 use crate::diagnostic::Span;
+use crate::expr::Node;
 use crate::lie::LieAlgebra;
 use crate::parse::{Name, Names};
 use crate::pass::Energy;
+use crate::signal::Signal;
 
 const COORDINATES: &str = "coordinates = [\"x\", \"y\", \"z\"]";
 const HAMILTONIAN: &str = "hamiltonian = \"x^2/2 + y^2/4\"";
@@ -18,6 +20,7 @@ pub(super) fn hamiltonian(
     algebra: Option<&LieAlgebra>,
     coordinates: &[(String, Span)],
     parameters: &Parameters,
+    inputs: &[(Signal, Span)],
 ) -> Energy {
     let mut names = Names::of_coordinates(coordinates, root.diagnostics);
     let kept = parameters.add_to(&mut names, root.diagnostics);
@@ -25,7 +28,10 @@ pub(super) fn hamiltonian(
         let dim = algebra.map_or(0, LieAlgebra::dim);
         (0..dim).for_each(|i| names.alias(format!("mu[{i}]"), Name::Coordinate(i)));
     }
-    // Parameters and coordinates of this name come first.
+    for (i, (signal, place)) in inputs.iter().enumerate() {
+        names.add(&signal.name, Name::Signal(i), *place, root.diagnostics);
+    }
+    // What else is called t comes first.
     names.alias("t".to_owned(), Name::Time);
     if !root.has("hamiltonian") {
         root.missing("hamiltonian", HAMILTONIAN);
@@ -34,7 +40,14 @@ pub(super) fn hamiltonian(
         root.string("hamiltonian", HAMILTONIAN);
         return Energy::default();
     }
-    root.energy("hamiltonian", HAMILTONIAN, &names, kept).unwrap_or_default()
+    let energy = root.energy("hamiltonian", HAMILTONIAN, &names, kept).unwrap_or_default();
+    for (i, (signal, place)) in inputs.iter().enumerate() {
+        if !energy.arena.iter().any(|(_, node, _)| *node == Node::Signal(i)) {
+            let what = format!("the input `{}` does not occur in the Hamiltonian", signal.name);
+            root.diagnostics.report_other(*place, what, "name it there, or leave it out");
+        }
+    }
+    energy
 }
 
 /// The names of the coordinates, and where they are given; those of the generators, or mu[0], mu[1], … where none are

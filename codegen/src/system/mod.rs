@@ -39,6 +39,9 @@
 //! A force that breaks the symmetry is a `potential = "…"`, a polynomial in the entries `g[0][0]`, …
 //! of the group element's matrix; its kicks are composed by the `splitting` of `[integrator]`.
 //!
+//! `t` in the Hamiltonian is the time. `[inputs]` has functions of it by their values, `u = [0, 0.5, 0.2, 0]` at `times = [0, 1, 2, 3]`,
+//! between which they are cubic splines.
+//!
 //! Each `[[event]]` has a function of the state, `when = "g[2][2]"`, in the momentum, the entries of g and the time t: a run
 //! finds where it changes its sign, in the `direction` up, down or both, and ends there with `stop = true`.
 
@@ -46,6 +49,7 @@ mod algebra;
 mod energies;
 mod event;
 mod initial;
+mod inputs;
 mod options;
 mod parameters;
 mod project;
@@ -89,6 +93,26 @@ pub struct System<H = Problem> {
     pub units: Units,
     /// All parameters, also those whose values are put into the Hamiltonian.
     pub parameters: Vec<Parameter>,
+}
+
+impl System<Hamiltonian> {
+    /// Whether it can be written as code.
+    ///
+    /// # Errors
+    /// Why not: code has no inputs, and would read others than these.
+    pub fn writable(&self) -> Result<(), String> {
+        let signals = match &self.problem {
+            Hamiltonian::Smooth(smooth) => &smooth.signals[..],
+            Hamiltonian::Polynomial(_) => &[],
+        };
+        signals.first().map_or(Ok(()), |signal| {
+            Err(format!(
+                "no code is written of a system with the input `{}`, whose table it would not have: `simulate`, \
+                 `ensemble` and Python make its steps",
+                signal.name
+            ))
+        })
+    }
 }
 
 impl From<System> for System<Hamiltonian> {
@@ -223,6 +247,7 @@ fn system<H>(
         "hamiltonian",
         "potential",
         "parameters",
+        "inputs",
         "units",
         "integrator",
         "initial",
@@ -232,8 +257,9 @@ fn system<H>(
     let name = name(&root);
     let algebra = group(&root, &name);
     let (coordinates, coordinates_span) = energies::coordinates(&root, algebra.as_ref());
+    let inputs = inputs::read(&root);
     let hamiltonian = match kind.given {
-        None => energies::hamiltonian(&root, algebra.as_ref(), &coordinates, &parameters),
+        None => energies::hamiltonian(&root, algebra.as_ref(), &coordinates, &parameters, &inputs),
         Some(name) => {
             let parameters = parameters.all();
             Energy { source: name.to_owned(), parameters, ..Energy::default() }
@@ -255,7 +281,9 @@ fn system<H>(
     let potential = potential.and_then(|energy| {
         assemble_potential("potential".to_owned(), algebra.clone(), None, energy, diagnostics)
     });
-    let draft = Draft { name, algebra, coordinates, coordinates_span, hamiltonian, choice };
+    let signals = inputs.into_iter().map(|(signal, _)| signal).collect();
+    let draft =
+        Draft { name, algebra, coordinates, coordinates_span, hamiltonian, signals, choice };
     let problem = (kind.assemble)(draft, diagnostics)?;
     let Some(known) = (kind.polynomial)(&problem) else {
         let what = "steps are made by collocation, and with it there is none";

@@ -143,6 +143,17 @@ fn t_is_the_time_where_a_file_does_not_say_otherwise() {
     }
 }
 
+/// Printers would have no table to read.
+#[test]
+fn systems_with_inputs_are_not_written_as_code() {
+    let text =
+        "group = 'SO3'\nhamiltonian = 'mu[0]^2 + u*mu[1]'\n[inputs]\ntimes = [0, 1]\nu = [0, 1]";
+    let why = read_either(text, Options::default(), &[]).unwrap().writable().unwrap_err();
+    assert!(why.contains("no code is written of a system with the input `u`"), "{why}");
+    let text = text.replace("u*mu", "mu").replace("[inputs]\ntimes = [0, 1]\nu = [0, 1]", "");
+    assert!(read_either(&text, Options::default(), &[]).unwrap().writable().is_ok());
+}
+
 #[test]
 fn polynomials_stay_polynomials() {
     let body = "fn h(mu: [f64; 3], a: f64) -> f64 { mu[0].powi(2) * a.exp().sqrt() + mu[1] / a }";

@@ -59,8 +59,8 @@ const CASES: [Case; 8] = [
     },
     // By collocation at four nodes, at one, and at three on a product.
     Case {
-        text: "group = 'SO3'\nhamiltonian = 'sqrt(1 + a*mu[0]^2 + mu[1]^2/b + exp(mu[2]/4))'\n\
-               [parameters]\na = 0.5\nb = 2",
+        text: "group = 'SO3'\nhamiltonian = 'sqrt(1 + a*mu[0]^2 + mu[1]^2/b + exp(u*mu[2]))'\n\
+               [parameters]\na = 0.5\nb = 2\n[inputs]\ntimes = [-9, 9, 40]\nu = [0.2, 0.3, 0.1]",
         varied: &["a", "b"],
         momentum: &[2.0, 0.5, 1.0],
         step: 0.25,

@@ -20,9 +20,9 @@ const SPACING: f64 = 0.25;
 pub struct Response<'a> {
     smooth: &'a Smooth,
     symbols: Arc<[f64]>,
-    /// μ, t, v ↦ ∂²H/∂μ² v.
+    /// μ, t, the signals, v ↦ ∂²H/∂μ² v.
     hessian: Program,
-    /// μ, t, the change of the symbols ↦ that of ∂H/∂μ.
+    /// μ, t, the signals, the change of the symbols ↦ that of ∂H/∂μ.
     mixed: Program,
     /// The derivatives of the symbols in each parameter.
     slopes: Vec<Vec<f64>>,
@@ -103,7 +103,8 @@ impl<'a> Response<'a> {
             DVector::from_iterator(2 * n, rates.iter().flatten().map(|&[rate]| rate))
         };
         let run = |program: &Program, change: &[f64]| {
-            let inputs = [momentum.as_slice(), &[*time], change].concat();
+            let mut inputs = self.smooth.inputs(*time, momentum.as_slice());
+            inputs.extend_from_slice(change);
             DVector::from_vec(program.run(&inputs, &self.symbols))
         };
         let omega = self.smooth.gradient(&self.symbols, *time, momentum.as_slice());

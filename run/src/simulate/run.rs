@@ -21,6 +21,7 @@ pub fn run(system: &Derived, setup: &Setup, sink: &mut dyn Sink) -> Result<Outco
         return Err(RunError::Option("the momentum does not fit the group".to_owned()));
     }
     let schedule = &setup.schedule;
+    system.reaches(schedule.end)?;
     let (step, expected) = (schedule.step, schedule.steps as f64);
     let compiled = system.compiled(step, setup.backend, expected, Trajectories::One)?;
     let motion = system.steps(step, compiled.as_ref());

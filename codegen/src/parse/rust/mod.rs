@@ -57,7 +57,9 @@ fn assembled<T>(
     // Without a momentum every name would be unknown: one mistake is enough.
     let Some((_, coordinates, coordinates_span)) = variable else { return Err(diagnostics) };
     let name = function.sig.ident.to_string();
-    let draft = Draft { name, algebra, coordinates, coordinates_span, hamiltonian, choice };
+    let signals = Vec::new();
+    let draft =
+        Draft { name, algebra, coordinates, coordinates_span, hamiltonian, signals, choice };
     let assembled = assemble(draft, &diagnostics);
     diagnostics.into_result(assembled)
 }

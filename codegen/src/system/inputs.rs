@@ -1,0 +1,61 @@
+//! The table `[inputs]`: functions of the time, given by their values.
+
+use super::table::{Table, Value, span};
+use crate::diagnostic::Span;
+use crate::number::nearest_float;
+use crate::signal::{Columns, Signal, SignalError};
+
+const TIMES: &str = "times = [0, 1, 2, 3]";
+const TABLE: &str = "table = \"wheels.csv\"";
+const COLUMN: &str = "times = \"t\"";
+
+/// Reads `times` and the values of each input, with the places of these; with `table`, the names of the columns that hold them.
+pub(super) fn read(root: &Table<'_>) -> Vec<(Signal, Span)> {
+    let Some(table) = root.table("inputs") else { return Vec::new() };
+    let file = table.string("table", TABLE);
+    if !table.has("times") {
+        table.missing("times", if table.has("table") { COLUMN } else { TIMES });
+    }
+    let of_file = |(file, _): (&str, Span), name: &str| {
+        let (times, _) = table.string("times", COLUMN)?;
+        let (values, _) = table.string(name, &format!("{name} = \"{name}\""))?;
+        let [file, times, values] = [file, times, values].map(str::to_owned);
+        Some(Signal::of_columns(name.to_owned(), Columns { file, times, values }))
+    };
+    let list = |key: &str, example: &str| -> Option<(Vec<f64>, Vec<&Value<'_>>, Span)> {
+        let (list, whole) = table.array(key, example)?;
+        let numbers = table.numbers(key, list.iter().copied(), example)?;
+        Some((numbers.iter().map(nearest_float).collect(), list, whole))
+    };
+    let times = if table.has("table") { None } else { list("times", TIMES) };
+    let listed = |name: &str| {
+        let (values, own, whole) = list(name, &format!("{name} = [0, 0.5, 0.2, 0]"))?;
+        let (times, of_times, all) = times.as_ref()?;
+        let signal = Signal::new(name.to_owned(), times.clone(), values);
+        let refuse = |error: SignalError| {
+            let place = match error {
+                SignalError::Lengths(..) => whole,
+                SignalError::Short => *all,
+                SignalError::Times(at, _) => span(of_times[at]),
+                SignalError::Value(_, at, _) => span(own[at]),
+            };
+            table.refuse(place, &error.to_string(), TIMES);
+        };
+        signal.map_err(refuse).ok()
+    };
+    let mut found = Vec::new();
+    let own = |name: &str| !matches!(name, "times" | "table");
+    for (name, place, _) in table.entries().into_iter().filter(|(name, ..)| own(name)) {
+        let signal = match (table.has("table"), file) {
+            (true, file) => file.and_then(|file| of_file(file, name)),
+            (false, _) => listed(name),
+        };
+        // The name of a wrong one is known all the same, so that its uses are no further mistakes.
+        let stand_in = || Signal::new(name.to_owned(), vec![0.0, 1.0], vec![0.0; 2]).ok();
+        found.extend(signal.or_else(stand_in).map(|signal| (signal, place)));
+    }
+    if !table.entries().iter().any(|(name, ..)| own(name)) {
+        table.refuse(table.span, "[inputs] has no input", "u = [0, 0.5, 0.2, 0]");
+    }
+    found
+}

@@ -1,0 +1,173 @@
+//! Inputs: functions of time that a table gives.
+
+use thiserror::Error;
+
+/// An input u(t), given by its values at some times: the cubic spline through them whose third derivative does not jump at the
+/// second time and at the last but one ("not a knot": C. de Boor, *A Practical Guide to Splines*, IV). Through three values
+/// it is a parabola, through two a line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Signal {
+    /// Its name.
+    pub name: String,
+    times: Vec<f64>,
+    values: Vec<f64>,
+    /// The slopes at the times.
+    slopes: Vec<f64>,
+    /// The columns of a file that hold its table, where a file does.
+    pub columns: Option<Columns>,
+}
+
+/// A table of two columns in a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Columns {
+    /// The file, relative to that of the system.
+    pub file: String,
+    /// The name of the column of the times.
+    pub times: String,
+    /// The name of the column of the values.
+    pub values: String,
+}
+
+/// Why a table gives no input. Entries are counted from 0.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum SignalError {
+    /// Two lists of different lengths.
+    #[error("`{0}` has {2} values for {1} times")]
+    Lengths(String, usize, usize),
+    /// Fewer than two times.
+    #[error("an input has at least two times")]
+    Short,
+    /// A time that is not after the one before it, or a number that is not finite.
+    #[error("entry {0} of the times, {1}, must be finite and after the one before it")]
+    Times(usize, f64),
+    /// A value that is not finite.
+    #[error("entry {1} of `{0}` is {2}, and must be finite")]
+    Value(String, usize, f64),
+}
+
+impl Signal {
+    /// The input of this name with these values at these times, which ascend.
+    ///
+    /// # Errors
+    /// [`SignalError`]: why there is none.
+    pub fn new(name: String, times: Vec<f64>, values: Vec<f64>) -> Result<Self, SignalError> {
+        if times.len() != values.len() {
+            return Err(SignalError::Lengths(name, times.len(), values.len()));
+        }
+        if times.len() < 2 {
+            return Err(SignalError::Short);
+        }
+        let after = |at: usize| times[at].is_finite() && (at == 0 || times[at] > times[at - 1]);
+        if let Some(at) = (0..times.len()).find(|&at| !after(at)) {
+            return Err(SignalError::Times(at, times[at]));
+        }
+        if let Some(at) = values.iter().position(|value| !value.is_finite()) {
+            return Err(SignalError::Value(name, at, values[at]));
+        }
+        let slopes = slopes(&times, &values);
+        Ok(Self { name, times, values, slopes, columns: None })
+    }
+
+    /// The input of this name with the table in a file, which has no value until [`Signal::new`] is given the numbers.
+    #[must_use]
+    pub fn of_columns(name: String, columns: Columns) -> Self {
+        let (times, values, slopes) = Default::default();
+        Self { name, times, values, slopes, columns: Some(columns) }
+    }
+
+    /// The first and the last time of the table; NaN where it has none.
+    #[must_use]
+    pub fn range(&self) -> [f64; 2] {
+        [self.times.first(), self.times.last()].map(|time| time.copied().unwrap_or(f64::NAN))
+    }
+
+    /// u(t); NaN outside the table.
+    #[must_use]
+    pub fn at(&self, time: f64) -> f64 {
+        let Self { times, values, slopes, .. } = self;
+        let [first, end] = self.range();
+        if !(first..=end).contains(&time) {
+            return f64::NAN;
+        }
+        let last = times.len() - 1;
+        let i = times.partition_point(|knot| *knot <= time).clamp(1, last) - 1;
+        let (width, way) = (times[i + 1] - times[i], time - times[i]);
+        let chord = (values[i + 1] - values[i]) / width;
+        let (a, b, share) = (slopes[i], slopes[i + 1], way / width);
+        values[i] + way * (a + share * (3.0 * chord - 2.0 * a - b + share * (a + b - 2.0 * chord)))
+    }
+}
+
+/// The slopes of the spline at its knots, by elimination in the tridiagonal equations.
+fn slopes(times: &[f64], values: &[f64]) -> Vec<f64> {
+    let widths: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let rises = values.windows(2).map(|pair| pair[1] - pair[0]);
+    let chords: Vec<f64> = rises.zip(&widths).map(|(rise, width)| rise / width).collect();
+    let last = times.len() - 1;
+    if last == 1 {
+        return vec![chords[0]; 2];
+    }
+    // The slope at the end next to `width`, of the cubic through both intervals, with the slope in the middle between them.
+    let end = |width: f64, next: f64, chord: f64, after: f64| {
+        let both = width + next;
+        ((width + 2.0 * both) * next * chord + width * width * after) / both
+    };
+    if last == 2 {
+        let bend = (chords[1] - chords[0]) / (widths[0] + widths[1]);
+        let [a, b] = [chords[0] - widths[0] * bend, chords[1] + widths[1] * bend];
+        return vec![a, chords[0] + widths[0] * bend, b];
+    }
+    // Row i: below·sᵢ₋₁ + on·sᵢ + above·sᵢ₊₁ = right, kept with its first entry eliminated.
+    let right = end(widths[0], widths[1], chords[0], chords[1]);
+    let mut rows = vec![[widths[1], widths[0] + widths[1], right]];
+    for i in 1..=last {
+        let (below, on, above, right) = if i < last {
+            let (before, after) = (widths[i - 1], widths[i]);
+            let right = 3.0 * (after * chords[i - 1] + before * chords[i]);
+            (after, 2.0 * (before + after), before, right)
+        } else {
+            let (own, next) = (widths[last - 1], widths[last - 2]);
+            let right = end(own, next, chords[last - 1], chords[last - 2]);
+            (own + next, next, 0.0, right)
+        };
+        let [pivot, beside, value] = rows[i - 1];
+        let factor = below / pivot;
+        rows.push([on - factor * beside, above, right - factor * value]);
+    }
+    let mut slopes = vec![0.0; last + 1];
+    let mut next = 0.0;
+    for (slope, [on, above, right]) in slopes.iter_mut().zip(rows).rev() {
+        next = (right - above * next) / on;
+        *slope = next;
+    }
+    slopes
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    /// Four values or more determine a cubic, three a parabola, two a line.
+    #[test]
+    fn splines_are_the_polynomials_that_they_can_be() {
+        let cubic = |t: f64| 0.3 - t + 0.7 * t * t - 0.2 * t * t * t;
+        let parabola = |t: f64| 0.3 - t + 0.7 * t * t;
+        let line = |t: f64| 0.3 - t;
+        let times = vec![-1.0, 0.2, 0.5, 1.7, 1.8, 4.0];
+        let cases: [(usize, &dyn Fn(f64) -> f64); 4] =
+            [(6, &cubic), (4, &cubic), (3, &parabola), (2, &line)];
+        for (count, function) in cases {
+            let times = times[..count].to_vec();
+            let values = times.iter().map(|&t| function(t)).collect();
+            let signal = Signal::new("u".to_owned(), times.clone(), values).unwrap();
+            for i in 0..=100 {
+                let t = times[0] + (times[count - 1] - times[0]) * f64::from(i) / 100.0;
+                // The last one may be beyond by rounding.
+                let t = t.min(times[count - 1]);
+                assert!((signal.at(t) - function(t)).abs() < 2e-13, "{count} {t}");
+            }
+            assert!(signal.at(times[0] - 1e-9).is_nan() && signal.at(4.1).is_nan());
+        }
+    }
+}
