@@ -36,7 +36,6 @@ impl Backend {
     ];
 
     /// One word.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Interpreter => "interpreter",
@@ -47,10 +46,6 @@ impl Backend {
     }
 
     /// The stepper of a kernel; `None` where the machine has no C compiler.
-    ///
-    /// # Panics
-    /// Where a back end that is there fails.
-    #[must_use]
     pub fn stepper(self, kernel: &Kernel) -> Option<AnyStepper> {
         match self {
             Self::Interpreter => Some(Arc::new(kernel.clone())),
@@ -74,7 +69,6 @@ impl Backend {
 }
 
 /// The numbers that the programs of a step have for a group element.
-#[must_use]
 pub fn numbers_of(
     step: &Step,
     group: &MatrixGroup,
@@ -86,13 +80,11 @@ pub fn numbers_of(
 }
 
 /// The matrix, row by row, of an element given by the numbers that the programs have for it.
-#[must_use]
 pub fn matrix_of(kernel: &Kernel, g: &[f64]) -> Vec<f64> {
     kernel.programs().matrix.run(g, &[])
 }
 
 /// The state of the runtime that the programs have as these numbers.
-#[must_use]
 pub fn phase_of(kernel: &Kernel, group: &MatrixGroup, g: &[f64], mu: &[f64]) -> Phase<MatrixGroup> {
     let size = group.matrix_size();
     let element = DMatrix::from_row_slice(size, size, &matrix_of(kernel, g));

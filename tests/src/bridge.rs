@@ -9,9 +9,6 @@ use coadjoint_codegen::number::nearest_float;
 pub use coadjoint_learn::catalogue::matrix_group;
 
 /// S_h = Σ h^k S_k as a generating function.
-///
-/// # Errors
-/// [`TableError::IndexOutOfRange`] for a series with opaque symbols.
 pub fn series_function<G: LieGroup, C: Chart<G>>(
     group: G,
     chart: C,

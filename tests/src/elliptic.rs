@@ -3,7 +3,6 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// K(k), by the arithmetic–geometric mean (Abramowitz and Stegun, 17.6.3).
-#[must_use]
 pub fn complete_first(k: f64) -> f64 {
     let (mut a, mut b) = (1.0_f64, (1.0 - k * k).sqrt());
     while (a - b).abs() > 1e-15 * a {
@@ -14,7 +13,6 @@ pub fn complete_first(k: f64) -> f64 {
 
 /// Π(n, k) = ∫₀^{π/2} dθ/((1 − n sin²θ) √(1 − k² sin²θ)), n < 1: the integrand is periodic and
 /// analytic, so the trapezoidal rule converges exponentially.
-#[must_use]
 pub fn complete_third(n: f64, k: f64) -> f64 {
     const POINTS: u32 = 400;
     let sum: f64 = (0..POINTS)
@@ -27,7 +25,6 @@ pub fn complete_third(n: f64, k: f64) -> f64 {
 }
 
 /// (sn u, cn u, dn u) by the descending Landen transformation (Abramowitz and Stegun, 16.4).
-#[must_use]
 pub fn jacobi(u: f64, k: f64) -> (f64, f64, f64) {
     let mut means = vec![(1.0_f64, k)];
     let mut b = (1.0 - k * k).sqrt();

@@ -11,9 +11,6 @@ pub const SYSTEMS: [(&str, &str); 5] =
     [RIGID_BODY, CAYLEY_BODY, HEAVY_TOP, COMOVING_BODY, THREE_WAVE];
 
 /// The integrator that the attribute with `arguments` builds from the source of a function.
-///
-/// # Errors
-/// The messages of the attribute.
 pub fn from_function((arguments, function): (&str, &str)) -> syn::Result<Integrator> {
     let function: syn::ItemFn = syn::parse_str(function)?;
     let problem =

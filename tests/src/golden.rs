@@ -3,9 +3,6 @@
 use std::path::PathBuf;
 
 /// Compares a text with the committed file of this name; with `COADJOINT_BLESS` set, writes the file.
-///
-/// # Panics
-/// Where they differ.
 pub fn check(name: &str, text: &str) {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("golden").join(name);
     if std::env::var_os("COADJOINT_BLESS").is_some() {

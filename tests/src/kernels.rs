@@ -31,19 +31,11 @@ pub const SYSTEMS: [(&str, &str); 15] = [
 ];
 
 /// The coefficients of a step of size `h` that takes the series seriously at any momentum.
-///
-/// # Panics
-/// Where they are not finite.
-#[must_use]
 pub fn unlimited(step: &Step, h: f64) -> Vec<f64> {
     limited(step, h, f64::MAX)
 }
 
 /// The same for momenta up to this size.
-///
-/// # Panics
-/// Where they are not finite.
-#[must_use]
 pub fn limited(step: &Step, h: f64, radius: f64) -> Vec<f64> {
     let mut coefficients = step.fold(h, &[]).unwrap();
     coefficients[step.radius_at()] = radius * radius;
@@ -53,19 +45,11 @@ pub fn limited(step: &Step, h: f64, radius: f64) -> Vec<f64> {
 const NAMES: [&str; 8] = ["a", "b", "c", "d", "e", "f", "g", "h"];
 
 /// The integrator of a system of [`SYSTEMS`].
-///
-/// # Panics
-/// Where there is none.
-#[must_use]
 pub fn integrator(group: &str, hamiltonian: &str, chart: &str, truncation: usize) -> Integrator {
     integrator_by(Solver::Newton, group, hamiltonian, chart, truncation)
 }
 
 /// As [`integrator`], solved by this method.
-///
-/// # Panics
-/// Where there is none.
-#[must_use]
 pub fn integrator_by(
     solver: Solver,
     group: &str,

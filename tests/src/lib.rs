@@ -6,7 +6,6 @@ pub mod bridge;
 pub mod elliptic;
 pub mod emitted;
 pub mod energies;
-pub mod erased;
 pub mod golden;
 pub mod kernels;
 pub mod matrix_free;
@@ -17,7 +16,6 @@ pub mod run;
 pub mod sources;
 pub mod stress;
 pub mod toutatis;
-pub mod toutatis_figure;
 
 /// Makes the snippets of pages into tests.
 macro_rules! pages {

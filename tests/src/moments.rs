@@ -7,13 +7,11 @@ use nalgebra::{Complex, DMatrix};
 pub type Measured = (f64, f64);
 
 /// |v|².
-#[must_use]
 pub fn square(v: &[f64]) -> f64 {
     v.iter().map(|x| x * x).sum()
 }
 
 /// u·v.
-#[must_use]
 pub fn dot(u: &[f64], v: &[f64]) -> f64 {
     u.iter().zip(v).map(|(x, y)| x * y).sum()
 }
@@ -21,7 +19,6 @@ pub fn dot(u: &[f64], v: &[f64]) -> f64 {
 /// The Casimirs of the groups by name, `algebra` being told by `system`.
 ///
 /// so(3): |Π|²; se(3): |Γ|², Π·Γ; so(4): Σ M_ab² and the Pfaffian; su(n): tr (iM)^k, k = 2 … n.
-#[must_use]
 pub fn casimirs(group: &str, system: &str, mu: &[f64]) -> Vec<Measured> {
     match (group, system) {
         ("SO3", _) => vec![(square(mu), square(mu))],
@@ -60,7 +57,6 @@ fn moments(a: &DMatrix<Complex<f64>>) -> Vec<Measured> {
 
 /// −iM for M ∈ su(n)* ≅ su(n) by ⟨M, ξ⟩ = −½ tr Mξ, coordinates dual to E_ab − E_ba,
 /// i(E_ab + E_ba), i(E_kk − E_k+1,k+1).
-#[must_use]
 pub fn special_unitary(n: usize, mu: &[f64]) -> DMatrix<Complex<f64>> {
     let mut m = DMatrix::<Complex<f64>>::zeros(n, n);
     let mut at = 0;

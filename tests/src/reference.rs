@@ -46,7 +46,6 @@ pub struct EndState {
 }
 
 /// Every entry of both files.
-#[must_use]
 pub fn end_states() -> Vec<EndState> {
     let mut all: Vec<EndState> = serde_json::from_str(include_str!("../reference/end_states.json"))
         .expect("end_states.json");
@@ -57,21 +56,18 @@ pub fn end_states() -> Vec<EndState> {
 }
 
 /// The entry of this name.
-#[must_use]
 pub fn end_state(system: &str) -> EndState {
     let found = end_states().into_iter().find(|entry| entry.system == system);
     found.unwrap_or_else(|| panic!("no reference for {system}"))
 }
 
 /// Numbers given as decimals.
-#[must_use]
 pub fn numbers(texts: &[String]) -> Vec<f64> {
     texts.iter().map(|text| text.parse().expect("a decimal")).collect()
 }
 
 impl EndState {
     /// 𝔤.
-    #[must_use]
     pub fn algebra(&self) -> LieAlgebra {
         match &self.structure {
             None => catalogue::lookup(&self.group).expect("a group of the catalogue"),
@@ -84,7 +80,6 @@ impl EndState {
     }
 
     /// H_red as a polynomial in μ.
-    #[must_use]
     pub fn polynomial(&self) -> Polynomial {
         let terms = self.hamiltonian.iter();
         Polynomial::from_terms(
@@ -94,7 +89,6 @@ impl EndState {
     }
 
     /// S₁ … S_K in the exponential chart.
-    #[must_use]
     pub fn series(&self, truncation: usize) -> GeneratingSeries {
         let (algebra, limit) = (self.algebra(), TermLimit::default());
         derive(&algebra, Chart::Exponential, &self.polynomial(), truncation, limit)

@@ -30,7 +30,6 @@ pub type Watched<'a> = &'a dyn Fn(&[f64]) -> f64;
 
 /// Runs from the reference's initial state, μ(0) replaced by `start` if given, `steps` steps of
 /// T/`steps_to_end`.
-#[must_use]
 pub fn run(
     entry: &EndState,
     series: &GeneratingSeries,

@@ -4,25 +4,16 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The root of the repository.
-#[must_use]
 pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
 /// The text of a file, by its path from the root.
-///
-/// # Panics
-/// Where it cannot be read.
-#[must_use]
 pub fn read(path: &str) -> String {
     fs::read_to_string(root().join(path)).unwrap()
 }
 
 /// The paths from the root of all Rust files below a folder, with their texts; folders of builds are left out.
-///
-/// # Panics
-/// Where one cannot be read.
-#[must_use]
 pub fn rust(folder: &str) -> Vec<(String, String)> {
     let root = root();
     let (mut folders, mut files) = (vec![root.join(folder)], Vec::new());

@@ -47,7 +47,6 @@ pub struct ClosedForm {
 
 impl LongAxisMode {
     /// The motion with these integrals.
-    #[must_use]
     pub fn closed_form(&self) -> ClosedForm {
         let [i1, i2, i3] = INERTIA;
         let Self { momentum_squared: l2, twice_energy: e2 } = *self;
@@ -64,7 +63,6 @@ impl LongAxisMode {
     }
 
     /// The period of the rotation about the long axis, 4 K(k)/λ.
-    #[must_use]
     pub fn rotation_period(&self) -> f64 {
         let motion = self.closed_form();
         4.0 * complete_first(motion.modulus) / motion.rate
@@ -74,7 +72,6 @@ impl LongAxisMode {
     ///
     /// φ̇ = L (2E − Π₁²/I₁)/(L² − Π₁²), whose mean over the period is
     /// L/I₁ + L (2E − L²/I₁)/A₃² · Π(−n, k)/K(k), n = k² A₁²/A₃².
-    #[must_use]
     pub fn precession_period(&self) -> f64 {
         let ClosedForm { amplitudes: [a1, _, a3], modulus: k, .. } = self.closed_form();
         let length = self.momentum_squared.sqrt();
@@ -88,7 +85,6 @@ impl LongAxisMode {
     /// about the long axis and the separatrix; then the unit of time does the rest.
     ///
     /// `None` where no mode has this ratio.
-    #[must_use]
     pub fn with_periods(rotation: f64, precession: f64) -> Option<Self> {
         let [i1, i2, _] = INERTIA;
         let mode = |x: f64| Self { momentum_squared: x, twice_energy: 1.0 };
@@ -119,7 +115,6 @@ impl LongAxisMode {
 
 impl ClosedForm {
     /// The body momentum at time t.
-    #[must_use]
     pub fn momentum(&self, t: f64) -> Vector3<f64> {
         // Reduced to one period before the Landen steps blow the argument up.
         let period = 4.0 * complete_first(self.modulus);
@@ -142,7 +137,6 @@ pub struct Geometry {
 impl Geometry {
     /// The observer at polar angle 60°, the Sun at 75° and 40° ahead in longitude: a solar phase
     /// angle of about 40°.
-    #[must_use]
     pub fn fixed() -> Self {
         let direction = |polar: f64, longitude: f64| {
             let (polar, longitude) = (polar.to_radians(), longitude.to_radians());
@@ -154,7 +148,6 @@ impl Geometry {
     /// The visible and illuminated projected area of the ellipsoid, in km²:
     /// ½ π abc (√(e·Ce) + e·Cs/√(s·Cs)), C = diag(1/a², 1/b², 1/c²) (S. J. Ostro, R. Connelly,
     /// *Icarus* 57 (1984) 443).
-    #[must_use]
     pub fn brightness(&self, body: &Phase<SO3>, to_frame: &Phase<SO3>) -> f64 {
         let group = SO3::new();
         let attitude = group.compose(&to_frame.group_element, &body.group_element);
@@ -187,9 +180,6 @@ pub struct LightCurve {
 
 /// Integrates from the state whose momentum is the closed form's at t = 0; a sample every
 /// `stride` steps of `step` days.
-///
-/// # Errors
-/// As a step.
 pub fn light_curve(
     mode: &LongAxisMode,
     geometry: &Geometry,
@@ -229,7 +219,6 @@ pub struct Line {
 
 /// The absolute values of the light curve's Fourier transform, after the mean is taken out and a
 /// Hann window put on; entry i is at the frequency i/(samples · interval).
-#[must_use]
 pub fn transform(curve: &LightCurve) -> Vec<f64> {
     use rustfft::num_complex::Complex;
     let n = curve.samples.len();
@@ -249,7 +238,6 @@ pub fn transform(curve: &LightCurve) -> Vec<f64> {
 
 /// The lines of a light curve, strongest first: local maxima of its [`transform`], the frequency
 /// refined by a parabola through the logarithms.
-#[must_use]
 pub fn spectrum(curve: &LightCurve, count: usize) -> Vec<Line> {
     let n = curve.samples.len();
     let size = transform(curve);

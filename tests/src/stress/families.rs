@@ -118,7 +118,6 @@ fn polynomials() -> Vec<(Recipe, Maker)> {
 }
 
 /// All families whose names contain `only`.
-#[must_use]
 pub fn families(only: &str) -> Vec<Family> {
     let mut families = Vec::new();
     for (recipe, steps) in polynomials() {

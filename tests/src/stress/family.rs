@@ -75,7 +75,6 @@ pub struct Family {
 
 impl Family {
     /// A family whose steps are those of no generating function.
-    #[must_use]
     pub fn alone(name: &str, instance: fn(u64, &mut Tally)) -> Self {
         let (models, decades, promise) = (Vec::new(), 0.0, false);
         let (name, instance) = (name.to_owned(), Some(instance));
@@ -117,7 +116,6 @@ pub fn inertias(random: &mut Random) -> [i64; 3] {
 }
 
 /// A Hamiltonian on this many coordinates.
-#[must_use]
 pub fn energy(kind: Energy, dim: usize, random: &mut Random) -> (Polynomial, Option<f64>) {
     let mut least = None;
     let product =
@@ -256,19 +254,12 @@ impl Recipe {
 }
 
 /// The algebra of a name of the catalogue.
-///
-/// # Panics
-/// If there is none.
-#[must_use]
 pub fn algebra(name: &str) -> LieAlgebra {
     catalogue::lookup(name).expect("a group of the catalogue")
 }
 
 impl Recipe {
     /// The family whose steps are made by `steps`.
-    ///
-    /// # Panics
-    /// If a series cannot be derived.
     pub fn family(&self, seed: u64, steps: Maker) -> Family {
         let algebra = algebra(self.group);
         let mut random = Random::new(seed);

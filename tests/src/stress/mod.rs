@@ -37,7 +37,6 @@ pub struct Options {
 }
 
 /// Runs the stress and counts, family by family.
-#[must_use]
 pub fn run(options: &Options) -> Vec<(String, Tally)> {
     let families = families::families(&options.only);
     if families.is_empty() {

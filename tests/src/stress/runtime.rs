@@ -33,7 +33,6 @@ pub struct State {
 
 impl State {
     /// Whether all numbers are finite.
-    #[must_use]
     pub fn is_finite(&self) -> bool {
         self.element.iter().chain(&self.momentum).all(|v| v.is_finite())
     }
@@ -53,9 +52,6 @@ pub struct Outcome {
 /// A generating function of whatever group, chart and solver.
 pub trait Steps {
     /// The x that `solve` finds.
-    ///
-    /// # Errors
-    /// The runtime's message.
     fn solve(&self, mu: &[f64]) -> Result<Vec<f64>, String>;
 
     /// Steps from (exp(at), μ); `None` where these groups have no such steps.
@@ -87,7 +83,6 @@ impl<S: Integrator> Runner<S> {
     }
 
     /// And with `ensemble::advance_all`.
-    #[must_use]
     pub fn in_lanes(mut self) -> Self
     where
         S: Lanes + Sync,
@@ -173,9 +168,6 @@ impl<S: Integrator> Steps for Runner<S> {
 pub type Terms = Vec<(usize, f64, Vec<(usize, u32)>)>;
 
 /// The polynomial as a generating function.
-///
-/// # Panics
-/// If a term names a coordinate that the group does not have.
 pub fn polynomial<G: LieGroup, C: Chart<G>>(
     group: G,
     chart: C,

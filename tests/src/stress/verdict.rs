@@ -106,14 +106,12 @@ impl Tally {
     }
 
     /// How many were wrong.
-    #[must_use]
     pub fn wrong(&self) -> u64 {
         self.wrong.iter().sum()
     }
 }
 
 /// How long steps of each family took, judged.
-#[must_use]
 pub fn times(tallies: &[(String, Tally)]) -> String {
     let mut out = String::new();
     for (name, tally) in tallies {
@@ -129,7 +127,6 @@ pub fn times(tallies: &[(String, Tally)]) -> String {
 }
 
 /// The table of all families, the examples, and a closing line.
-#[must_use]
 pub fn report(tallies: &[(String, Tally)]) -> String {
     let mut out = String::new();
     let _ = write!(

@@ -14,7 +14,6 @@ use coadjoint_codegen::lie::{Chart as ChartName, LieAlgebra, RationalMatrix};
 use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::poly::Polynomial;
 use coadjoint_tests::bridge::{matrix_group, series_function};
-use coadjoint_tests::erased::AnyGroup;
 use coadjoint_tests::order;
 use coadjoint_tests::stress::Random;
 
@@ -171,7 +170,7 @@ macro_rules! laws_hold_for {
 /// A group whose type is known to the compiler, as it is to users.
 macro_rules! typed {
     ($group:ty) => {
-        |_: &LieAlgebra| AnyGroup::new(<$group>::new())
+        |_: &LieAlgebra| <$group>::new()
     };
 }
 
