@@ -206,9 +206,14 @@ impl Mistake {
     /// A correction, where there is more to say than the message does.
     pub(crate) fn help(&self) -> Option<String> {
         if self.is_of_series() {
-            let text = "a Hamiltonian that is no polynomial has no series: without `method = \"series\"`, the command coadjoint, \
-                        Python and the attribute lie_poisson of Rust make its steps by collocation";
-            return Some(text.to_owned());
+            let lacks = match self {
+                Self::MovesInTime => "depends on time",
+                _ => "is no polynomial",
+            };
+            return Some(format!(
+                "a Hamiltonian that {lacks} has no series: without `method = \"series\"`, the command coadjoint, Python and the \
+                 attribute lie_poisson of Rust make its steps by collocation"
+            ));
         }
         self.correction()
     }

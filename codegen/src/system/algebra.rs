@@ -34,7 +34,7 @@ pub(super) fn read(table: &Table<'_>, system: &str) -> Option<LieAlgebra> {
 
 /// The names under `generators`.
 fn generators(table: &Table<'_>) -> Option<Vec<(String, Span)>> {
-    table.strings("generators", "a list of names", GENERATORS).map(|(names, _)| names)
+    table.names("generators", GENERATORS).map(|(names, _)| names)
 }
 
 fn by_basis(table: &Table<'_>, name: String) -> Option<LieAlgebra> {

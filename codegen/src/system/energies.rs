@@ -65,8 +65,7 @@ pub(super) fn coordinates(
         };
         return ((0..dim).map(|i| (name(i), Span::Whole)).collect(), Span::Whole);
     }
-    let Some((mut names, whole)) = root.strings("coordinates", "a list of names", COORDINATES)
-    else {
+    let Some((mut names, whole)) = root.names("coordinates", COORDINATES) else {
         return (Vec::new(), Span::Whole);
     };
     if let Some(copies) = algebra.and_then(|algebra| copies(algebra, names.len())) {

@@ -164,6 +164,16 @@ impl<'a> Table<'a> {
         Some((texts, whole))
     }
 
+    /// Names in a list, or in a text with blanks or commas between them, with their places, and the place of all.
+    pub(super) fn names(&self, key: &str, example: &str) -> Option<(Vec<(String, Span)>, Span)> {
+        let value = self.get(key)?;
+        let DeValue::String(text) = value.get_ref() else {
+            return self.strings(key, "a list of names", example);
+        };
+        let names = text.split([' ', ',', '\t', '\n']).filter(|name| !name.is_empty());
+        Some((names.map(|name| (name.to_owned(), span(value))).collect(), span(value)))
+    }
+
     /// A whole number from 0.
     pub(super) fn integer(&self, key: &str, example: &str) -> Option<(usize, Span)> {
         let value = self.get(key)?;

@@ -34,6 +34,10 @@ fn all_of_a_file_is_read() {
     let problem = &system.problem;
     assert_eq!(problem.name, "rigid-body");
     assert_eq!(problem.coordinates, ["x", "y", "z"]);
+    for text in ["\"x y z\"", "\" x, y,z\""] {
+        let other = read(&RIGID_BODY.replace("[\"x\", \"y\", \"z\"]", text));
+        assert_eq!(other.problem.coordinates, problem.coordinates);
+    }
     let terms: Vec<_> = problem.hamiltonian.terms().map(|(_, c)| c).collect();
     assert_eq!(terms, [ratio(1, 3), ratio(1, 4), ratio(1, 5)]);
     assert_eq!((problem.truncation, problem.chart), (5, Chart::Cayley));
