@@ -12,7 +12,7 @@ use crate::load;
 use crate::named::Format;
 
 /// Tries all laws, prints them, and fails if one does not hold.
-pub fn run(options: &CheckOptions) -> Result<(), CliError> {
+pub(crate) fn run(options: &CheckOptions) -> Result<(), CliError> {
     let path = &options.source.file;
     let (system, _) = load::settled(&options.source, options.step, Parameters::Substituted)?;
     let trial = Trial::new(options.step, &system.run, options.points, options.seed)?;

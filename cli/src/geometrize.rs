@@ -109,7 +109,7 @@ impl Visitor for Pairs<'_> {
         }
         let slopes = energy.gradient(group.dim());
         let gradient = |mu: &[f64], out: &mut [f64]| out.copy_from_slice(&slopes(mu));
-        let (step, seed) = (options.fit.dt(), options.fit.seed());
+        let (step, seed) = (options.fit.dt, options.fit.seed);
         Ok(momentum_pairs(&group, MomentumBox { low, high }, options.samples, seed, |mu| {
             options.map.advance(&group, gradient, mu, step)
         }))

@@ -27,13 +27,13 @@ const MODELS: &Names<Kind> = &[
 
 /// The options that `learn` and `geometrize` share.
 #[derive(Args, Debug)]
-pub struct Fit {
+pub(crate) struct Fit {
     /// The chart
     #[arg(long, value_parser = named(CHARTS), default_value = "exp")]
     chart: Chart,
     /// The time between the two states of a pair
     #[arg(long, value_name = "dt", allow_negative_numbers = true)]
-    dt: f64,
+    pub(crate) dt: f64,
     /// The total degree of a polynomial; chosen by cross-validation if not given
     #[arg(long, value_name = "d")]
     degree: Option<usize>,
@@ -45,7 +45,7 @@ pub struct Fit {
     drop_bad_rows: bool,
     /// The seed of folds and weights
     #[arg(long, default_value_t = 0)]
-    seed: u64,
+    pub(crate) seed: u64,
     /// Steps over which the drifts are measured
     #[arg(long, value_name = "N", default_value_t = 1000)]
     steps: usize,
@@ -59,7 +59,7 @@ pub struct Fit {
 
 /// Options of `learn`.
 #[derive(Args, Debug)]
-pub struct LearnOptions {
+pub(crate) struct LearnOptions {
     /// Pairs of states: .csv, .npy, .npz or .parquet with the columns mu_1 …, mu_next_1 …, and for
     /// phase points g_11 …, g_next_11 … or q_w …, q_next_w …
     #[arg(value_name = "DATA")]
@@ -94,7 +94,7 @@ pub struct LearnOptions {
 
 impl Fit {
     /// The request of a map on this group.
-    pub fn request(&self, group: GroupChoice) -> Request {
+    pub(crate) fn request(&self, group: GroupChoice) -> Request {
         Request {
             group,
             chart: self.chart.name().into(),
@@ -108,24 +108,14 @@ impl Fit {
         }
     }
 
-    /// Δt.
-    pub fn dt(&self) -> f64 {
-        self.dt
-    }
-
-    /// The seed.
-    pub fn seed(&self) -> u64 {
-        self.seed
-    }
-
     /// Refuses, before anything is computed, to write the model where something is read.
-    pub fn check(&self, inputs: &[&Path]) -> Result<(), CliError> {
+    pub(crate) fn check(&self, inputs: &[&Path]) -> Result<(), CliError> {
         let Some(path) = &self.out else { return Ok(()) };
         file::check(path, inputs).map_err(unwritten(path))
     }
 
     /// Writes the model and prints the figures.
-    pub fn finish(
+    pub(crate) fn finish(
         &self,
         inputs: &[&Path],
         file: &ModelFile,
@@ -148,7 +138,7 @@ impl Fit {
 }
 
 /// Learns the map behind pairs of states.
-pub fn run(options: &LearnOptions) -> Result<(), CliError> {
+pub(crate) fn run(options: &LearnOptions) -> Result<(), CliError> {
     let data = std::iter::once(&options.data).chain(&options.test).map(PathBuf::as_path);
     let inputs: Vec<&Path> = data.chain(load::system_file(&options.group)).collect();
     options.fit.check(&inputs)?;

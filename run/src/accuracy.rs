@@ -62,12 +62,7 @@ pub fn meet_tolerance(
             "a tolerance says nothing of the kicks of a potential: give the step instead".into(),
         ));
     }
-    let duration = asked.time.or(run.time).ok_or_else(|| RunError::Missing {
-        file: path.into(),
-        key: "[run] time",
-        example: "time = 100.0",
-        option: "--time 100",
-    })?;
+    let duration = asked.time.or(run.time).ok_or_else(|| RunError::no_time(path))?;
     let target = Target {
         tolerance,
         duration,

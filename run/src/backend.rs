@@ -168,23 +168,23 @@ impl Code {
     }
 
     /// Whether a processor runs it as it is.
-    pub fn is_machine_code(&self) -> bool {
+    pub(crate) fn is_machine_code(&self) -> bool {
         self.coming.made.get().is_some()
     }
 
     /// How many steps to make before it is asked again by what.
-    pub fn at_a_time(&self) -> u64 {
+    pub(crate) fn at_a_time(&self) -> u64 {
         let over = self.is_machine_code() || self.coming.over.load(Ordering::Relaxed);
         if over { u64::MAX } else { FEW }
     }
 
     /// The backend that makes the steps now, in a few words.
-    pub fn maker(&self) -> &str {
+    pub(crate) fn maker(&self) -> &str {
         self.coming.made.get().map_or("interpreter", |made| &made.name)
     }
 
     /// The backends that have made the steps, for reports.
-    pub fn used(&self) -> Used {
+    pub(crate) fn used(&self) -> Used {
         let first = self.is_machine_code() && self.interpreted.load(Ordering::Relaxed);
         let name = format!("{}{}", if first { "interpreter, then " } else { "" }, self.maker());
         Used { name, ready: self.coming.made.get().map(|made| made.ready) }

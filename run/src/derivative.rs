@@ -47,7 +47,7 @@ impl<'a> Derivatives<'a> {
         system.reaches(end)?;
         let compiled = system.compiled(step, setup.backend, steps as f64, Trajectories::One)?;
         let motion = system.steps(step, compiled.as_ref());
-        let motion = motion.map_err(|source| RunError::Step { time: 0.0, source })?;
+        let motion = motion.map_err(RunError::at_start)?;
         let start = setup.start(&system.file, motion.space())?;
         Ok(Self { motion, start, schedule: setup.schedule })
     }

@@ -129,12 +129,7 @@ pub fn kernel(
             (integrator(path, problem(&model, "learned")?)?, model.step, None)
         }
         Source::System(system, choice) => {
-            let step = step.or(system.run.step).ok_or_else(|| RunError::Missing {
-                file: path.into(),
-                key: "[integrator] step",
-                example: "step = 0.1",
-                option: "--step 0.1",
-            })?;
+            let step = step.or(system.run.step).ok_or_else(|| RunError::no_step(path))?;
             let system = polynomial(path, *system, "there is no kernel of it", INSTEAD)?;
             (with_kicks(path, system.problem, system.potential)?, step, choice)
         }

@@ -79,6 +79,23 @@ impl RunError {
         |source| Self::System { file: file.into(), source: source.into() }
     }
 
+    /// The error of a system that says nothing about its step.
+    pub fn no_step(file: &Path) -> Self {
+        let (key, example, option) = ("[integrator] step", "step = 0.1", "--step 0.1");
+        Self::Missing { file: file.into(), key, example, option }
+    }
+
+    /// The error of a system that says nothing about its time.
+    pub(crate) fn no_time(file: &Path) -> Self {
+        let (key, example, option) = ("[run] time", "time = 100.0", "--time 100");
+        Self::Missing { file: file.into(), key, example, option }
+    }
+
+    /// The error of a first step that cannot be made.
+    pub(crate) fn at_start(source: StepError) -> Self {
+        Self::Step { time: 0.0, source }
+    }
+
     /// Whether what was given is at fault, not what became of it.
     pub fn is_input(&self) -> bool {
         match self {

@@ -126,7 +126,7 @@ pub fn integrator(path: &Path, problem: Problem) -> Result<Integrator, RunError>
 ///
 /// # Errors
 /// As [`integrator`].
-pub fn with_kicks(
+pub(crate) fn with_kicks(
     path: &Path,
     problem: Problem,
     potential: Option<(Potential, Splitting)>,
@@ -262,7 +262,7 @@ impl Derived {
     ///
     /// # Errors
     /// Where the step makes no sense, or the backend that the user named cannot be had.
-    pub fn compiled(
+    pub(crate) fn compiled(
         &self,
         step: f64,
         backend: Backend,

@@ -18,7 +18,7 @@ pub fn shortest(value: f64) -> String {
 }
 
 /// The larger of two numbers; NaN where one of them is, unlike `f64::max`.
-pub fn maximum(a: f64, b: f64) -> f64 {
+pub(crate) fn maximum(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }
 

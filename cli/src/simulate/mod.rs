@@ -15,7 +15,7 @@ use std::path::Path;
 
 use coadjoint_codegen::smooth::{Facts, Hamiltonian};
 use coadjoint_codegen::system::{Parameters, Run, Units};
-use coadjoint_learn::{LearnError, ModelFile};
+use coadjoint_learn::ModelFile;
 use coadjoint_run::simulate::{Schedule, Setup, Sink, run_model};
 use coadjoint_run::{Derived, System, read_varying, text_hash};
 
@@ -57,16 +57,19 @@ fn runs(
     // Read once: all runs are of this text, and its hash is that of what was run.
     let text = load::text(path)?;
     let hash = text_hash(&text);
-    let text = settings::with_end(text, options)?;
     let read = |truncation| {
         let source = Source { truncation, ..source.clone() };
-        let options = source.options(Parameters::Substituted);
-        read_varying(&path.display().to_string(), &text, options, &[])
+        let given = source.options(Parameters::Substituted);
+        let system = read_varying(&path.display().to_string(), &text, given, &[])?;
+        match &options.until {
+            Some(function) => settings::with_end(&text, function, given),
+            None => Ok(system),
+        }
     };
     let systems: Vec<System> = if options.truncation.is_empty() {
         vec![read(None)?]
     } else {
-        options.truncation.iter().map(|&k| read(Some(k))).collect::<Result<_, _>>()?
+        options.truncation.iter().map(|&k| read(Some(k))).collect::<Result<_, CliError>>()?
     };
     let outs = outs(out, &systems)?;
     let mut runs = Vec::new();
@@ -124,17 +127,13 @@ fn follow(
     }
     let (model, schedule) = model(path, &options.accuracy, options.time)?;
     let hash = text_hash(&load::text(path)?);
-    let (expected, found) = (model.group.algebra()?.dim(), options.start.len());
-    if found != expected {
-        return Err(LearnError::Shape { what: "the start".into(), expected, found }.into());
-    }
     if let Some(bad) = options.start.iter().find(|value| !value.is_finite()) {
         return Err(CliError::Option(format!("--start: {bad} is no finite number")));
     }
     let every = Some(every(options.every.unwrap_or(1))?);
     let setup = Setup { every, ..Setup::new(schedule, options.start.clone()) };
     let settings = Settings::new(options, (path, &hash), out, setup)?;
-    let coordinates: Vec<String> = (0..expected).map(|i| format!("mu[{i}]")).collect();
+    let coordinates: Vec<String> = (0..options.start.len()).map(|i| format!("mu[{i}]")).collect();
     let label = format!("learned {}, {}", model.model.name(), model.chart);
     let header = Header::of_model(&settings, &model);
     let drive = |sink: &mut dyn Sink| run_model(path, &model, &settings.setup, sink);

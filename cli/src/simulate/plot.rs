@@ -11,7 +11,7 @@ use super::keep::Trajectory;
 use crate::error::{CliError, unwritten};
 
 /// Writes the picture of some runs of one system.
-pub fn draw(
+pub(crate) fn draw(
     path: &Path,
     inputs: &[&Path],
     runs: &[Trajectory],

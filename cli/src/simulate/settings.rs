@@ -3,15 +3,16 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use coadjoint_codegen::diagnostic::Diagnostic;
 use coadjoint_codegen::file;
 use coadjoint_codegen::problem::Solver;
 use coadjoint_codegen::smooth::Facts;
-use coadjoint_codegen::system::Run;
+use coadjoint_codegen::system::{Options, Run, read_either};
 use coadjoint_learn::ModelFile;
 use coadjoint_program::quoting::line;
 use coadjoint_run::number::shortest;
 use coadjoint_run::simulate::{Event, Scales, Schedule, Setup, Times};
-use coadjoint_run::{Derived, Flow, RunError};
+use coadjoint_run::{Derived, Flow, RunError, System};
 use serde_json::{Map, Value, json};
 
 use super::target::{Place, Target, paths};
@@ -86,14 +87,21 @@ pub(crate) fn setup(options: &SimulateOptions, file: &Path, run: &Run) -> Result
     Ok(Setup { every, at, events, looks, backend, group_element, ..setup })
 }
 
-/// The text of a system with the event of `--until`, at which its run ends.
-pub(crate) fn with_end(text: String, options: &SimulateOptions) -> Result<String, CliError> {
+/// The system of this text with the event of `--until`, at which its run ends. Without it the text has no mistakes.
+pub(crate) fn with_end(text: &str, function: &str, options: Options) -> Result<System, CliError> {
     const QUOTE: &str = "'''";
-    let Some(function) = &options.until else { return Ok(text) };
+    let refuse = |what: &str| CliError::Option(format!("--until {function}: {what}"));
     if function.contains(QUOTE) {
-        return Err(CliError::Option(format!("--until {function}: no function has {QUOTE} in it")));
+        return Err(refuse(&format!("no function has {QUOTE} in it")));
     }
-    Ok(format!("{text}\n[[event]]\nwhen = {QUOTE}{function}{QUOTE}\nstop = true\n"))
+    let text = format!("{text}\n[[event]]\nwhen = {QUOTE}{function}{QUOTE}\nstop = true\n");
+    read_either(&text, options, &[]).map_err(|mistakes| {
+        let said = |mistake: &Diagnostic| {
+            let help = mistake.help().map(|help| format!("\n  help: {help}"));
+            mistake.message() + &help.unwrap_or_default()
+        };
+        refuse(&mistakes.list().iter().map(said).collect::<Vec<_>>().join("; "))
+    })
 }
 
 /// Everything a run reads.

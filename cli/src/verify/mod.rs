@@ -116,12 +116,7 @@ fn judge(
         return refuse(kicked);
     }
     let step = options.step.or_else(|| number("step")).or(run.step);
-    let step = step.ok_or_else(|| RunError::Missing {
-        file: system.clone(),
-        key: "[integrator] step",
-        example: "step = 0.1",
-        option: "--step 0.1",
-    })?;
+    let step = step.ok_or_else(|| RunError::no_step(&system))?;
     let phase = progress::phase("deriving the judge");
     let judge = judge_of(&system, &problem)?;
     drop(phase);

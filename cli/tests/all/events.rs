@@ -86,6 +86,10 @@ fn mistakes_about_events() {
         let folder = Folder::with(&format!("{TURN}[[event]]\n{event}\n"));
         folder.run("simulate system.toml").fails(2, &[expected]);
     }
+    let folder = Folder::with(TURN);
+    for (function, expected) in [("w", "--until w: unknown variable `w`"), ("x+", "--until x+: ")] {
+        folder.refused(&[(&format!("simulate system.toml --until {function}"), expected)]);
+    }
     let folder = Folder::with(&format!("{TURN}[[event]]\nwhen = \"sqrt(x)\"\n"));
     folder.run("simulate system.toml").fails(1, &["the event `sqrt(x)` is NaN at time 2.7"]);
     let folder = Folder::with(&format!("{TURN}{EVENTS}"));

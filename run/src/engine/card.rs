@@ -27,8 +27,7 @@ fn programs(
             "a step has {operations} operations, more than the {MOST_OPERATIONS} that are compiled; lower the truncation"
         )));
     }
-    let slots = coefficients(integrator, &step, step_size, &[])
-        .map_err(|source| RunError::Step { time: 0.0, source })?;
+    let slots = coefficients(integrator, &step, step_size, &[]).map_err(RunError::at_start)?;
     Ok((step, slots))
 }
 
@@ -51,7 +50,7 @@ pub fn card(
 ///
 /// # Errors
 /// Where they are not made of programs.
-pub fn device_text(
+pub(crate) fn device_text(
     integrator: &Integrator,
     step_size: f64,
     precision: Precision,

@@ -10,10 +10,9 @@ use coadjoint_codegen::cancel;
 use coadjoint_codegen::smooth::Smooth;
 use nalgebra::DVector;
 
-use super::advise::advise;
 use super::compiled::{Folded, Numbers, Solves};
 use super::linear::{Differentiable, Linear};
-use super::motion::{Motion, Varied, one_by_one};
+use super::motion::{Motion, Varied, advise, one_by_one};
 use super::response::Response;
 use super::space::{Elements, Space};
 
@@ -21,7 +20,7 @@ use super::space::{Elements, Space};
 ///
 /// # Errors
 /// Where the size makes no sense, or an expression in the parameters is not finite.
-pub fn collocated<'a>(
+pub(crate) fn collocated<'a>(
     smooth: &'a Smooth,
     group: &Arc<Group>,
     size: f64,

@@ -150,7 +150,7 @@ impl Compiled {
         }
         let backend = if large { Backend::Interpreter } else { backend };
         let folded = fold(integrator, step, size, &integrator.problem.facts().defaults());
-        let folded = folded.map_err(|source| RunError::Step { time: 0.0, source })?;
+        let folded = folded.map_err(RunError::at_start)?;
         let framed = parts.frame.is_some();
         let code = match kept.find(backend, trajectories) {
             Some(code) => code,
@@ -183,7 +183,7 @@ impl Compiled {
     }
 
     /// The same for at most [`WIDTH`] rows of values of the parameters, side by side.
-    pub fn fold_rows(
+    pub(crate) fn fold_rows(
         &self,
         integrator: &Integrator,
         size: f64,
@@ -225,7 +225,7 @@ impl Compiled {
     }
 
     /// The backend that makes the steps now, in a few words.
-    pub fn maker(this: Option<&Self>) -> String {
+    pub(crate) fn maker(this: Option<&Self>) -> String {
         this.map_or("interpreter", |compiled| compiled.code().maker()).to_owned()
     }
 
@@ -281,7 +281,7 @@ impl Compiled {
     }
 
     /// [`WIDTH`] trajectories side by side, as [`Stepper::advance_lanes`](coadjoint_program::Stepper::advance_lanes).
-    pub fn advance_lanes(
+    pub(crate) fn advance_lanes(
         &self,
         g: &mut [f64],
         mu: &mut [f64],

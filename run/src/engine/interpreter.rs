@@ -87,8 +87,22 @@ impl<'a, G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> Interpreter<'a, G, C> {
     }
 
     /// With these coefficients of [`Integrator::fold_table`].
-    pub fn folded(integrator: &'a Integrator, group: G, slots: Vec<f64>) -> Self {
+    pub(crate) fn folded(integrator: &'a Integrator, group: G, slots: Vec<f64>) -> Self {
         Self { integrator, group, slots, quiet: 0.0, chart: PhantomData }
+    }
+
+    /// The ratio by which steps are judged where it may be above [`STEEP`]: of the last two terms of ∂S at p, or that which
+    /// the rate at which motions part stands for; 0 where it is known to be at most [`STEEP`] and p need not be looked at.
+    pub fn ratio(&self, p: &G::Vector) -> f64
+    where
+        G: LieGroup<Scalar = f64>,
+    {
+        let quiet = p.pairing(p).sqrt() <= self.quiet;
+        let of_terms = if quiet { 0.0 } else { self.series_ratio(p) };
+        if self.largest_rate() >= f64::MAX {
+            return of_terms;
+        }
+        of_terms.worse(plumbing::estimated_ratio(self, p, &self.gradient(p)))
     }
 
     /// The coefficients after those of the programs, from the square of the radius on.

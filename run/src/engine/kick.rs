@@ -10,8 +10,10 @@ use coadjoint_codegen::problem::values;
 use coadjoint_codegen::system::Splitting;
 use nalgebra::{DMatrix, DVector};
 
+use super::compiled::Solves;
+use super::interpreter::Interpreter;
 use super::interpreter::refusal;
-use super::{Group, Interpreter, Solves, entries_of};
+use super::space::{Group, entries_of};
 
 /// The kicks of a potential.
 #[derive(Debug)]
@@ -51,7 +53,7 @@ impl Forces {
     }
 
     /// The longest flow of a step, as a share of it.
-    pub fn longest_flow(&self) -> f64 {
+    pub(crate) fn longest_flow(&self) -> f64 {
         let longer =
             |longest: f64, part: f64| if part.abs() > longest.abs() { part } else { longest };
         self.splitting.flows().fold(0.0, longer)

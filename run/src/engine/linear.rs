@@ -15,8 +15,8 @@ use coadjoint::groups::Chart;
 use coadjoint::steps::Circumstances;
 use nalgebra::{DMatrix, DVector};
 
-use super::Group;
 use super::compiled::Numbers;
+use super::space::Group;
 
 /// Steps whose derivatives are known.
 pub trait Differentiable {

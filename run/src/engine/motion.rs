@@ -11,15 +11,11 @@ use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;
 use nalgebra::DVector;
 
-use super::advise::advise;
 use super::compiled::{Compiled, Folded, Numbers, Solves};
-use super::group::cayley_group;
 use super::interpreter::Interpreter;
 use super::kick::{Forces, Map, map};
 use super::linear::{Differentiable, Linear};
-use super::restore::Restore;
-use super::space::{Elements, Space};
-use super::steep::Steepness;
+use super::space::{Elements, Restore, Space, cayley_group};
 use super::tangent::Tangent;
 use crate::error::RunError;
 use crate::number::maximum;
@@ -87,7 +83,7 @@ pub trait Varied: Motion {
 ///
 /// # Errors
 /// As [`Motion::advance`].
-pub fn one_by_one(
+pub(crate) fn one_by_one(
     count: u64,
     mut step: impl FnMut() -> Result<Solves, StepError>,
 ) -> Result<Solves, (u64, StepError)> {
@@ -100,6 +96,26 @@ pub fn one_by_one(
         };
     }
     Ok(total)
+}
+
+/// Halves of a refused step that are tried.
+const MOST_HALVINGS: u32 = 24;
+
+/// The error with the longest of h/2, h/4, … with which `works` says that the step can be made; as it is where there is
+/// none, and where the length of the step is not to blame.
+#[cold]
+pub(crate) fn advise(error: StepError, h: f64, mut works: impl FnMut(f64) -> bool) -> StepError {
+    if !error.asks_for_smaller_step() {
+        return error;
+    }
+    let mut shorter = h;
+    for _ in 0..MOST_HALVINGS {
+        shorter *= 0.5;
+        if works(shorter) {
+            return error.with_usable_step(shorter);
+        }
+    }
+    error
 }
 
 /// The equations of a motion: a flow, kicks where there are forces, and the values of the parameters that are kept.
@@ -142,7 +158,7 @@ impl Charted {
     ///
     /// # Errors
     /// Where a coefficient is not finite.
-    pub fn anew<'a>(
+    pub(crate) fn anew<'a>(
         &self,
         equations: Equations<'a>,
         size: f64,
@@ -265,7 +281,7 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Motion for Steps<'a, G
             let group = (*self.elements.group).clone();
             Interpreter::new(integrator, group, longest, parameters).ok()
         });
-        let ratio = |flow| Steepness::new(flow).ratio(&DVector::from_column_slice(mu));
+        let ratio = |flow: &Interpreter<'a, G, C>| flow.ratio(&DVector::from_column_slice(mu));
         flow.as_ref().map_or(0.0, ratio)
     }
 

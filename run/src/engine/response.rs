@@ -10,8 +10,8 @@ use coadjoint_codegen::smooth::Smooth;
 use coadjoint_program::Argument;
 use nalgebra::{DMatrix, DVector};
 
-use super::Group;
 use super::linear::{columns, meeting};
+use super::space::Group;
 
 /// The spacing of differences that are exact on polynomials.
 const SPACING: f64 = 0.25;

@@ -1,12 +1,100 @@
-//! States as numbers, and the group that they belong to.
+//! The groups known at run time, and states in them as numbers.
 
+use std::path::Path;
 use std::sync::Arc;
 
-use coadjoint::Phase;
-use coadjoint::groups::ElementError;
+use coadjoint::groups::{CayleyMatrixGroup, DirectProduct, ElementError, MatrixGroup, TableError};
+use coadjoint::{LieGroup, Phase};
+use coadjoint_codegen::lie::LieAlgebra;
+use coadjoint_learn::catalogue;
+use nalgebra::{DMatrix, DVector};
 
 use super::compiled::{Compiled, Numbers};
-use super::restore::{Restore, entries_of, phase_of};
+use crate::error::RunError;
+
+/// Groups known at run time.
+pub trait Group:
+    LieGroup<Scalar = f64, Vector = DVector<f64>, Element: Send + Sync> + Send + Sync
+{
+}
+
+impl<G> Group for G where
+    G: LieGroup<Scalar = f64, Vector = DVector<f64>, Element: Send + Sync> + Send + Sync
+{
+}
+
+/// The group whose Lie algebra this is, factor by factor for a direct product.
+pub fn product_group(
+    path: &Path,
+    algebra: &LieAlgebra,
+) -> Result<DirectProduct<MatrixGroup>, RunError> {
+    let mut known: Vec<(LieAlgebra, MatrixGroup)> = Vec::new();
+    let group = |factor: LieAlgebra| {
+        if let Some((_, group)) = known.iter().find(|(other, _)| *other == factor) {
+            return Ok(group.clone());
+        }
+        let group = matrix_group(path, &factor)?;
+        known.push((factor, group.clone()));
+        Ok(group)
+    };
+    let groups: Result<Vec<_>, RunError> = algebra.factors().into_iter().map(group).collect();
+    Ok(DirectProduct::new(groups?))
+}
+
+/// The same group with the Cayley map.
+pub(crate) fn cayley_group(
+    path: &Path,
+    group: &DirectProduct<MatrixGroup>,
+) -> Result<DirectProduct<CayleyMatrixGroup>, RunError> {
+    let factors: Result<Vec<_>, TableError> =
+        group.factors().map(|factor| factor.clone().into_cayley()).collect();
+    Ok(DirectProduct::new(factors.map_err(RunError::of(path))?))
+}
+
+/// The group whose Lie algebra this is, not taken apart: kicks look at the matrices of the whole.
+pub(crate) fn whole_group(
+    path: &Path,
+    algebra: &LieAlgebra,
+) -> Result<DirectProduct<MatrixGroup>, RunError> {
+    Ok(DirectProduct::new(vec![matrix_group(path, algebra)?]))
+}
+
+/// The group whose Lie algebra this is.
+fn matrix_group(path: &Path, algebra: &LieAlgebra) -> Result<MatrixGroup, RunError> {
+    catalogue::matrix_group(algebra).map_err(RunError::of(path))
+}
+
+/// Groups whose elements can be put back as they were. Reading a matrix as a user's would straighten
+/// it: other bits.
+pub trait Restore: Group {
+    /// The element with these entries, all rows and columns; none are checked.
+    fn restore(&self, entry: &dyn Fn(usize, usize) -> f64) -> Self::Element;
+}
+
+impl<G: LieGroup<Scalar = f64, Element = DMatrix<f64>> + Send + Sync> Restore for DirectProduct<G> {
+    fn restore(&self, entry: &dyn Fn(usize, usize) -> f64) -> Self::Element {
+        let mut first = 0;
+        let factor = |factor: &G| {
+            let size = factor.matrix_size();
+            first += size;
+            DMatrix::from_fn(size, size, |i, j| entry(first - size + i, first - size + j))
+        };
+        self.factors().map(factor).collect()
+    }
+}
+
+/// The matrix of an element, row by row.
+pub(crate) fn entries_of<G: LieGroup<Scalar = f64>>(group: &G, element: &G::Element) -> Vec<f64> {
+    let size = group.matrix_size();
+    (0..size * size).map(|at| group.matrix_entry(element, at / size, at % size)).collect()
+}
+
+/// The state with this matrix, row by row, and this momentum; neither is checked.
+pub(crate) fn phase_of<G: Restore>(group: &G, matrix: &[f64], mu: &[f64]) -> Phase<G> {
+    let size = group.matrix_size();
+    let element = group.restore(&|i, j| matrix[i * size + j]);
+    Phase::<G>::new(element, DVector::from_column_slice(mu))
+}
 
 /// A group whose elements are lists of numbers: their matrices, row by row, or what programs make of these.
 pub trait Space {

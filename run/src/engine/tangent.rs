@@ -9,10 +9,10 @@ use coadjoint_program::Argument;
 use nalgebra::{DMatrix, DVector};
 use num_traits::ToPrimitive;
 
-use super::Group;
 use super::interpreter::{Interpreter, refusal, symbols};
 use super::kick::{Forces, Torque};
 use super::linear::{Linear, columns};
+use super::space::Group;
 
 /// The parts of a step of one size, with what their derivatives need.
 pub struct Tangent<'a, G, C> {

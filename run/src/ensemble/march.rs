@@ -9,8 +9,8 @@ use coadjoint_native::cards::{Card, DeviceError, Refused, Row};
 use coadjoint_program::{Precision, WIDTH};
 use rayon::prelude::*;
 
-use super::drift::larger;
 use crate::engine::{Motion, Numbers};
+use crate::number::maximum;
 
 /// Steps that all trajectories make before the next: each is then about as far, and what is told of it is true.
 pub(super) const STRETCH: u64 = 256;
@@ -47,7 +47,7 @@ impl March<'_> {
     pub(super) fn alone(&self, way: &mut Way, first: u64, end: u64) {
         let made = self.motion.advance(&mut way.state, first, end - first);
         way.stopped = made.err().map(|(done, error)| (first + done + 1, error.to_string()));
-        way.ratio = larger(way.ratio, self.motion.ratio(&way.state.mu));
+        way.ratio = maximum(way.ratio, self.motion.ratio(&way.state.mu));
     }
 
     /// Makes steps `first` to `end` of at most [`WIDTH`] trajectories side by side. A trajectory goes alone from the step on
@@ -161,14 +161,14 @@ impl March<'_> {
             for (place, stopped, ratio) in ends {
                 redone.insert(place);
                 ways[place].stopped = stopped;
-                ways[place].ratio = larger(ways[place].ratio, ratio);
+                ways[place].ratio = maximum(ways[place].ratio, ratio);
             }
         };
         card.advance(&mut rows, steps, &mut others, told)?;
         ways.par_iter_mut().zip(rows).for_each(|(way, row)| {
             way.state = Numbers { g: row.g, mu: row.mu };
             settle(&mut way.state);
-            way.ratio = larger(way.ratio, self.motion.ratio(&way.state.mu));
+            way.ratio = maximum(way.ratio, self.motion.ratio(&way.state.mu));
         });
         Ok(redone.len() as u64)
     }

@@ -111,7 +111,7 @@ impl Lookout<'_> {
     ///
     /// # Errors
     /// Where a state between them cannot be had, or a function has no value there.
-    pub fn between(
+    pub(crate) fn between(
         &self,
         start: &Numbers,
         [before, after]: [&Moment; 2],

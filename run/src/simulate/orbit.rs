@@ -17,7 +17,7 @@ pub(super) struct Orbit {
 
 impl Orbit {
     /// Momenta are put back after this number of steps.
-    pub const EVERY: u64 = 8192;
+    pub(crate) const EVERY: u64 = 8192;
 
     /// The orbit of states with this spatial momentum.
     pub fn new(algebra: &LieAlgebra, spatial: Vec<f64>) -> Self {

@@ -118,7 +118,7 @@ impl<'a> Recorder<'a> {
     }
 
     /// The facts before the first step.
-    pub fn begun(&self) -> Begun<'_> {
+    pub(crate) fn begun(&self) -> Begun<'_> {
         Begun {
             coordinates: self.watched.coordinates,
             blocks: &self.blocks,
@@ -132,7 +132,7 @@ impl<'a> Recorder<'a> {
     ///
     /// # Errors
     /// The name of a number that is not finite.
-    pub fn solved(&mut self, iterations: u32, residual: f64) -> Result<(), String> {
+    pub(crate) fn solved(&mut self, iterations: u32, residual: f64) -> Result<(), String> {
         let solver = self.tally.solver.get_or_insert_default();
         solver.most_iterations = solver.most_iterations.max(iterations.into());
         solver.max_residual = maximum(solver.max_residual, residual);

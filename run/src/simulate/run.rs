@@ -25,9 +25,9 @@ pub fn run(system: &Derived, setup: &Setup, sink: &mut dyn Sink) -> Result<Outco
     let (step, expected) = (schedule.step, schedule.steps as f64);
     let compiled = system.compiled(step, setup.backend, expected, Trajectories::One)?;
     let motion = system.steps(step, compiled.as_ref());
-    let motion = motion.map_err(|source| RunError::Step { time: 0.0, source })?;
+    let motion = motion.map_err(RunError::at_start)?;
     let start = setup.start(&system.file, motion.space())?;
-    motion.defined(&start).map_err(|source| RunError::Step { time: 0.0, source })?;
+    motion.defined(&start).map_err(RunError::at_start)?;
     let subject = Subject { setup, watched: system.watched(), warnings: Vec::new() };
     let made = subject.run(motion.as_ref(), &start, sink);
     let code = compiled.as_ref().map(|compiled| compiled.code());

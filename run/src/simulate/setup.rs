@@ -46,13 +46,8 @@ impl Schedule {
         time: Option<f64>,
         run: &Run,
     ) -> Result<Self, RunError> {
-        let missing =
-            |key, example, option| RunError::Missing { file: file.into(), key, example, option };
-        let asked = step.or(run.step);
-        let asked =
-            asked.ok_or_else(|| missing("[integrator] step", "step = 0.1", "--step 0.1"))?;
-        let time = time.or(run.time);
-        let time = time.ok_or_else(|| missing("[run] time", "time = 100.0", "--time 100"))?;
+        let asked = step.or(run.step).ok_or_else(|| RunError::no_step(file))?;
+        let time = time.or(run.time).ok_or_else(|| RunError::no_time(file))?;
         Self::of(asked, time)
     }
 
@@ -108,7 +103,7 @@ impl Schedule {
     }
 
     /// How many steps end nearest to a time of the run.
-    pub fn nearest(&self, time: f64) -> u64 {
+    pub(crate) fn nearest(&self, time: f64) -> u64 {
         (time / self.step).round().min(self.steps as f64) as u64
     }
 

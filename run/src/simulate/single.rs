@@ -31,7 +31,7 @@ impl<S: AsRef<Derived>> Single<S> {
     /// Where the step makes no sense, or the backend asked for cannot be had.
     pub fn new(system: S, step: f64, backend: Backend, steps: f64) -> Result<Self, RunError> {
         let compiled = system.as_ref().compiled(step, backend, steps, Trajectories::One)?;
-        let motion = system.as_ref().steps(step, compiled.as_ref()).map_err(not_made)?;
+        let motion = system.as_ref().steps(step, compiled.as_ref()).map_err(RunError::at_start)?;
         let size = motion.space().size();
         drop(motion);
         Ok(Self { system, step, size, compiled })
@@ -57,7 +57,7 @@ impl<S: AsRef<Derived>> Single<S> {
     /// # Errors
     /// Where it is none.
     pub fn element(&self, matrix: &[f64]) -> Result<Vec<f64>, RunError> {
-        let found = self.motion().map_err(not_made)?.space().nearest(matrix);
+        let found = self.motion().map_err(RunError::at_start)?.space().nearest(matrix);
         let found = found.map_err(|error| not_an_element(&self.system.as_ref().file, &error))?;
         let far = found.iter().zip(matrix).any(|(a, b)| (a - b).abs() > SAME * (1.0 + a.abs()));
         Ok(if far { found } else { matrix.to_vec() })
@@ -81,8 +81,4 @@ impl<S: AsRef<Derived>> Single<S> {
         mu.copy_from_slice(&state.mu);
         made.map(drop).map_err(|(done, error)| (done + 1, error))
     }
-}
-
-fn not_made(source: StepError) -> RunError {
-    RunError::Step { time: 0.0, source }
 }

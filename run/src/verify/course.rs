@@ -9,6 +9,7 @@ use coadjoint_codegen::judge::{Branch, End, Inside, Motion, Setting, Stop};
 use nalgebra::DVector;
 
 use super::states::{State, condition};
+use crate::number::maximum;
 
 /// The unit roundoff of what is judged.
 const UNIT: f64 = f64::EPSILON / 2.0;
@@ -178,8 +179,8 @@ impl Twins {
             twin.step(setting, None, UNIT)?;
             let apart = ratio((vector(twin.momentum()) - &here).norm(), here.norm());
             let turned = ratio((vector(element(twin, size)) - &whole).norm(), whole.norm());
-            self.growth = larger(self.growth, apart / *nearest);
-            self.turned = larger(self.turned, turned / *nearest);
+            self.growth = maximum(self.growth, apart / *nearest);
+            self.turned = maximum(self.turned, turned / *nearest);
             // A distance within rounding does not count.
             *nearest = if apart < *nearest { apart.max(BESIDE * 1e-3) } else { *nearest };
         }
@@ -194,8 +195,4 @@ fn element(motion: &Motion, size: usize) -> Vec<f64> {
 
 fn ratio(a: f64, b: f64) -> f64 {
     if a == 0.0 { 0.0 } else { a / b }
-}
-
-fn larger(a: f64, b: f64) -> f64 {
-    if b.is_nan() || b > a { b } else { a }
 }

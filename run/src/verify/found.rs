@@ -78,12 +78,12 @@ impl Found {
     }
 
     /// Records a defect; the first one is reported.
-    pub fn blame(&mut self, what: String) {
+    pub(crate) fn blame(&mut self, what: String) {
         self.wrong.get_or_insert(what);
     }
 
     /// Takes note of a row that cannot be judged.
-    pub fn pass_over(&mut self, why: String) {
+    pub(crate) fn pass_over(&mut self, why: String) {
         self.not_judged += 1;
         self.why_not_judged.get_or_insert(why);
     }

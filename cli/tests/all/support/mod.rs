@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-pub mod page;
+pub(crate) mod page;
 
 use coadjoint::SO3;
 use coadjoint_learn::data::write_pairs;
@@ -11,15 +11,15 @@ use coadjoint_learn::truth::{MomentumBox, Quadratic, phase_pairs};
 use serde_json::Value;
 use tempfile::TempDir;
 
-pub const BODY: &str = "examples/rigid_body.toml";
+pub(crate) const BODY: &str = "examples/rigid_body.toml";
 
 /// The root of the workspace.
-pub fn root() -> PathBuf {
+pub(crate) fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
 /// The text of a file of the workspace.
-pub fn text_of(path: &str) -> String {
+pub(crate) fn text_of(path: &str) -> String {
     std::fs::read_to_string(root().join(path)).unwrap()
 }
 
@@ -37,70 +37,70 @@ fn command(folder: &Path, arguments: &str) -> Command {
 }
 
 /// Runs a command at the root of the workspace.
-pub fn run(arguments: &str) -> Ran {
+pub(crate) fn run(arguments: &str) -> Ran {
     Ran::of(&command(&root(), arguments).output().unwrap())
 }
 
 /// The JSON that a command prints at the root of the workspace.
-pub fn json(arguments: &str) -> Value {
+pub(crate) fn json(arguments: &str) -> Value {
     run(&format!("{arguments} --format json")).json()
 }
 
 /// Commands at the root of the workspace that are bad input, each with the word that says so.
-pub fn refused(cases: &[(&str, &str)]) {
+pub(crate) fn refused(cases: &[(&str, &str)]) {
     cases.iter().for_each(|(arguments, word)| drop(run(arguments).fails(2, &[word])));
 }
 
 /// How a command ended: exit code, standard output, standard error.
 #[derive(Debug)]
-pub struct Ran {
+pub(crate) struct Ran {
     pub code: i32,
     pub out: String,
     pub error: String,
 }
 
 impl Ran {
-    pub fn of(output: &Output) -> Self {
+    pub(crate) fn of(output: &Output) -> Self {
         let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
         let code = output.status.code().unwrap_or(-1);
         Self { code, out: text(&output.stdout), error: text(&output.stderr) }
     }
 
     /// It ended well.
-    pub fn ok(self) -> Self {
+    pub(crate) fn ok(self) -> Self {
         assert_eq!(self.code, 0, "{self:?}");
         self
     }
 
     /// It ended with this code, and the standard error says all of this.
-    pub fn fails(self, code: i32, words: &[&str]) -> Self {
+    pub(crate) fn fails(self, code: i32, words: &[&str]) -> Self {
         assert_eq!(self.code, code, "{words:?}: {self:?}");
         self.says(words)
     }
 
     /// The standard error says all of this.
-    pub fn says(self, words: &[&str]) -> Self {
+    pub(crate) fn says(self, words: &[&str]) -> Self {
         words.iter().for_each(|word| assert!(self.error.contains(word), "{word}: {self:?}"));
         self
     }
 
     /// The standard output says all of this.
-    pub fn prints(self, words: &[&str]) -> Self {
+    pub(crate) fn prints(self, words: &[&str]) -> Self {
         words.iter().for_each(|word| assert!(self.out.contains(word), "{word}: {self:?}"));
         self
     }
 
     /// The JSON that it printed, having ended well.
-    pub fn json(self) -> Value {
+    pub(crate) fn json(self) -> Value {
         serde_json::from_str(&self.ok().out).unwrap()
     }
 }
 
 /// A folder of its own for a test, in which `examples` leads to those of the workspace.
-pub struct Folder(TempDir);
+pub(crate) struct Folder(TempDir);
 
 impl Folder {
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let folder = tempfile::tempdir().unwrap();
         #[cfg(unix)]
         use std::os::unix::fs::symlink as link;
@@ -112,65 +112,65 @@ impl Folder {
     }
 
     /// With the text of a system in `system.toml`.
-    pub fn with(system: &str) -> Self {
+    pub(crate) fn with(system: &str) -> Self {
         let folder = Self::new();
         folder.write("system.toml", system);
         folder
     }
 
-    pub fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         self.0.path()
     }
 
-    pub fn at(&self, name: &str) -> PathBuf {
+    pub(crate) fn at(&self, name: &str) -> PathBuf {
         self.0.path().join(name)
     }
 
-    pub fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
+    pub(crate) fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
         std::fs::write(self.at(name), bytes).unwrap();
     }
 
-    pub fn bytes(&self, name: &str) -> Vec<u8> {
+    pub(crate) fn bytes(&self, name: &str) -> Vec<u8> {
         std::fs::read(self.at(name)).unwrap()
     }
 
-    pub fn text(&self, name: &str) -> String {
+    pub(crate) fn text(&self, name: &str) -> String {
         std::fs::read_to_string(self.at(name)).unwrap()
     }
 
-    pub fn has(&self, name: &str) -> bool {
+    pub(crate) fn has(&self, name: &str) -> bool {
         self.at(name).exists()
     }
 
-    pub fn remove(&self, name: &str) {
+    pub(crate) fn remove(&self, name: &str) {
         std::fs::remove_file(self.at(name)).unwrap();
     }
 
     /// The command in this folder.
-    pub fn command(&self, arguments: &str) -> Command {
+    pub(crate) fn command(&self, arguments: &str) -> Command {
         command(self.path(), arguments)
     }
 
-    pub fn run(&self, arguments: &str) -> Ran {
+    pub(crate) fn run(&self, arguments: &str) -> Ran {
         Ran::of(&self.command(arguments).output().unwrap())
     }
 
-    pub fn json(&self, arguments: &str) -> Value {
+    pub(crate) fn json(&self, arguments: &str) -> Value {
         self.run(&format!("{arguments} --format json")).json()
     }
 
     /// Commands that are bad input, each with the word that says so.
-    pub fn refused(&self, cases: &[(&str, &str)]) {
+    pub(crate) fn refused(&self, cases: &[(&str, &str)]) {
         cases.iter().for_each(|(arguments, word)| drop(self.run(arguments).fails(2, &[word])));
     }
 
     /// The lines of a file of records without comments, cell by cell: names, then records.
-    pub fn table(&self, name: &str) -> Vec<Vec<String>> {
+    pub(crate) fn table(&self, name: &str) -> Vec<Vec<String>> {
         table(&self.text(name))
     }
 
     /// Pairs of phase points of a quadratic generating function on SO(3), to learn from.
-    pub fn pairs(&self, name: &str, count: usize, seed: u64) {
+    pub(crate) fn pairs(&self, name: &str, count: usize, seed: u64) {
         let wide = MomentumBox { low: -2.0, high: 2.0 };
         let pairs = phase_pairs(&SO3::new(), &Quadratic::paper(), 0.1, wide, count, seed);
         write_pairs(&self.at(name), &SO3::new(), &pairs).unwrap();
@@ -178,18 +178,18 @@ impl Folder {
 }
 
 /// The lines of a text of records without comments, cell by cell: names, then records.
-pub fn table(text: &str) -> Vec<Vec<String>> {
+pub(crate) fn table(text: &str) -> Vec<Vec<String>> {
     let lines = text.lines().filter(|line| !line.starts_with('#'));
     lines.map(|line| line.split(',').map(str::to_owned).collect()).collect()
 }
 
 /// The numbers of a JSON array.
-pub fn numbers(value: &Value) -> Vec<f64> {
+pub(crate) fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
 }
 
 /// The largest difference of two lists.
-pub fn distance(a: &[f64], b: &[f64]) -> f64 {
+pub(crate) fn distance(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len());
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }

@@ -16,13 +16,13 @@ use snapbox::IntoData;
 use snapbox::assert::Assert;
 
 /// A fenced block.
-pub struct Block<'a> {
+pub(crate) struct Block<'a> {
     pub language: &'a str,
     pub text: &'a str,
 }
 
 /// The page's fenced blocks, in order.
-pub fn blocks(page: &str) -> Vec<Block<'_>> {
+pub(crate) fn blocks(page: &str) -> Vec<Block<'_>> {
     let mut blocks = Vec::new();
     let mut rest = page;
     while let Some(at) = find_fence(rest) {
@@ -43,7 +43,7 @@ fn find_fence(text: &str) -> Option<usize> {
 }
 
 /// The file that a block is, by its first line: a comment that begins with the file's name.
-pub fn file_name<'a>(block: &Block<'a>) -> Option<&'a str> {
+pub(crate) fn file_name<'a>(block: &Block<'a>) -> Option<&'a str> {
     let first = block.text.lines().next()?;
     let comment = ["#", "//", "/*"].iter().find_map(|mark| first.strip_prefix(mark))?;
     let name = comment.trim_start().split([':', ' ']).next()?;
@@ -55,13 +55,13 @@ pub fn file_name<'a>(block: &Block<'a>) -> Option<&'a str> {
 
 /// The outcome of a page's commands.
 #[derive(Default)]
-pub struct Outcome {
+pub(crate) struct Outcome {
     pub commands: usize,
     pub failures: String,
 }
 
 /// Runs the page at `path`, from the root, in `folder`.
-pub fn run(path: &str, folder: &Path) -> usize {
+pub(crate) fn run(path: &str, folder: &Path) -> usize {
     let whole = super::root().join(path);
     let page = std::fs::read_to_string(&whole).unwrap();
     let mut outcome = Outcome::default();
@@ -164,7 +164,7 @@ fn execute(command: &str, folder: &Path) -> (i32, String) {
 }
 
 /// A folder with the example files in `examples`, as from the root of the repository.
-pub fn with_examples() -> tempfile::TempDir {
+pub(crate) fn with_examples() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let copies = folder.path().join("examples");
     std::fs::create_dir_all(&copies).unwrap();

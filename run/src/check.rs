@@ -1,11 +1,7 @@
 //! The laws of the method, tried on a system at random points.
 
-mod law;
-mod order;
-
-pub use law::Law;
-
 use coadjoint::groups::{Cayley, Chart, DirectProduct, Exponential, MatrixGroup};
+use coadjoint::laws::{OrderError, measured_order};
 use coadjoint::steps::advance;
 use coadjoint::{Phase, StepError, laws};
 use coadjoint_codegen::lie;
@@ -15,14 +11,30 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::engine::{
-    Group, Interpreter, Map, Numbers, STEEP, Steepness, advise, cayley_group, entries_of, phase_of,
+    Group, Interpreter, Map, Numbers, STEEP, advise, cayley_group, entries_of, phase_of,
     product_group,
 };
 use crate::error::RunError;
 use crate::load::{Derived, Expansion, Flow};
+use crate::number::maximum;
 
 /// The step of a system that names none.
 const DEFAULT_STEP: f64 = 0.1;
+
+/// A law and how well it holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Law {
+    /// Its name.
+    pub name: &'static str,
+    /// Its statement.
+    pub statement: &'static str,
+    /// The value measured: the largest relative violation, or the order of accuracy.
+    pub value: f64,
+    /// The bound it is compared with.
+    pub bound: f64,
+    /// Whether it holds.
+    pub pass: bool,
+}
 
 /// A warning of a series whose last two terms have this ratio.
 pub fn steep(ratio: f64) -> String {
@@ -113,29 +125,30 @@ fn laws_of<G: Group, C: Chart<G> + Send + Sync>(
 ) -> Result<(Vec<Law>, Option<f64>), RunError> {
     let (integrator, h) = (&series.integrator, trial.step);
     let (points, starts) = trial.states(&group);
-    let at = |source| RunError::Step { time: 0.0, source };
     let make = |h| Interpreter::<G, C>::new(integrator, group.clone(), h, &[]);
-    let there = make(h).map_err(at)?;
-    let steepness = Steepness::new(&there);
-    let ratios = points.iter().map(|point| steepness.ratio(&point.momentum));
-    let ratio = Some(ratios.fold(0.0, worse)).filter(|ratio| *ratio > STEEP);
-    let back = make(-h).map_err(at)?;
+    let there = make(h).map_err(RunError::at_start)?;
+    let ratios = points.iter().map(|point| there.ratio(&point.momentum));
+    let ratio = Some(ratios.fold(0.0, maximum)).filter(|ratio| *ratio > STEEP);
+    let back = make(-h).map_err(RunError::at_start)?;
     let tried = laws::check(&there, Some(&back), &points).map_err(|error| {
         let works = |step: &Interpreter<'_, G, C>| {
             points.iter().all(|point| advance(step, &mut point.clone()).is_ok())
         };
-        at(advise(error, h, |h| make(h).is_ok_and(|step| works(&step))))
+        RunError::at_start(advise(error, h, |h| make(h).is_ok_and(|step| works(&step))))
     })?;
     let mut laws = printed(&tried);
     let expected = integrator.order() as f64;
-    laws.push(order::measure(h, expected, &group, &starts, |h, steps, state| {
+    laws.push(measured(h, expected, &group, &starts, |h, steps, state| {
         let map = make(h)?;
         (0..steps).try_for_each(|_| advance(&map, state).map(|_| ()))
     }));
     if let Some(forces) = &series.forces {
         let make = |h| forces.step::<G, C>(integrator, &group, h);
         let expected = forces.splitting.order().min(integrator.order() as u32);
-        laws.extend(kicked(h, make, expected.into(), &group, (&points, &starts)).map_err(at)?);
+        laws.extend(
+            kicked(h, make, expected.into(), &group, (&points, &starts))
+                .map_err(RunError::at_start)?,
+        );
     }
     Ok((laws, ratio))
 }
@@ -158,7 +171,6 @@ fn laws_of_steps(
 ) -> Result<Vec<Law>, RunError> {
     let h = trial.step;
     let (points, starts) = trial.states(group);
-    let at = |source| RunError::Step { time: 0.0, source };
     let step = |h: f64, count: u32, phase: &mut Phase<DirectProduct<MatrixGroup>>| {
         let motion = system.steps(h, None)?;
         let g = motion.space().numbers(&entries_of(group, &phase.group_element));
@@ -172,10 +184,10 @@ fn laws_of_steps(
     // Where the Hamiltonian depends on time, the step back would begin at another one.
     let moves = matches!(&system.flow, Flow::Collocation(smooth, _) if smooth.moves);
     let back: Option<&mut laws::Advance<'_, _>> = if moves { None } else { Some(&mut back) };
-    let tried = laws::check_map(group, &mut there, back, &points).map_err(at)?;
+    let tried = laws::check_map(group, &mut there, back, &points).map_err(RunError::at_start)?;
     let mut laws = printed(&tried);
     let expected = f64::from(system.order());
-    laws.push(order::measure(h, expected, group, &starts, step));
+    laws.push(measured(h, expected, group, &starts, step));
     Ok(laws)
 }
 
@@ -191,12 +203,12 @@ fn kicked<'a, G: Group>(
     let (mut symplectic, mut symmetric) = (None, 0.0_f64);
     for point in points {
         let defect = laws::symplectic_defect_of(group, point, &mut |state| there(state).map(drop))?;
-        symplectic = defect.map(|defect| worse(symplectic.unwrap_or(0.0), defect));
+        symplectic = defect.map(|defect| maximum(symplectic.unwrap_or(0.0), defect));
         let mut state = point.clone();
         there(&mut state)?;
         back(&mut state)?;
         let difference = (&state.momentum - &point.momentum).amax() / point.momentum.amax();
-        symmetric = worse(symmetric, difference);
+        symmetric = maximum(symmetric, difference);
     }
     let law = |name, statement, value: f64, bound: f64| {
         let pass = value <= bound;
@@ -206,7 +218,7 @@ fn kicked<'a, G: Group>(
     let symplectic = symplectic.map(|value| law("symplectic+V", statement, value, 1e-9));
     let statement = "flows and kicks: Φ₋ₕ(Φₕ(α)) = α";
     let symmetric = law("symmetric+V", statement, symmetric, 1e-11);
-    let order = order::measure(h, expected, group, starts, |h, steps, state| {
+    let order = measured(h, expected, group, starts, |h, steps, state| {
         let step = make(h)?;
         (0..steps).try_for_each(|_| step(state).map(drop))
     });
@@ -215,9 +227,56 @@ fn kicked<'a, G: Group>(
     Ok(symplectic.into_iter().chain([symmetric, order]).collect())
 }
 
-/// The larger; NaN stays.
-fn worse(worst: f64, value: f64) -> f64 {
-    if worst.is_nan() || value <= worst { worst } else { value }
+/// Steps of the coarsest run.
+const STEPS: u32 = 4;
+/// How far the measured order may fall below K + 1.
+const SLACK: f64 = 0.3;
+
+/// The order of accuracy, measured by step halving: the median over these starts, from one of which the leading term of the
+/// error may happen to cancel.
+///
+/// Runs h, h/2 and h/4 over the same time; the differences shrink by 2^order. Among the steps
+/// h·2^j tried, it takes the smallest whose differences are above rounding, where the leading term
+/// of the error dominates best. Where all differences are rounding the map is exact, and the order
+/// counts as infinite.
+fn measured<G: Group>(
+    step: f64,
+    expected: f64,
+    group: &G,
+    starts: &[Phase<G>],
+    mut run: impl FnMut(f64, u32, &mut Phase<G>) -> Result<(), StepError>,
+) -> Law {
+    let mut orders: Vec<f64> =
+        starts.iter().map(|start| order_from(step, group, start, &mut run)).collect();
+    orders.sort_by(f64::total_cmp);
+    let order = orders.get(orders.len() / 2).copied().unwrap_or(f64::INFINITY);
+    Law {
+        name: "order",
+        statement: "error ∝ h^(K+1), by step halving",
+        value: order,
+        bound: expected - SLACK,
+        pass: order >= expected - SLACK,
+    }
+}
+
+/// The order from one start: infinite where all differences are rounding.
+fn order_from<G: Group>(
+    step: f64,
+    group: &G,
+    start: &Phase<G>,
+    mut run: impl FnMut(f64, u32, &mut Phase<G>) -> Result<(), StepError>,
+) -> f64 {
+    for exponent in -6..=12 {
+        let time = f64::from(STEPS) * step * 2_f64.powi(exponent);
+        match measured_order(group, start, time, STEPS, &mut run) {
+            Ok(value) => return value,
+            // Too small to be seen: try larger steps.
+            Err(OrderError::OutOfRange { coarse, .. }) if coarse < 0.5 => {}
+            // Beyond the step where the solve fails nothing is to be measured.
+            Err(_) => break,
+        }
+    }
+    f64::INFINITY
 }
 
 /// The number of starts from which the order is measured.
