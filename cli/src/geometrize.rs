@@ -68,7 +68,7 @@ pub(crate) fn run(options: &GeometrizeOptions) -> Result<(), CliError> {
         ..options.fit.request(load::group(&options.group)?)
     };
     let (file, summary) = match &options.system {
-        None => learn(&request, Source::Files(data, options.test.as_deref()), &mut |_| {})?,
+        None => learn(&request, Source::files(data, options.test.as_deref())?, &mut |_| {})?,
         Some(path) => {
             let problem = load::file(path, Options::default())?.problem;
             let request = Request { group: GroupChoice::of(problem.facts().algebra), ..request };

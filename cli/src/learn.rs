@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use coadjoint_codegen::file;
 use coadjoint_codegen::lie::Chart;
-use coadjoint_learn::data::{RowPolicy, Tolerances};
+use coadjoint_learn::data::RowPolicy;
 use coadjoint_learn::network::{Progress, TrainingOptions};
 use coadjoint_learn::{
     Errors, Figures, GroupChoice, Kind, ModelFile, Request, Source, Summary, learn,
@@ -142,7 +142,6 @@ pub(crate) fn run(options: &LearnOptions) -> Result<(), CliError> {
     let data = std::iter::once(&options.data).chain(&options.test).map(PathBuf::as_path);
     let inputs: Vec<&Path> = data.chain(load::system_file(&options.group)).collect();
     options.fit.check(&inputs)?;
-    let tolerances = Tolerances { attitude: options.tolerance, momentum: options.tolerance };
     // Beside the model, so that a command given again goes on where it was killed.
     let checkpoint = options.fit.out.as_ref().map(|out| {
         let mut name = out.as_os_str().to_owned();
@@ -158,12 +157,12 @@ pub(crate) fn run(options: &LearnOptions) -> Result<(), CliError> {
     let request = Request {
         kind: options.model,
         ridge: options.ridge,
-        tolerances,
+        tolerance: Some(options.tolerance),
         network,
         ..options.fit.request(load::group(&options.group)?)
     };
     let bar = progress::bar(1, "learning");
-    let source = Source::Files(&options.data, options.test.as_deref());
+    let source = Source::files(&options.data, options.test.as_deref())?;
     let (file, summary) =
         learn(&request, source, &mut |Progress { step, total, loss, .. }| {
             bar.set_length(total as u64);

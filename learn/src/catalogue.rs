@@ -8,7 +8,7 @@ use nalgebra::DMatrix;
 
 use crate::error::LearnError;
 use crate::group::DataGroup;
-use crate::group_choice::GroupChoice;
+use crate::group::GroupChoice;
 
 /// Work to be done for a group and chart known only by name.
 pub trait Visitor {

@@ -6,38 +6,20 @@ use std::path::{Path, PathBuf};
 /// Why data could not be read, reduced, fitted, saved or loaded.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
+#[allow(missing_docs, reason = "the messages name the fields")]
 pub enum LearnError {
     /// A file could not be read or written.
     #[error("cannot read or write {}: {source}", path.display())]
-    File {
-        /// The file concerned.
-        path: PathBuf,
-        /// The system's error.
-        source: std::io::Error,
-    },
+    File { path: PathBuf, source: std::io::Error },
     /// A file is not in the format its name promises.
     #[error("{} is not a readable {format} file: {reason}", path.display())]
-    Format {
-        /// The file concerned.
-        path: PathBuf,
-        /// The format expected.
-        format: &'static str,
-        /// The reader's error.
-        reason: String,
-    },
+    Format { path: PathBuf, format: &'static str, reason: String },
     /// The ending of a file name names no format this build reads.
     #[error("{}: the ending must be .csv, .npy, .npz or .parquet", .0.display())]
     UnknownFormat(PathBuf),
     /// A cell is not a number.
     #[error("row {row}, column {column}: `{text}` is not a number")]
-    NotANumber {
-        /// The data row, from 1 (the header not counted).
-        row: usize,
-        /// The column's name.
-        column: String,
-        /// The cell.
-        text: String,
-    },
+    NotANumber { row: usize, column: String, text: String },
     /// A column that must be there is missing.
     #[error(
         "column {missing} is missing; the columns found are {}. Momenta are mu_1 … mu_{dim} before \
@@ -45,24 +27,10 @@ pub enum LearnError {
          q_z and q_next_w …",
         found.join(", ")
     )]
-    MissingColumn {
-        /// The name looked for.
-        missing: String,
-        /// n, the dimension of the group.
-        dim: usize,
-        /// The names in the file.
-        found: Vec<String>,
-    },
+    MissingColumn { missing: String, dim: usize, found: Vec<String> },
     /// The columns do not have the same length, or an array not the right shape.
     #[error("{what} has {found} entries where {expected} are needed")]
-    Shape {
-        /// The object of the wrong size.
-        what: String,
-        /// The size needed.
-        expected: usize,
-        /// The size found.
-        found: usize,
-    },
+    Shape { what: String, expected: usize, found: usize },
     /// There is not a single usable sample.
     #[error("the data hold no usable sample: give at least one row")]
     NoSamples,
@@ -84,16 +52,7 @@ pub enum LearnError {
         "{samples} samples do not determine the {terms} coefficients of degree {degree} at ridge \
          {ridge:e}: give more samples, a lower degree, or a larger ridge"
     )]
-    NotDetermined {
-        /// The degree asked for.
-        degree: usize,
-        /// Coefficients of that degree.
-        terms: usize,
-        /// Samples given.
-        samples: usize,
-        /// The ridge weight.
-        ridge: f64,
-    },
+    NotDetermined { degree: usize, terms: usize, samples: usize, ridge: f64 },
     /// A sample is outside the chart, or the model sends it there.
     #[error("a sample is out of reach of the {0} chart; use data with a smaller step")]
     OutOfChart(&'static str),
@@ -102,32 +61,13 @@ pub enum LearnError {
     NotConverged(String),
     /// The catalogue has no such group.
     #[error("group {name}: {reason}")]
-    UnknownGroup {
-        /// The name given.
-        name: String,
-        /// The reason, as the catalogue gives it.
-        reason: String,
-    },
+    UnknownGroup { name: String, reason: String },
     /// The group has no such chart.
     #[error("{group} has no chart {chart}: {reason}")]
-    NoChart {
-        /// The group.
-        group: String,
-        /// The chart asked for.
-        chart: String,
-        /// The reason, as the catalogue gives it.
-        reason: String,
-    },
+    NoChart { group: String, chart: String, reason: String },
     /// An option is out of its range.
     #[error("{option} is {value}: {requirement}")]
-    InvalidOption {
-        /// The option's name.
-        option: &'static str,
-        /// The value given.
-        value: String,
-        /// The values allowed.
-        requirement: String,
-    },
+    InvalidOption { option: &'static str, value: String, requirement: String },
     /// Training cannot resume from a checkpoint.
     #[error("cannot resume from the checkpoint {path}: {1}; delete it to start again", path = .0.display())]
     Checkpoint(PathBuf, String),
@@ -157,7 +97,6 @@ impl LearnError {
     }
 
     /// Whether the cause is the input (a file, an option), not a computation.
-    #[must_use]
     pub fn is_input(&self) -> bool {
         !matches!(self, Self::NotConverged(_) | Self::OutOfChart(_))
     }

@@ -18,7 +18,6 @@ pub(crate) struct Reduced {
 
 impl Reduced {
     /// Reduces the problem min |A c − b|² with A = `matrix` and b = `right`.
-    #[must_use]
     pub(crate) fn new(matrix: DMatrix<f64>, right: DVector<f64>) -> Self {
         let (rows, columns) = matrix.shape();
         let scale = matrix.norm_squared() / columns.max(1) as f64;
@@ -46,13 +45,11 @@ impl Reduced {
     /// The minimiser of |A c − b|² + ridge·s²|c|², s² the mean squared column norm of A.
     ///
     /// `None` where the minimiser is not unique to rounding (take a larger ridge) or not finite.
-    #[must_use]
     pub(crate) fn solve(&self, ridge: f64) -> Option<DVector<f64>> {
         self.solve_near(ridge, None)
     }
 
     /// As [`Reduced::solve`], with the ridge pulling to `anchor` in place of 0.
-    #[must_use]
     pub(crate) fn solve_near(
         &self,
         ridge: f64,

@@ -10,15 +10,15 @@
 //! use coadjoint::{Phase, SO3};
 //! use coadjoint::groups::Exponential;
 //! use coadjoint::steps::advance;
-//! use coadjoint_learn::data::{RowPolicy, Tolerances, reduce};
-//! use coadjoint_learn::truth::{MomentumBox, Quadratic, phase_pairs};
+//! use coadjoint_learn::data::{RowPolicy, TOLERANCE, reduce};
+//! use coadjoint_learn::truth::{MomentumBox, Separable, phase_pairs};
 //! use coadjoint_learn::{Generating, polynomial::fit_polynomial};
 //!
 //! // Sixty pairs (state, state 0.1 later) of a rigid body.
 //! let group = SO3::new();
 //! let wide = MomentumBox { low: -2.0, high: 2.0 };
-//! let pairs = phase_pairs(&group, &Quadratic::paper(), 0.1, wide, 60, 1).into();
-//! let data = reduce::<SO3, Exponential>(&group, &pairs, Tolerances::default(), RowPolicy::Refuse)?.data;
+//! let pairs = phase_pairs(&group, &Separable::paper(), 0.1, wide, 60, 1).into();
+//! let data = reduce::<SO3, Exponential>(&group, &pairs, TOLERANCE, RowPolicy::Refuse)?.data;
 //! let model = fit_polynomial(&data, 4, 0.0)?;
 //! let map = Generating::<SO3, Exponential, _>::new(group, model);
 //! let mut state = Phase::<SO3>::at_identity([2.0, 0.5, 1.0]);
@@ -40,36 +40,26 @@
 
 pub mod catalogue;
 pub mod data;
-mod emit;
 mod error;
 mod evaluate;
 mod function;
 mod gaussian_process;
 mod group;
-mod group_choice;
-mod hybrid;
 mod least_squares;
 mod model;
 pub mod momentum;
 pub mod network;
-mod npy;
 pub mod polynomial;
-mod save;
 mod session;
 pub mod table;
-mod trivialisation;
 pub mod truth;
 
-pub use emit::{exact_polynomial, problem};
 pub use error::{BadRow, BadRows, LearnError, RowProblem};
 pub use evaluate::{Drifts, Errors, Figures, drifts, evaluate, evaluate_momenta, evaluate_with};
 pub use function::{Generating, MomentumFunction, Scaled};
 pub use gaussian_process::{GaussianProcess, fit_gaussian_process};
-pub use group::{DataGroup, matrix_of};
-pub use group_choice::{GroupChoice, OwnAlgebra};
-pub use hybrid::fit_hybrid;
+pub use group::{DataGroup, GroupChoice, OwnAlgebra, matrix_of};
 pub use least_squares::GaussNewton;
-pub use model::Model;
-pub use npy::npy_header;
-pub use save::{ModelFile, TrainingRecord};
+pub use model::{Model, ModelFile, TrainingRecord, exact_polynomial, fit_hybrid, problem};
 pub use session::{Kind, Request, Source, Summary, learn, remove_checkpoints};
+pub use table::npy_header;

@@ -11,7 +11,6 @@ use crate::error::LearnError;
 use crate::function::{Generating, MomentumFunction, entries, vector};
 use crate::least_squares::GaussNewton;
 use crate::polynomial::{Basis, PolynomialModel, Scaling};
-use crate::trivialisation::{ad_star_matrix, left_derivative};
 
 /// The iteration; its ridge fixes the rotation about μ that momenta do not determine.
 const ITERATION: GaussNewton =
@@ -124,4 +123,33 @@ where
     let next = chart.transport(group, x, mu).1;
     let turn = ad_star_matrix(group, &next) * left_derivative(group, chart, x);
     Some((next, turn * moves))
+}
+
+/// The unit covectors e¹ … eⁿ.
+fn units<G: LieGroup<Scalar = f64>>(dim: usize) -> impl Iterator<Item = G::Vector> {
+    (0..dim).map(move |j| G::Vector::from_entries(dim, |i| if i == j { 1.0 } else { 0.0 }))
+}
+
+/// d^Lτ_x, where τ⁻¹dτ = d^Lτ_x dx: row j is (d^Lτ_x)ᵀ e^j, and d^Lτ_x = d^Rτ_{−x}.
+fn left_derivative<G, C>(group: &G, chart: C, x: &G::Vector) -> DMatrix<f64>
+where
+    G: LieGroup<Scalar = f64>,
+    C: Chart<G>,
+{
+    let dim = x.dim();
+    let minus = G::Vector::from_entries(dim, |i| -x[i]);
+    let rows: Vec<f64> =
+        units::<G>(dim).flat_map(|e| entries(&chart.pull_back(group, &minus, &e))).collect();
+    DMatrix::from_row_slice(dim, dim, &rows)
+}
+
+/// The matrix of ξ ↦ ad\*_ξ μ.
+fn ad_star_matrix<G>(group: &G, mu: &G::Vector) -> DMatrix<f64>
+where
+    G: LieGroup<Scalar = f64>,
+{
+    let dim = mu.dim();
+    let columns: Vec<f64> =
+        units::<G>(dim).flat_map(|xi| entries(&group.ad_star(&xi, mu))).collect();
+    DMatrix::from_column_slice(dim, dim, &columns)
 }

@@ -6,7 +6,7 @@ use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::step::Step;
 use coadjoint_codegen::system::{Options, Parameters, read};
-use coadjoint_learn::truth::{Quadratic, exact_flow};
+use coadjoint_learn::truth::{Separable, exact_flow};
 use coadjoint_learn::{DataGroup, MomentumFunction, matrix_of};
 use coadjoint_program::{Kernel, Stepper};
 use differential_equations::prelude::{ExplicitRungeKutta, IVP};
@@ -38,7 +38,7 @@ impl State {
 
     /// The energy of the paper's rigid body.
     pub fn energy(&self) -> f64 {
-        Quadratic::paper().value(&self.momentum)
+        Separable::paper().value(&self.momentum)
     }
 
     fn differences(&self, other: &Self) -> impl Iterator<Item = f64> {
@@ -136,7 +136,7 @@ pub fn exact_phases<G: DataGroup>(
 /// States of the exact flow of the paper's rigid body.
 pub fn exact(start: [f64; 3], h: f64, count: usize) -> Vec<State> {
     let group = SO3::new();
-    let phases = exact_phases(&group, &Quadratic::paper(), Vector3::from(start), h, count);
+    let phases = exact_phases(&group, &Separable::paper(), Vector3::from(start), h, count);
     phases.iter().map(|phase| State::of(&group, phase)).collect()
 }
 

@@ -4,8 +4,9 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
-use coadjoint_learn::data::{Columns, RowPolicy, Tolerances};
+use coadjoint_learn::data::RowPolicy;
 use coadjoint_learn::network::{Progress, TrainingOptions};
+use coadjoint_learn::table;
 use coadjoint_learn::{Kind, ModelFile, Request, Source};
 use coadjoint_run::simulate::{Schedule, Setup, run_model};
 use coadjoint_run::{RunError, emit, learned, read_group, series};
@@ -76,7 +77,7 @@ impl Settings {
             kind,
             degree: self.degree,
             ridge: self.ridge,
-            tolerances: Tolerances { attitude: self.tolerance, momentum: self.tolerance },
+            tolerance: Some(self.tolerance),
             policy: if self.drop { RowPolicy::Drop } else { RowPolicy::Refuse },
             momenta_only: self.momenta_only,
             start: self.start,
@@ -91,9 +92,9 @@ impl Settings {
     }
 }
 
-fn columns(named: Named<'_>) -> Result<Columns, RunError> {
+fn columns(named: Named<'_>) -> Result<table::Table, RunError> {
     let own = named.into_iter().map(|(name, values)| (name, values.as_array().to_vec()));
-    Ok(Columns::new(own)?)
+    Ok(table::Table::of_columns(Path::new("the data"), own.collect())?)
 }
 
 /// Learns a map from columns: the model as text, and a summary as JSON.
@@ -113,7 +114,7 @@ pub fn learn<'py>(
             control.total.store(total as u64, Ordering::Relaxed);
             control.done.store(step as u64, Ordering::Relaxed);
         };
-        let source = Source::Columns(&data, test.as_ref());
+        let source = Source::Tables(data, test);
         let (file, summary) = coadjoint_learn::learn(&request, source, &mut told)?;
         let unwritten = |error: &dyn std::fmt::Display| RunError::Option(error.to_string());
         let text = file.text().map_err(|error| unwritten(&error))?;

@@ -1,10 +1,7 @@
 //! Dense networks: their evaluation and their training.
 
-mod activation;
-mod checkpoint;
 mod dense;
 mod descent;
-mod layers;
 mod options;
 mod slope;
 
@@ -16,9 +13,8 @@ use crate::polynomial::Scaling;
 use descent::minimise;
 use slope::SlopeFit;
 
-pub use activation::Activation;
 pub use dense::DenseNetwork;
-pub use options::{Progress, TrainingOptions};
+pub use options::{Activation, Progress, TrainingOptions};
 
 /// Fits f = mean·p + scale·N(u) to the gradients of a function at points, a sample per column:
 /// min Σ|gᵢ − ∂f/∂p(pᵢ)|² with inputs and targets normalised. Returns the network and the loss after every evaluation.

@@ -11,8 +11,8 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use super::activation::Activation;
-use super::layers::{Hidden, Layers, Passes};
+use super::dense::{Hidden, Layers, Passes};
+use super::options::Activation;
 
 /// Samples of a piece. More would leave threads idle on a few hundred samples, fewer make products of matrices slower.
 const PIECE: usize = 64;

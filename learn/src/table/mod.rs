@@ -1,8 +1,8 @@
 //! Tables of numbers in files of every format, read row by row and written in pieces.
 
+mod npy;
 #[cfg(feature = "parquet")]
 mod parquet;
-mod remarks;
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -14,17 +14,18 @@ use coadjoint_codegen::diagnostic::{check_table, read_text};
 use coadjoint_codegen::file;
 use serde_json::Value;
 
+pub use self::npy::npy_header;
+pub(crate) use self::npy::{matrix, numbered, quaternion};
 #[cfg(feature = "parquet")]
 pub use self::parquet::write_parquet;
 
+use self::npy::{NpyHeader, npz_columns, row_major};
 use crate::error::LearnError;
-use crate::npy::{NpyHeader, row_major};
-use remarks::Remarks;
 
 /// Bytes that are read at a time.
 const PIECE: usize = 1 << 18;
 
-/// A file of rows of numbers: `.npy`, `.parquet` (feature `parquet`), or CSV under any other name.
+/// A file of rows of numbers: `.npy`, `.npz`, `.parquet` (feature `parquet`), or CSV under any other name.
 pub struct Table {
     path: PathBuf,
     source: Source,
@@ -56,7 +57,6 @@ pub struct Row {
 
 impl Row {
     /// How many cells it has: in CSV a row may have too few or too many.
-    #[must_use]
     #[allow(clippy::len_without_is_empty)]
     pub fn len(&self) -> usize {
         self.record.len().max(self.numbers.len())
@@ -76,13 +76,11 @@ impl Row {
     }
 
     /// The numbers in all columns; NaN for other cells.
-    #[must_use]
     pub fn numbers(&self) -> Vec<f64> {
         (0..self.len()).map(|column| self.number(column).unwrap_or(f64::NAN)).collect()
     }
 
     /// The text of a cell as it stands in CSV; empty in other formats.
-    #[must_use]
     pub fn cell(&self, column: usize) -> &[u8] {
         self.record.get(column).unwrap_or_default()
     }
@@ -109,6 +107,10 @@ impl Table {
         let name = path.to_string_lossy().to_ascii_lowercase();
         match name.trim_end_matches(".partial").rsplit_once('.').map_or("", |(_, ending)| ending) {
             "npy" => Self::npy(path),
+            "npz" => {
+                let file = file::open_whole(path).map_err(LearnError::file(path))?;
+                Self::of_columns(path, npz_columns(path, file)?)
+            }
             #[cfg(feature = "parquet")]
             "parquet" => Self::parquet(path),
             #[cfg(not(feature = "parquet"))]
@@ -122,13 +124,27 @@ impl Table {
     }
 
     /// Rows in memory, one after the other, whose columns have these names, or none.
-    #[must_use]
     pub fn of_rows(path: &Path, names: Vec<String>, width: usize, rows: Vec<f64>) -> Self {
         Self::new(path, Source::Memory(rows), width, names)
     }
 
+    /// Named columns in memory.
+    ///
+    /// # Errors
+    /// [`LearnError::Shape`] where they differ in length.
+    pub fn of_columns(path: &Path, columns: Vec<(String, Vec<f64>)>) -> Result<Self, LearnError> {
+        let expected = columns.first().map_or(0, |(_, column)| column.len());
+        if let Some((name, column)) = columns.iter().find(|(_, own)| own.len() != expected) {
+            let (what, found) = (format!("column {name}"), column.len());
+            return Err(LearnError::Shape { what, expected, found });
+        }
+        let row = |row: usize| columns.iter().map(move |(_, column)| column[row]);
+        let rows = (0..expected).flat_map(row).collect();
+        let width = columns.len();
+        Ok(Self::of_rows(path, columns.into_iter().map(|(name, _)| name).collect(), width, rows))
+    }
+
     /// The same rows, of which this is said.
-    #[must_use]
     pub fn saying(self, head: BTreeMap<String, String>) -> Self {
         Self { head, ..self }
     }
@@ -198,37 +214,31 @@ impl Table {
     }
 
     /// The file.
-    #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }
 
     /// The names of the columns; none where the file has none.
-    #[must_use]
     pub fn names(&self) -> &[String] {
         &self.names
     }
 
     /// The number of columns.
-    #[must_use]
     pub fn width(&self) -> usize {
         self.width
     }
 
     /// The names of columns of a Parquet file that hold no floats; they are not read.
-    #[must_use]
     pub fn others(&self) -> &[String] {
         &self.others
     }
 
     /// Whether rows are text, whose cells can be kept as they are.
-    #[must_use]
     pub fn is_text(&self) -> bool {
         matches!(self.source, Source::Csv(_))
     }
 
     /// The entry of this name: in CSV a line `# name: value` among those read so far.
-    #[must_use]
     pub fn value(&self, name: &str) -> Option<&str> {
         let head = match &self.source {
             Source::Csv(reader) => &reader.get_ref().head,
@@ -238,7 +248,6 @@ impl Table {
     }
 
     /// The numbers that the file says under this name.
-    #[must_use]
     pub fn values(&self, name: &str) -> Option<Vec<f64>> {
         self.value(name)?.split(',').map(|number| number.trim().parse().ok()).collect()
     }
@@ -265,7 +274,6 @@ impl Table {
     }
 
     /// Where the next row begins, for [`Table::seek`].
-    #[must_use]
     pub fn position(&self) -> u64 {
         match &self.source {
             Source::Csv(reader) => reader.position().byte(),
@@ -346,14 +354,12 @@ impl Table {
     }
 
     /// The number of the row read last, from 1.
-    #[must_use]
     pub fn number(&self) -> u64 {
         self.next
     }
 }
 
 /// Lines of CSV; cells are in quotes where they would be read as something else without.
-#[must_use]
 pub fn csv_lines<R>(rows: impl IntoIterator<Item = R>) -> Vec<u8>
 where
     R: IntoIterator<Item: AsRef<[u8]>>,
@@ -365,11 +371,67 @@ where
 }
 
 /// A value of JSON as a line `# name: value` has it.
-#[must_use]
 pub fn remark(value: &Value) -> String {
     match value {
         Value::String(text) => text.clone(),
         Value::Array(list) => list.iter().map(remark).collect::<Vec<_>>().join(","),
         other => other.to_string(),
+    }
+}
+
+/// Passes bytes on, and takes note of the lines `# name: value` among them.
+struct Remarks<R> {
+    inner: R,
+    /// The values by their names.
+    head: BTreeMap<String, String>,
+    /// The part of the current line that has been read, where it begins with `#`.
+    line: Option<Vec<u8>>,
+    /// Whether the next byte begins a line.
+    fresh: bool,
+}
+
+impl<R> Remarks<R> {
+    /// From the beginning of a line on.
+    fn new(inner: R) -> Self {
+        Self { inner, head: BTreeMap::new(), line: None, fresh: true }
+    }
+
+    fn end_line(&mut self) {
+        let Some(line) = self.line.take() else { return };
+        let line = String::from_utf8_lossy(&line);
+        if let Some((name, value)) = line.trim_start_matches('#').split_once(':') {
+            self.head.insert(name.trim().to_owned(), value.trim().to_owned());
+        }
+    }
+}
+
+impl<R: Read> Read for Remarks<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        let mut count = self.inner.read(buffer)?;
+        // A remark at the very end is taken for a row where its line does not end.
+        if count == 0 && !self.fresh && !buffer.is_empty() {
+            (buffer[0], count) = (b'\n', 1);
+        }
+        for part in buffer[..count].split_inclusive(|byte| *byte == b'\n') {
+            if self.fresh && part[0] == b'#' {
+                self.line = Some(Vec::new());
+            }
+            if let Some(line) = &mut self.line {
+                line.extend_from_slice(part);
+            }
+            self.fresh = part.ends_with(b"\n");
+            if self.fresh {
+                self.end_line();
+            }
+        }
+        Ok(count)
+    }
+}
+
+impl<R: Seek> Seek for Remarks<R> {
+    /// To the beginning of a line.
+    fn seek(&mut self, position: SeekFrom) -> std::io::Result<u64> {
+        (self.line, self.fresh) = (None, true);
+        self.inner.seek(position)
     }
 }

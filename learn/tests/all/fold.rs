@@ -3,15 +3,15 @@
 
 use coadjoint::groups::{Cayley, Chart, Exponential};
 use coadjoint::{Phase, SO3};
-use coadjoint_learn::data::{PairRows, PhasePair, RowPolicy, Tolerances, reduce};
-use coadjoint_learn::truth::{MomentumBox, Quadratic, exact_flow, phase_pairs};
+use coadjoint_learn::data::{PairRows, PhasePair, RowPolicy, TOLERANCE, reduce};
+use coadjoint_learn::truth::{MomentumBox, Separable, exact_flow, phase_pairs};
 use coadjoint_learn::{LearnError, RowProblem};
 use nalgebra::{Matrix3, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 /// p and the angle of the increment after unit time.
-fn canonical<C: Chart<SO3>>(body: &Quadratic, mu: &Vector3<f64>) -> (Vector3<f64>, f64) {
+fn canonical<C: Chart<SO3>>(body: &Separable, mu: &Vector3<f64>) -> (Vector3<f64>, f64) {
     let group = SO3::new();
     let end = exact_flow(&group, body, &Phase::<SO3>::at_identity(*mu), 1.0);
     let chart = C::default();
@@ -20,7 +20,7 @@ fn canonical<C: Chart<SO3>>(body: &Quadratic, mu: &Vector3<f64>) -> (Vector3<f64
 }
 
 /// det ∂p/∂μ′ by differences of fourth order.
-fn determinant<C: Chart<SO3>>(body: &Quadratic, mu: &Vector3<f64>) -> f64 {
+fn determinant<C: Chart<SO3>>(body: &Separable, mu: &Vector3<f64>) -> f64 {
     let h = 2e-3;
     let mut derivative = Matrix3::zeros();
     for j in 0..3 {
@@ -33,7 +33,7 @@ fn determinant<C: Chart<SO3>>(body: &Quadratic, mu: &Vector3<f64>) -> f64 {
 
 /// The angle where the determinant first vanishes along a direction of μ′; `None` short of the
 /// half turn.
-fn fold<C: Chart<SO3>>(body: &Quadratic, direction: [f64; 3]) -> Option<f64> {
+fn fold<C: Chart<SO3>>(body: &Separable, direction: [f64; 3]) -> Option<f64> {
     let direction = Vector3::from(direction);
     let mut velocity = [0.0; 3];
     use coadjoint_learn::MomentumFunction;
@@ -58,9 +58,9 @@ fn fold<C: Chart<SO3>>(body: &Quadratic, direction: [f64; 3]) -> Option<f64> {
 /// worst directions found by searching the sphere.
 #[test]
 fn the_fold_is_where_it_is_documented() {
-    let ball = Quadratic::rigid_body([1.0, 1.0, 1.0]);
-    let body = Quadratic::paper();
-    let plate = Quadratic::rigid_body([1.0, 2.0, 3.0]);
+    let ball = Separable::rigid_body([1.0, 1.0, 1.0]);
+    let body = Separable::paper();
+    let plate = Separable::rigid_body([1.0, 2.0, 3.0]);
     // Steps are 0.05 of the angle, so the fold lies at most that far before the first hit.
     let near = |found: Option<f64>, expected: f64| {
         let found = found.unwrap();
@@ -77,12 +77,12 @@ fn the_fold_is_where_it_is_documented() {
     }
 }
 
-fn rows(body: &Quadratic, step: f64) -> PairRows<SO3> {
+fn rows(body: &Separable, step: f64) -> PairRows<SO3> {
     phase_pairs(&SO3::new(), body, step, MomentumBox { low: -2.0, high: 2.0 }, 400, 5).into()
 }
 
 fn bad<C: Chart<SO3>>(rows: &PairRows<SO3>) -> Vec<(usize, RowProblem)> {
-    let result = reduce::<SO3, C>(&SO3::new(), rows, Tolerances::default(), RowPolicy::Refuse);
+    let result = reduce::<SO3, C>(&SO3::new(), rows, TOLERANCE, RowPolicy::Refuse);
     match result {
         Ok(_) => Vec::new(),
         Err(LearnError::BadRows(bad)) => {
@@ -96,7 +96,7 @@ fn bad<C: Chart<SO3>>(rows: &PairRows<SO3>) -> Vec<(usize, RowProblem)> {
 /// determinant of the true flow the check is right but for rows close to the fold.
 #[test]
 fn data_beyond_the_fold_of_the_exponential_chart_are_found() {
-    let plate = Quadratic::rigid_body([1.0, 2.0, 3.0]);
+    let plate = Separable::rigid_body([1.0, 2.0, 3.0]);
     let group = SO3::new();
     let mut rng = ChaCha8Rng::seed_from_u64(5);
     // About the slow axis, up to angles short of the half turn.
@@ -127,7 +127,7 @@ fn data_beyond_the_fold_of_the_exponential_chart_are_found() {
     }
     println!("{} of 500 named, {beyond} clearly beyond, {wrong} wrong", folded.len());
     assert!(beyond > 10 && wrong <= 5, "{beyond} {wrong}");
-    let error = reduce::<SO3, Exponential>(&group, &rows, Tolerances::default(), RowPolicy::Refuse);
+    let error = reduce::<SO3, Exponential>(&group, &rows, TOLERANCE, RowPolicy::Refuse);
     let message = error.unwrap_err().to_string();
     assert!(message.contains("share one p") && message.contains("smaller step"), "{message}");
 }
@@ -135,6 +135,6 @@ fn data_beyond_the_fold_of_the_exponential_chart_are_found() {
 /// The paper's body folds nowhere short of the half turn in the exponential chart.
 #[test]
 fn the_papers_body_has_no_fold_in_the_exponential_chart() {
-    assert_eq!(bad::<Exponential>(&rows(&Quadratic::paper(), 1.0)), []);
-    assert!(!bad::<Cayley>(&rows(&Quadratic::paper(), 1.0)).is_empty());
+    assert_eq!(bad::<Exponential>(&rows(&Separable::paper(), 1.0)), []);
+    assert!(!bad::<Cayley>(&rows(&Separable::paper(), 1.0)).is_empty());
 }

@@ -6,7 +6,7 @@ use coadjoint::laws::check;
 use coadjoint::{LieGroup, Phase, SE3, SO3};
 use coadjoint_learn::network::{TrainingOptions, fit_network};
 use coadjoint_learn::polynomial::fit_polynomial;
-use coadjoint_learn::truth::Quadratic;
+use coadjoint_learn::truth::Separable;
 use coadjoint_learn::{
     DataGroup, Generating, Model, MomentumFunction, fit_gaussian_process, fit_hybrid,
 };
@@ -95,6 +95,6 @@ fn fitted_models_on_so3() {
 
 #[test]
 fn fitted_models_of_the_heavy_top() {
-    let top = Quadratic::heavy_top([1.0, 1.2, 0.8], [0.1, 0.0, 0.4]);
+    let top = Separable::heavy_top([1.0, 1.2, 0.8], [0.1, 0.0, 0.4]);
     fitted::<_, Exponential>(&SE3::new(), &top);
 }

@@ -7,7 +7,7 @@ use coadjoint::groups::Exponential;
 use coadjoint::{Phase, SO3};
 use coadjoint_learn::data::{PairRows, ReducedData};
 use coadjoint_learn::polynomial::fit_polynomial;
-use coadjoint_learn::truth::{Quadratic, Quartic};
+use coadjoint_learn::truth::Separable;
 use coadjoint_learn::{
     Generating, LearnError, Model, ModelFile, MomentumFunction, Scaled, TrainingRecord, drifts,
     evaluate, fit_gaussian_process,
@@ -36,8 +36,16 @@ fn derivatives_agree_with_differences() {
     let weights = vec![1.0 / 1.5, 0.5, 0.4];
     let process = fit_gaussian_process(&sample(&bump(), 40, 1).1, 20).unwrap();
     let functions: [(&str, &dyn MomentumFunction, f64); 9] = [
-        ("quadratic", &Quadratic { weights: weights.clone(), linear: vec![0.1, 0.0, -0.3] }, 1e-9),
-        ("quartic", &Quartic { weights, quartic: vec![0.3, 0.1, 0.2] }, 1e-9),
+        (
+            "quadratic",
+            &Separable { linear: vec![0.1, 0.0, -0.3], ..Separable::quadratic(weights.clone()) },
+            1e-9,
+        ),
+        (
+            "quartic",
+            &Separable { quartic: vec![0.3, 0.1, 0.2], ..Separable::quadratic(weights) },
+            1e-9,
+        ),
         ("relativistic", &relativistic(), 1e-9),
         ("bump", &bump(), 1e-9),
         ("polynomial", &random_polynomial(3), 1e-9),
@@ -101,7 +109,7 @@ fn path(name: &str) -> PathBuf {
 
 #[test]
 fn models_of_every_kind_read_back_to_the_same_bits() {
-    let (_, train) = sample(&Quadratic::paper(), 40, 1);
+    let (_, train) = sample(&Separable::paper(), 40, 1);
     let models = [
         Model::Polynomial(random_polynomial(4)),
         Model::Network(random_network(4, "tanh")),

@@ -7,13 +7,13 @@ use coadjoint::SO3;
 use coadjoint::groups::Cayley;
 use coadjoint_learn::data::{PairRows, ReducedData};
 use coadjoint_learn::network::{Activation, TrainingOptions, fit_network};
-use coadjoint_learn::truth::{MomentumBox, Quadratic};
+use coadjoint_learn::truth::{MomentumBox, Separable};
 use coadjoint_learn::{Generating, evaluate, fit_hybrid};
 
 use crate::support;
 
 fn sample(count: usize, seed: u64) -> (PairRows<SO3>, ReducedData) {
-    let (body, within) = (Quadratic::paper(), (0.1, MomentumBox::PAPER));
+    let (body, within) = (Separable::paper(), (0.1, MomentumBox::PAPER));
     support::sample::<SO3, Cayley>(&SO3::new(), &body, within, count, seed)
 }
 

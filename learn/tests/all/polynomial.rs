@@ -3,17 +3,17 @@
 
 use coadjoint::SO3;
 use coadjoint::groups::{Cayley, Chart, Exponential};
-use coadjoint_learn::data::{ReducedData, RowPolicy, Tolerances, reduce};
+use coadjoint_learn::data::{ReducedData, RowPolicy, TOLERANCE, reduce};
 use coadjoint_learn::polynomial::{fit_polynomial, select_polynomial};
-use coadjoint_learn::truth::{MomentumBox, Quadratic, add_noise, phase_pairs};
+use coadjoint_learn::truth::{MomentumBox, Separable, add_noise, phase_pairs};
 use coadjoint_learn::{LearnError, MomentumFunction};
 
 fn reduced<C: Chart<SO3>>(count: usize, seed: u64, noise: f64) -> ReducedData {
     let group = SO3::new();
-    let pairs = phase_pairs(&group, &Quadratic::paper(), 0.1, MomentumBox::PAPER, count, seed);
+    let pairs = phase_pairs(&group, &Separable::paper(), 0.1, MomentumBox::PAPER, count, seed);
     let pairs = add_noise(&group, &pairs, noise, seed + 1000);
-    let tolerances = if noise > 0.0 { Tolerances::unlimited() } else { Tolerances::default() };
-    reduce::<SO3, C>(&group, &pairs.into(), tolerances, RowPolicy::Refuse).unwrap().data
+    let tolerance = if noise > 0.0 { f64::INFINITY } else { TOLERANCE };
+    reduce::<SO3, C>(&group, &pairs.into(), tolerance, RowPolicy::Refuse).unwrap().data
 }
 
 fn error(model: &impl MomentumFunction, data: &ReducedData) -> f64 {

@@ -1,11 +1,11 @@
 //! Truths, data and random models that several tests use.
 
 use coadjoint::groups::Chart;
-use coadjoint_learn::data::{PairRows, ReducedData, RowPolicy, Tolerances, reduce};
+use coadjoint_learn::data::{PairRows, PhasePair, ReducedData, RowPolicy, TOLERANCE, reduce};
 use coadjoint_learn::network::DenseNetwork;
 use coadjoint_learn::polynomial::{Basis, PolynomialModel, Scaling};
 use coadjoint_learn::truth::{Bump, MomentumBox, Relativistic, phase_pairs};
-use coadjoint_learn::{DataGroup, MomentumFunction};
+use coadjoint_learn::{DataGroup, MomentumFunction, matrix_of};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde_json::json;
@@ -28,6 +28,27 @@ pub fn relativistic() -> Relativistic {
     Relativistic { weights: vec![1.0 / 1.5, 0.5, 0.4], ripple: 0.3 }
 }
 
+/// Pairs as CSV: `mu_…`, `mu_next_…`, `g_…`, `g_next_…`.
+pub fn csv_of<G: DataGroup>(group: &G, pairs: &[PhasePair<G>]) -> String {
+    let (dim, size) = (group.dim(), group.matrix_size());
+    let entries = || (1..=size).flat_map(|i| (1..=size).map(move |j| format!("{i}{j}")));
+    let momentum = |name: &'static str| (1..=dim).map(move |i| format!("{name}_{i}"));
+    let attitude = |name: &'static str| entries().map(move |at| format!("{name}_{at}"));
+    let names = momentum("mu").chain(momentum("mu_next"));
+    let names = names.chain(attitude("g")).chain(attitude("g_next")).collect::<Vec<_>>();
+    let line = |pair: &PhasePair<G>| {
+        let ends = [&pair.before, &pair.after];
+        let momenta = ends.into_iter().flat_map(|end| (0..dim).map(|i| end.momentum[i]));
+        let attitudes = ends.into_iter().flat_map(|end| {
+            let g = matrix_of(group, &end.group_element).transpose();
+            g.iter().copied().collect::<Vec<_>>()
+        });
+        let cells = momenta.chain(attitudes).map(|value| value.to_string());
+        cells.collect::<Vec<_>>().join(",") + "\n"
+    };
+    names.join(",") + "\n" + &pairs.iter().map(line).collect::<String>()
+}
+
 /// Exact pairs, one step apart, and their reduction.
 pub fn sample<G: DataGroup, C: Chart<G>>(
     group: &G,
@@ -37,7 +58,7 @@ pub fn sample<G: DataGroup, C: Chart<G>>(
     seed: u64,
 ) -> (PairRows<G>, ReducedData) {
     let rows: PairRows<G> = phase_pairs(group, truth, step, momenta, count, seed).into();
-    let reduced = reduce::<G, C>(group, &rows, Tolerances::default(), RowPolicy::Refuse);
+    let reduced = reduce::<G, C>(group, &rows, TOLERANCE, RowPolicy::Refuse);
     (rows, reduced.unwrap().data)
 }
 

@@ -7,14 +7,14 @@ use coadjoint_codegen::hamilton_jacobi::{GeneratingSeries, TermLimit, derive};
 use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::system::{Options as SystemOptions, read};
 use coadjoint_learn::polynomial::{Basis, PolynomialModel, Scaling};
-use coadjoint_learn::truth::{Quadratic, exact_momentum_flow};
+use coadjoint_learn::truth::{Separable, exact_momentum_flow};
 use coadjoint_learn::{GaussNewton, MomentumFunction};
 use nalgebra::{DMatrix, DVector, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::Options;
-use super::table_two::map;
+use super::poisson::map;
 use crate::outcome::{Curve, Fallible, Report, Table, row};
 use crate::state::{RIGID_BODY, Steps};
 
@@ -30,7 +30,7 @@ fn solve(
     samples: usize,
     seed: u64,
 ) -> Fallible<(PolynomialModel, Vec<f64>)> {
-    let body = Quadratic::paper();
+    let body = Separable::paper();
     let scaling = Scaling { centre: vec![0.0; 3], half_width: vec![1.0; 3] };
     let model = PolynomialModel::zero(Basis::new(3, degree), scaling);
     // The basis lacks the constant, which does not matter to x = ∂S/∂p but does to ∂S/∂t.
@@ -104,7 +104,7 @@ fn series(truncation: usize) -> Fallible<GeneratingSeries> {
 
 pub fn run(options: &Options) -> Fallible<Report> {
     let mut report = options.report("hamilton-jacobi");
-    let (group, body) = (SO3::new(), Quadratic::paper());
+    let (group, body) = (SO3::new(), Separable::paper());
     let mut rng = ChaCha8Rng::seed_from_u64(options.seed(2));
     let tests: Vec<Vector3<f64>> =
         (0..100).map(|_| Vector3::from_fn(|_, _| 2.0 * rng.random::<f64>() - 1.0)).collect();

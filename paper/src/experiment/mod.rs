@@ -1,20 +1,12 @@
 //! The experiments by name: each fills in a report.
 
-mod geometrize;
 mod hamilton_jacobi;
-mod hamiltonian;
-mod harder;
-mod learned;
-mod models;
-mod noise;
+mod learning;
 mod options;
-mod orders;
+mod poisson;
 mod reduction_error;
-mod simulation;
-mod table_one;
-mod table_two;
+mod series;
 mod type_two;
-mod work;
 
 pub use options::Options;
 
@@ -25,18 +17,18 @@ type Run = fn(&Options) -> Fallible<Report>;
 
 /// The experiments, in the order in which `all` runs them.
 pub const EXPERIMENTS: [(&str, Run); 12] = [
-    ("simulation", simulation::run),
-    ("orders", orders::run),
-    ("work", work::run),
-    ("table-2", table_two::run),
-    ("hamiltonian", hamiltonian::run),
-    ("geometrize", geometrize::run),
+    ("simulation", series::simulation),
+    ("orders", series::orders),
+    ("work", series::work),
+    ("table-2", poisson::table_two),
+    ("hamiltonian", poisson::hamiltonian),
+    ("geometrize", poisson::geometrize),
     ("hamilton-jacobi", hamilton_jacobi::run),
     ("reduction-error", reduction_error::run),
-    ("learned", learned::run),
-    ("noise", noise::run),
-    ("table-1", table_one::run),
-    ("harder-truths", harder::run),
+    ("learned", learning::learned),
+    ("noise", learning::noise),
+    ("table-1", learning::table_one),
+    ("harder-truths", learning::harder),
 ];
 
 /// Runs the experiment `name`, or `all` in turn. With a folder to write to, an interrupted run goes on where it stopped:

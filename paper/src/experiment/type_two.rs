@@ -63,7 +63,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use coadjoint_learn::polynomial::fit_gradients;
-    use coadjoint_learn::truth::{MomentumBox, Quadratic, phase_pairs};
+    use coadjoint_learn::truth::{MomentumBox, Separable, phase_pairs};
 
     use super::*;
 
@@ -71,7 +71,7 @@ mod tests {
     fn type_two_learns_but_does_not_conserve_momentum() {
         let group = SO3::new();
         let pairs = |count, seed| -> PairRows<SO3> {
-            phase_pairs(&group, &Quadratic::paper(), 0.1, MomentumBox::UNIT, count, seed).into()
+            phase_pairs(&group, &Separable::paper(), 0.1, MomentumBox::UNIT, count, seed).into()
         };
         let (train, test) = (pairs(150, 1), pairs(50, 2));
         let (points, gradients) = data(&train).unwrap();

@@ -1,13 +1,18 @@
-//! The header of NumPy's `.npy` format, read within the bounds of its file.
+//! NumPy's formats: arrays in `.npy`, whose headers are read within the bounds of their files, and named arrays in `.npz`.
 //!
 //! Source: NumPy Enhancement Proposal 1, *A Simple File Format for NumPy Arrays*: the magic
 //! `\x93NUMPY`, a version, the length of the header (two bytes in version 1, four later), and a
 //! Python dictionary of `descr`, `fortran_order` and `shape`.
 
-use std::io::Read;
+use std::fs::File;
+use std::io::{BufReader, Read};
+use std::path::Path;
 
 use serde::Deserialize;
 use serde_json::Value;
+use zip::ZipArchive;
+
+use crate::error::LearnError;
 
 /// The longest header that is read; that of a plain array has about a hundred bytes.
 const LONGEST: u64 = 1 << 16;
@@ -119,7 +124,6 @@ impl NpyHeader {
 
 /// The bytes before the numbers of a row-major array of 64-bit floats of this shape: version 1.0,
 /// padded to a multiple of 64 bytes.
-#[must_use]
 pub fn npy_header(shape: &[u64]) -> Vec<u8> {
     let mut lengths = shape.iter().map(u64::to_string).collect::<Vec<_>>().join(", ");
     if shape.len() == 1 {
@@ -149,6 +153,76 @@ pub(crate) fn row_major(shape: &[usize], values: &[f64]) -> Vec<f64> {
         place
     };
     (0..values.len()).map(|index| values[place(index)]).collect()
+}
+
+/// The columns of a `.npz` file, in the order of their arrays' names. An array of shape (N,) is the column of its name; an
+/// array `mu` of shape (N, n) is the columns `mu_1` … `mu_n`; an array `g` of shape (N, d, d) is `g_11` … `g_dd`; an array
+/// `q` of shape (N, 4) is `q_w`, `q_x`, `q_y`, `q_z`. The same with `_next`.
+pub(super) fn npz_columns(path: &Path, file: File) -> Result<Vec<(String, Vec<f64>)>, LearnError> {
+    let damaged = |what: &dyn std::fmt::Display| LearnError::format(path, "NumPy", what);
+    let mut archive = ZipArchive::new(BufReader::new(file)).map_err(|e| damaged(&e))?;
+    let mut names = Vec::new();
+    for index in 0..archive.len() {
+        let entry = archive.by_index(index).map_err(|e| damaged(&e))?;
+        let name = String::from_utf8_lossy(entry.name_raw()).into_owned();
+        names.extend(name.strip_suffix(".npy").map(String::from));
+    }
+    names.sort();
+    let mut columns = Vec::new();
+    for name in names {
+        let entry = archive.by_name(&format!("{name}.npy")).map_err(|e| damaged(&e))?;
+        // The size in the archive bounds what is read; the array must agree with it.
+        let total = entry.size();
+        let (shape, values) = read_array(entry, total).map_err(|e| damaged(&e))?;
+        let names = match (shape.as_slice(), name.as_str()) {
+            ([_], _) => vec![name],
+            ([_, 4], "q" | "q_next") => quaternion(&name),
+            ([_, width], _) => numbered(&name, *width),
+            ([_, rows, width], _) if rows == width => matrix(&name, *rows),
+            // Arrays of other shapes are not ours to read.
+            _ => continue,
+        };
+        let width = names.len();
+        let column = |place: usize| values.iter().skip(place).step_by(width).copied().collect();
+        columns.extend(names.into_iter().enumerate().map(|(place, name)| (name, column(place))));
+    }
+    Ok(columns)
+}
+
+/// Bytes read at a time.
+const PIECE: usize = 1 << 16;
+
+/// The shape and the numbers, row-major, of an array that has `total` bytes with its header. Memory grows with the bytes
+/// that are present, not with those that are claimed.
+fn read_array(mut reader: impl Read, total: u64) -> Result<(Vec<usize>, Vec<f64>), NpyError> {
+    let header = NpyHeader::read(&mut reader, total)?;
+    let mut missing = header.count * header.width;
+    let mut values = Vec::new();
+    let mut piece = vec![0; PIECE.min(missing)];
+    while missing > 0 {
+        let take = piece.len().min(missing);
+        reader.read_exact(&mut piece[..take])?;
+        header.decode(&piece[..take], &mut values);
+        missing -= take;
+    }
+    let values = if header.fortran { row_major(&header.shape, &values) } else { values };
+    Ok((header.shape, values))
+}
+
+/// `mu_1` … `mu_n`.
+pub(crate) fn numbered(name: &str, count: usize) -> Vec<String> {
+    (1..=count).map(|i| format!("{name}_{i}")).collect()
+}
+
+/// `g_11`, `g_12` … `g_dd`, row by row.
+pub(crate) fn matrix(name: &str, size: usize) -> Vec<String> {
+    let entries = (1..=size).flat_map(|i| (1..=size).map(move |j| (i, j)));
+    entries.map(|(i, j)| format!("{name}_{i}{j}")).collect()
+}
+
+/// `q_w`, `q_x`, `q_y`, `q_z`.
+pub(crate) fn quaternion(name: &str) -> Vec<String> {
+    ["w", "x", "y", "z"].map(|part| format!("{name}_{part}")).to_vec()
 }
 
 #[derive(Deserialize)]
