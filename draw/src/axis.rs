@@ -28,7 +28,6 @@ impl Default for Axis {
 
 impl Axis {
     /// A linear axis with about `count` ticks. An empty range is widened.
-    #[must_use]
     pub fn linear(low: f64, high: f64, count: usize) -> Self {
         const LARGEST: f64 = 8e307;
         let (mut low, mut high) = (low.clamp(-LARGEST, LARGEST), high.clamp(-LARGEST, LARGEST));
@@ -52,7 +51,6 @@ impl Axis {
 
     /// A logarithmic axis with about `count` ticks; values that are not positive are drawn at its low end. Ticks are powers of
     /// ten, or 1, 2 and 5 times these where there would be few.
-    #[must_use]
     pub fn logarithmic(low: f64, high: f64, count: usize) -> Self {
         let low = low.max(f64::MIN_POSITIVE);
         let high = high.min(1e307).max(low * 1.000_001);

@@ -2,7 +2,16 @@
 //!
 //! Curves of many records are thinned before they are drawn: [`thinned`] and [`peaks`] keep every visible extreme.
 
-use crate::run::Series;
+/// One number at each time of a run.
+#[derive(Clone, Debug, Default)]
+pub struct Series {
+    /// The name.
+    pub name: String,
+    /// The unit, if there is one.
+    pub unit: Option<String>,
+    /// One value for each time.
+    pub values: Vec<f64>,
+}
 
 /// The most coordinates drawn as lines with a name; the others are drawn as a band.
 const NAMED: usize = 8;
@@ -109,7 +118,6 @@ fn turning_points(values: &[f64], wiggle: f64) -> Vec<usize> {
 
 /// A curve with at most two points in each of `columns` stretches of time, the least and the
 /// greatest, so that no peak is lost.
-#[must_use]
 pub fn thinned(times: &[f64], values: &[f64], columns: usize) -> Vec<(f64, f64)> {
     let points = points(times, values);
     let mut kept = Vec::new();
@@ -132,11 +140,22 @@ pub fn thinned(times: &[f64], values: &[f64], columns: usize) -> Vec<(f64, f64)>
 }
 
 /// The greatest value of each of at most `columns` stretches of time, at its time.
-#[must_use]
 pub fn peaks(times: &[f64], values: &[f64], columns: usize) -> Vec<(f64, f64)> {
     let points = points(times, values);
     let by_value = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
     stretches(&points, columns).filter_map(|part| part.iter().max_by(by_value).copied()).collect()
+}
+
+/// The points (error, cost) that no other point beats in both, by growing error.
+pub fn unbeaten(mut points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut cheapest = f64::INFINITY;
+    points.retain(|&(_, cost)| {
+        let better = cost < cheapest;
+        cheapest = cheapest.min(cost);
+        better
+    });
+    points
 }
 
 /// The finite points.
@@ -160,8 +179,7 @@ fn stretches(points: &[(f64, f64)], columns: usize) -> impl Iterator<Item = &[(f
 
 #[cfg(test)]
 mod tests {
-    use super::{Window, largest, thinned, turning_points, window};
-    use crate::run::Series;
+    use super::{Series, Window, largest, thinned, turning_points, unbeaten, window};
 
     fn wave(name: &str, rate: f64, records: usize) -> Series {
         let values = (0..records).map(|n| (rate * n as f64).sin()).collect();
@@ -211,5 +229,11 @@ mod tests {
         let kept = thinned(&times, &values, 100);
         assert!(kept.len() <= 201);
         assert!(kept.contains(&(4567.0, 3.0)) && kept.contains(&(4568.0, -2.0)));
+    }
+
+    #[test]
+    fn beaten_points_are_left_out() {
+        let points = vec![(1e-2, 1.0), (1e-6, 9.0), (1e-4, 3.0), (1e-3, 4.0), (1e-5, 9.0)];
+        assert_eq!(unbeaten(points), [(1e-6, 9.0), (1e-4, 3.0), (1e-2, 1.0)]);
     }
 }

@@ -13,7 +13,7 @@
 //!     across: "step size (s)".to_owned(),
 //!     x: Axis::logarithmic(0.1, 0.4, 4),
 //!     y: Axis::logarithmic(1e-3, 0.1, 4),
-//!     curves: vec![Curve::marked("order 3", Style::new(0), points)],
+//!     curves: vec![Curve::line("order 3", Style::new(0), points)],
 //!     ..Panel::default()
 //! };
 //! assert!(panel.with_legend().alone(440.0, 220.0).contains("order 3"));
@@ -26,15 +26,12 @@
 mod axis;
 pub mod curves;
 mod panel;
-mod points;
 pub mod run;
-mod sheet;
 mod style;
 mod svg;
 
 pub use axis::Axis;
-pub use panel::{Curve, Panel, Sample};
-pub use points::unbeaten;
-pub use sheet::sheet;
+pub use curves::unbeaten;
+pub use panel::{Curve, Panel, Sample, sheet};
 pub use style::{STYLE_SHEET, Style};
 pub use svg::escaped;

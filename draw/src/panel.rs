@@ -2,7 +2,7 @@
 
 use crate::axis::Axis;
 use crate::style::{BAND, Style};
-use crate::svg::{Anchor, Svg, cut, width, wrapped};
+use crate::svg::{Svg, cut, width, wrapped};
 
 /// The width of a picture with panels one below the other.
 pub(crate) const WIDTH: f64 = 900.0;
@@ -11,9 +11,9 @@ pub(crate) const RIGHT: f64 = 30.0;
 /// The height between the axes' ends, in such a picture.
 const HEIGHT: f64 = 190.0;
 /// The height of a line of text.
-pub(crate) const LINE: f64 = 20.0;
+const LINE: f64 = 20.0;
 /// The size of most texts.
-pub(crate) const FONT: f64 = 13.0;
+const FONT: f64 = 13.0;
 /// The length of a stroke in a legend: the longest pattern of dashes shows twice.
 const STROKE: f64 = 44.0;
 /// The size of a heading.
@@ -51,16 +51,6 @@ impl Curve {
     /// A line.
     pub fn line(name: impl Into<String>, style: Style, points: Vec<(f64, f64)>) -> Self {
         Self { name: name.into(), style, joined: true, marked: false, points }
-    }
-
-    /// A line with a marker at each point.
-    pub fn marked(name: impl Into<String>, style: Style, points: Vec<(f64, f64)>) -> Self {
-        Self { name: name.into(), style, joined: true, marked: true, points }
-    }
-
-    /// Markers alone.
-    pub fn points(name: impl Into<String>, style: Style, points: Vec<(f64, f64)>) -> Self {
-        Self { name: name.into(), style, joined: false, marked: true, points }
     }
 
     /// Its sample in a legend.
@@ -118,7 +108,6 @@ impl Place {
 
 impl Panel {
     /// The same panel with a legend of all its curves of different names.
-    #[must_use]
     pub fn with_legend(mut self) -> Self {
         for curve in &self.curves {
             if !self.legend.iter().any(|(_, name)| *name == curve.name) {
@@ -135,7 +124,6 @@ impl Panel {
     }
 
     /// The panel alone, as an element of a page; `height` is that between the axes' ends.
-    #[must_use]
     pub fn alone(&self, width: f64, height: f64) -> String {
         let mut svg = Svg::default();
         let place = Place { top: 0.0, edge: 2.0, left: self.left(), right: width - 16.0, height };
@@ -150,7 +138,7 @@ impl Panel {
         let mut y = top + 18.0;
         for (i, line) in wrapped(&self.heading, HEADING, right - edge).iter().enumerate() {
             y += if i > 0 { LINE } else { 0.0 };
-            svg.text((edge, y), Anchor::Start, r#"font-size="15" font-weight="bold""#, line);
+            svg.text((edge, y), "start", r#"font-size="15" font-weight="bold""#, line);
         }
         for note in &self.notes {
             y = paragraph(svg, note, (edge, right), y);
@@ -191,7 +179,7 @@ impl Panel {
         for tick in &self.y.ticks {
             let at = below - self.y.share(tick.at) * (below - above);
             svg.line((left, at), (right, at), grid);
-            svg.text((left - 8.0, at + 4.5), Anchor::End, "", &tick.label);
+            svg.text((left - 8.0, at + 4.5), "end", "", &tick.label);
         }
         // Labels that would touch are left out; their lines stay.
         let mut free = f64::NEG_INFINITY;
@@ -200,7 +188,7 @@ impl Panel {
             svg.line((at, above), (at, below), grid);
             let half = width(&tick.label, FONT) / 2.0;
             if at - half > free {
-                svg.text((at, below + 18.0), Anchor::Middle, "", &tick.label);
+                svg.text((at, below + 18.0), "middle", "", &tick.label);
                 free = at + half + 8.0;
             }
         }
@@ -209,7 +197,7 @@ impl Panel {
         svg.line((left, below), (right, below), frame);
         let middle = (left + right) / 2.0;
         let across = cut(&self.across, FONT, right - left);
-        svg.text((middle, below + 38.0), Anchor::Middle, "", &across);
+        svg.text((middle, below + 38.0), "middle", "", &across);
     }
 }
 
@@ -218,7 +206,7 @@ pub(crate) fn paragraph(svg: &mut Svg, text: &str, (left, right): (f64, f64), mu
     for line in wrapped(text, 12.0, right - left) {
         y += 17.0;
         let look = r##"class="note" font-size="12" fill="#555555""##;
-        svg.text((left, y), Anchor::Start, look, &line);
+        svg.text((left, y), "start", look, &line);
     }
     y
 }
@@ -250,7 +238,44 @@ pub(crate) fn legend(
             let (a, b, from, to) = (x, x + stroke, middle - 6.0, middle + 6.0);
             svg.polygon(&[(a, from), (b, from), (b, to), (a, to)], BAND);
         }
-        svg.text((x + stroke + 8.0, y), Anchor::Start, "", &name);
+        svg.text((x + stroke + 8.0, y), "start", "", &name);
+        x += wide + 18.0;
+    }
+    y
+}
+
+/// A picture of panels one below the other, each of this height in pixels between the ends of its axes, as the text of an
+/// SVG file. `description` is for those who cannot see it.
+pub fn sheet(
+    title: &str,
+    settings: &[String],
+    panels: &[Panel],
+    height: f64,
+    description: &str,
+) -> String {
+    let left = panels.iter().map(Panel::left).fold(60.0, f64::max);
+    let mut svg = Svg::default();
+    let mut y = heading(&mut svg, title, settings, left) + 14.0;
+    for panel in panels {
+        let place = Place { height, ..Place::below(y, left) };
+        y = panel.draw(&mut svg, place);
+    }
+    svg.finish((WIDTH, y + 8.0), title, description)
+}
+
+/// Writes title and settings; returns the last baseline.
+pub(crate) fn heading(svg: &mut Svg, title: &str, settings: &[String], left: f64) -> f64 {
+    let title = cut(title, 21.0, WIDTH - left - 20.0);
+    svg.text((left, 32.0), "start", r#"font-size="20" font-weight="bold""#, &title);
+    // In one line, or more where they need it.
+    let (mut x, mut y) = (left, 36.0 + LINE);
+    for text in settings {
+        let text = cut(text, FONT, WIDTH - left - RIGHT);
+        let wide = width(&text, FONT);
+        if x > left && x + wide > WIDTH - 20.0 {
+            (x, y) = (left, y + LINE);
+        }
+        svg.text((x, y), "start", "", &text);
         x += wide + 18.0;
     }
     y

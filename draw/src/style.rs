@@ -47,13 +47,11 @@ pub struct Style {
 
 impl Style {
     /// Curve number `number`.
-    #[must_use]
     pub fn new(number: usize) -> Self {
         Self { number, faint: false }
     }
 
     /// The same, paler and thinner.
-    #[must_use]
     pub(crate) fn faint(self) -> Self {
         Self { faint: true, ..self }
     }

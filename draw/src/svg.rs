@@ -8,27 +8,6 @@ pub(crate) struct Svg {
     body: String,
 }
 
-/// Where a text stands relative to its place.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Anchor {
-    /// It begins there.
-    Start,
-    /// Its middle is there.
-    Middle,
-    /// It ends there.
-    End,
-}
-
-impl Anchor {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Start => "start",
-            Self::Middle => "middle",
-            Self::End => "end",
-        }
-    }
-}
-
 impl Svg {
     /// Opens a group with a name that pointers and screen readers show.
     pub(crate) fn open(&mut self, title: &str) {
@@ -40,9 +19,9 @@ impl Svg {
         self.body.push_str("</g>\n");
     }
 
-    /// A text with its baseline at (x, y); `style` is further attributes.
-    pub(crate) fn text(&mut self, (x, y): (f64, f64), anchor: Anchor, style: &str, text: &str) {
-        let (anchor, text) = (anchor.name(), escaped(text));
+    /// A text with its baseline at (x, y), where it has its `anchor`: `start`, `middle` or `end`; `style` is further attributes.
+    pub(crate) fn text(&mut self, (x, y): (f64, f64), anchor: &str, style: &str, text: &str) {
+        let text = escaped(text);
         let _ = writeln!(
             self.body,
             r#"<text x="{x:.1}" y="{y:.1}" text-anchor="{anchor}" {style}>{text}</text>"#
@@ -130,7 +109,6 @@ fn coordinates(points: &[(f64, f64)]) -> String {
 
 /// The text with what has a meaning in XML written out: for elements and quoted attributes of SVG and HTML. Control
 /// characters, and those that change the direction of text, become spaces.
-#[must_use]
 pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {

@@ -6,7 +6,7 @@ use std::path::Path;
 use coadjoint_codegen::smooth::Facts;
 use coadjoint_codegen::system::{Options, Parameters};
 use coadjoint_draw::curves::range;
-use coadjoint_draw::run::{FLOOR, Picture, Run, Series, drift, motion, orbit};
+use coadjoint_draw::run::{FLOOR, Picture, Run, Series, drift_panels, motion_panels, orbit_panel};
 use coadjoint_draw::{Axis, Panel, Style, escaped};
 use coadjoint_run::simulate::{self, Drift, Moment, Schedule, Setup, Sink};
 use coadjoint_run::{Accuracy, Derived, meet_tolerance, read_varying};
@@ -109,11 +109,11 @@ pub fn exhibit(picture: &Picture) -> String {
         "<article class=\"exhibit\" id=\"gallery-{name}\">\n<h3>{name} {mark}</h3>\n{}\n<div class=\"panels three\">\n",
         settings(&picture.settings)
     );
-    let mut panels: Vec<_> = orbit::panel(picture, ASPECT).into_iter().collect();
+    let mut panels: Vec<_> = orbit_panel(picture, ASPECT).into_iter().collect();
     if let Some(run) = picture.runs.first() {
         let across = range(&run.times).unwrap_or((0.0, 1.0));
         let unit = picture.time_unit.as_deref();
-        panels.extend(motion::panels(run, false, across, unit, COLUMNS).into_iter().take(1));
+        panels.extend(motion_panels(run, false, across, unit, COLUMNS).into_iter().take(1));
         panels.extend(together(run, across, unit));
     }
     panels.iter().for_each(|panel| text.push_str(&panel.alone(SIZE.0, SIZE.1)));
@@ -124,7 +124,7 @@ pub fn exhibit(picture: &Picture) -> String {
 
 /// All drifts of a run in one panel.
 fn together(run: &Run, across: (f64, f64), unit: Option<&str>) -> Option<Panel> {
-    let panels = drift::panels(std::slice::from_ref(run), across, unit);
+    let panels = drift_panels(std::slice::from_ref(run), across, unit);
     let mut whole = panels.first()?.clone();
     whole.heading = "Relative drifts".to_owned();
     whole.legend.clear();
