@@ -4,23 +4,21 @@ use serde::Serialize;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::fields::Fields;
+use crate::file::Mistake;
 use crate::formula;
-use crate::mistakes::Mistake;
 use crate::orbit::{Curve, Orbit};
 use crate::run::Run;
 use crate::system::{Factor, System};
-use crate::texts::{Language, text};
+use crate::texts::text;
 
 /// The systems to choose from, as JSON: `[{id, title, family, about, fields}]`.
 #[wasm_bindgen]
-#[must_use]
 pub fn gallery() -> String {
     json(&crate::gallery::gallery())
 }
 
 /// The groups of the catalogue with a name, as JSON: `[[name, summary]]`.
 #[wasm_bindgen]
-#[must_use]
 pub fn groups() -> String {
     use coadjoint_codegen::lie::catalogue::{names, summary};
     let list: Vec<(&str, String)> =
@@ -33,7 +31,6 @@ fn json(value: &impl Serialize) -> String {
     serde_json::to_string(value).unwrap_or_default()
 }
 
-/// A system and its run.
 #[wasm_bindgen]
 #[derive(Debug)]
 pub struct Session {
@@ -72,9 +69,6 @@ struct About<'a> {
 #[wasm_bindgen]
 impl Session {
     /// A session of these fields, given as JSON; or, as an error, the mistakes as JSON.
-    ///
-    /// # Errors
-    /// `[{field, start, end, message, help}]`, bytes in UTF-8.
     #[wasm_bindgen(constructor)]
     pub fn new(fields: &str) -> Result<Session, String> {
         let fields: Fields = serde_json::from_str(fields).map_err(|error| {
@@ -86,7 +80,6 @@ impl Session {
     }
 
     /// The facts that a page shows of the system, as JSON.
-    #[must_use]
     pub fn about(&self) -> String {
         let System { integrator, step, energy, factors, momentum, units, .. } = &self.system;
         let problem = &integrator.problem;
@@ -131,7 +124,7 @@ impl Session {
                 .collect(),
             slope: (0..n).map(|i| slopes[i].value(&vec![0.0; n])).collect(),
             time_unit: units.time.as_deref(),
-            substeps: self.run.substeps(),
+            substeps: self.run.substeps,
             cost: [ours, self.system.rival.cost()],
         })
     }
@@ -149,7 +142,6 @@ impl Session {
     }
 
     /// Why there is no next step, as JSON `{reason, text, usable}`; nothing where there may be one.
-    #[must_use]
     pub fn refusal(&self) -> Option<String> {
         #[derive(Serialize)]
         struct Shown {
@@ -163,61 +155,48 @@ impl Session {
         })
     }
 
-    /// t.
-    #[must_use]
     pub fn time(&self) -> f64 {
         self.run.time()
     }
 
-    /// Steps made.
-    #[must_use]
     pub fn steps(&self) -> f64 {
-        self.run.steps() as f64
+        self.run.steps as f64
     }
 
-    /// H now.
-    #[must_use]
     pub fn energy(&self) -> f64 {
         self.run.energy(&self.system)
     }
 
-    /// μ now.
-    #[must_use]
     pub fn momentum(&self) -> Vec<f64> {
         self.run.momentum().to_vec()
     }
 
     /// The matrices of the group element, before and after the last step, row by row.
-    #[must_use]
     pub fn matrices(&self) -> Vec<f64> {
         self.run.matrices(&self.system)
     }
 
     /// μ a part of the way from the last state but one to the last, for pictures.
-    #[must_use]
     pub fn between(&self, part: f64) -> Vec<f64> {
         self.run.between(part)
     }
 
     /// Where three coordinates of μ have been, of late: points (x, y, z); 0 for those that there are none of.
-    #[must_use]
     pub fn trail(&self, of_rival: bool, a: usize, b: usize, c: usize, part: f64) -> Vec<f32> {
         self.run.trail(of_rival, [a, b, c], part)
     }
 
     /// The drifts so far, seven numbers a moment: t, then energy, momentum, Casimirs, ours and the rival's.
-    #[must_use]
     pub fn history(&self) -> Vec<f64> {
-        let samples = self.run.history().samples().iter();
+        let samples = self.run.history.samples().iter();
         samples
             .flat_map(|sample| [sample.time].into_iter().chain(sample.drifts.into_iter().flatten()))
             .collect()
     }
 
     /// The largest drifts so far: energy, momentum, Casimirs, ours and the rival's.
-    #[must_use]
     pub fn most(&self) -> Vec<f64> {
-        self.run.history().most().into_iter().flatten().collect()
+        self.run.history.most().into_iter().flatten().collect()
     }
 
     /// The level curves of the energy on the orbit of this momentum, where the algebra has three dimensions and a
@@ -246,7 +225,6 @@ impl Session {
     }
 
     /// H and S₁, S₃, … as MathML, a JSON list.
-    #[must_use]
     pub fn formulas(&self) -> String {
         let integrator = &self.system.integrator;
         let problem = &integrator.problem;
@@ -264,11 +242,7 @@ impl Session {
     }
 
     /// The system as `file`, `rust`, `python` or `c`.
-    ///
-    /// # Errors
-    /// Why it cannot be written.
     pub fn text(&self, language: &str) -> Result<String, String> {
-        let language = Language::named(language).ok_or("no such language")?;
         text(&self.system, language)
     }
 }

@@ -9,7 +9,6 @@ use toml::de::{DeTable, DeValue};
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Fields {
-    /// The name of the system.
     pub name: String,
     /// A group of the catalogue, such as `SO3^4`; unused where `algebra` is given.
     pub group: String,
@@ -17,17 +16,14 @@ pub struct Fields {
     pub algebra: String,
     /// The names of the momentum's coordinates, separated by blanks or commas.
     pub coordinates: String,
-    /// The Hamiltonian.
     pub hamiltonian: String,
     /// `name = value`, one a line or separated by commas.
     pub parameters: String,
-    /// The truncation K.
     pub truncation: String,
     /// `exp` or `cayley`.
     pub chart: String,
     /// `auto`, `fixed` or `comoving`.
     pub frame: String,
-    /// The step size h.
     pub step: String,
     /// The momentum at the start, separated by blanks or commas.
     pub momentum: String,
@@ -37,7 +33,6 @@ pub struct Fields {
 
 impl Fields {
     /// The fields of a system file that is known to be right; `None` where it says something that has no field.
-    #[must_use]
     pub fn of_file(text: &str) -> Option<Self> {
         let document = DeTable::parse(text).ok()?;
         let root = document.get_ref();

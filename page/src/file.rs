@@ -1,17 +1,45 @@
-//! From fields to the text of a system file, which the library reads, and back from its places to theirs.
+//! From fields to the text of a system file, which the library reads, and mistakes back from its places to theirs.
 
 use std::ops::Range;
 
 use coadjoint_codegen::diagnostic::{Diagnostics, Span};
+use serde::Serialize;
 use toml::de::DeValue;
 
 use crate::fields::Fields;
-use crate::mistakes::Mistake;
+
+/// A mistake, or a refusal, in one of the fields.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Mistake {
+    /// The field; none where it is of the system as a whole.
+    pub field: Option<&'static str>,
+    pub start: usize,
+    pub end: usize,
+    pub message: String,
+    /// A correction, where there is more to say.
+    pub help: Option<String>,
+}
+
+impl Mistake {
+    /// A refusal of the system as a whole.
+    pub fn of_all(message: impl ToString, help: Option<&str>) -> Self {
+        let help = help.map(str::to_owned);
+        Self { field: None, start: 0, end: 0, message: message.to_string(), help }
+    }
+
+    /// One of a whole field.
+    pub fn of(field: &'static str, message: impl ToString, help: &str) -> Self {
+        Self { field: Some(field), ..Self::of_all(message, Some(help)) }
+    }
+    /// The same at these bytes of its field.
+    pub fn at(self, range: Range<usize>) -> Self {
+        Self { start: range.start, end: range.end, ..self }
+    }
+}
 
 /// The text of a system file, and which of its bytes are from which field.
 #[derive(Clone, Debug, Default)]
 pub struct File {
-    /// The text.
     pub text: String,
     pieces: Vec<Piece>,
     /// Mistakes in fields that could not even be written as a file.
@@ -31,7 +59,6 @@ type Write = fn(&mut File, field: &'static str, offset: usize, content: &str);
 
 impl File {
     /// The system file of these fields.
-    #[must_use]
     pub fn of(fields: &Fields) -> Self {
         let mut file = Self::default();
         file.entry("name", &fields.name, Self::string);
@@ -68,7 +95,6 @@ impl File {
     }
 
     /// All mistakes in the order of the fields, then of their places.
-    #[must_use]
     pub fn mistakes(self, diagnostics: &Diagnostics) -> Vec<Mistake> {
         let found = diagnostics.list().into_iter().map(|diagnostic| {
             let mistake = Mistake::of_all(diagnostic.message(), diagnostic.help().as_deref());
@@ -194,7 +220,6 @@ impl File {
 }
 
 /// Words, with where they begin. Blanks inside parentheses and brackets part nothing, commas outside do.
-#[must_use]
 pub fn words(content: &str) -> Vec<(usize, &str)> {
     parts(content, |c| c.is_whitespace() || c == ',' || c == ';')
 }

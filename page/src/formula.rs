@@ -12,7 +12,6 @@ use num_traits::{One, Signed};
 const MOST_TERMS: usize = 160;
 
 /// A polynomial in the momentum, `name = …`: a formula for each term, so that lines break between them.
-#[must_use]
 pub fn equation(name: &str, polynomial: &Polynomial, problem: &Problem) -> String {
     let dim = problem.algebra.dim();
     let mut out = math(&format!("{name}<mo>=</mo>"));
@@ -58,7 +57,6 @@ fn math(row: &str) -> String {
 }
 
 /// S_k with its order.
-#[must_use]
 pub fn order(k: usize) -> String {
     format!("<msub><mi>S</mi><mn>{k}</mn></msub>")
 }

@@ -4,18 +4,12 @@ use serde::Serialize;
 
 use crate::fields::Fields;
 
-/// A system of the gallery.
 #[derive(Clone, Debug, Serialize)]
 pub struct Entry {
-    /// Its name in links.
     pub id: &'static str,
-    /// Its title on the page.
     pub title: &'static str,
-    /// The family of systems it belongs to.
     pub family: &'static str,
-    /// A sentence or two.
     pub about: &'static str,
-    /// Its fields.
     pub fields: Fields,
 }
 
@@ -82,8 +76,6 @@ entries! {
     }
 }
 
-/// The systems.
-#[must_use]
 pub fn gallery() -> Vec<Entry> {
     let entry = |&[family, id, title, text, about]: &[&'static str; 5]| {
         Fields::of_file(text).map(|fields| Entry { id, title, family, about, fields })

@@ -6,7 +6,6 @@ const MOST: usize = 720;
 /// The drifts of energy, momentum and Casimirs at a moment, ours and the rival's.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sample {
-    /// t.
     pub time: f64,
     /// Ours, then the rival's.
     pub drifts: [[f64; 3]; 2],
@@ -41,7 +40,6 @@ fn raise(into: &mut [[f64; 3]; 2], by: &[[f64; 3]; 2]) {
 }
 
 impl History {
-    /// Adds a moment.
     pub fn push(&mut self, sample: Sample) {
         raise(&mut self.most, &sample.drifts);
         match self.samples.last_mut() {
@@ -72,13 +70,10 @@ impl History {
     }
 
     /// The largest drifts so far: ours, then the rival's.
-    #[must_use]
     pub fn most(&self) -> [[f64; 3]; 2] {
         self.most
     }
 
-    /// The moments.
-    #[must_use]
     pub fn samples(&self) -> &[Sample] {
         &self.samples
     }

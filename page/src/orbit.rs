@@ -30,7 +30,6 @@ pub type Curve = Vec<[f64; 6]>;
 /// An orbit with the energy on it.
 #[derive(Clone, Debug)]
 pub struct Orbit {
-    /// The surface.
     pub surface: Surface,
     /// The curves of evenly spread values of the energy.
     pub spread: Vec<Curve>,
@@ -40,7 +39,6 @@ pub struct Orbit {
 
 impl Orbit {
     /// The orbit through μ; none where it is no surface.
-    #[must_use]
     pub fn new(energy: &Numeric, casimir: &Numeric, mu: &[f64]) -> Option<Self> {
         let surface = Surface::new(casimir, mu)?;
         let values: Vec<f64> = surface.points.iter().map(|p| energy.value(p)).collect();
@@ -54,13 +52,11 @@ impl Orbit {
     }
 
     /// The curves of this energy.
-    #[must_use]
     pub fn level(&self, energy: f64) -> Vec<Curve> {
         self.surface.level_curves(&self.values, energy, &self.slopes)
     }
 
     /// Whether this is a sphere, and μ on it to a hundred-thousandth.
-    #[must_use]
     pub fn holds(&self, mu: &[f64]) -> bool {
         let size = mu.iter().map(|entry| entry * entry).sum::<f64>().sqrt();
         self.surface.radius.is_some_and(|radius| (size - radius).abs() < 1e-5 * radius)
@@ -69,7 +65,6 @@ impl Orbit {
 
 impl Surface {
     /// The orbit through μ, given the Casimir; none where μ or the Casimir is nothing.
-    #[must_use]
     pub fn new(casimir: &Numeric, mu: &[f64]) -> Option<Self> {
         let size = mu.iter().map(|entry| entry * entry).sum::<f64>().sqrt();
         if !(size > 0.0 && size.is_finite()) {

@@ -26,7 +26,6 @@ pub struct Rival {
 
 impl Rival {
     /// The method for a Hamiltonian on a group.
-    #[must_use]
     pub fn new(algebra: &LieAlgebra, energy: &Numeric) -> Self {
         let dim = algebra.dim();
         let matrices = matrices(algebra);
@@ -47,33 +46,25 @@ impl Rival {
         Self { dim, size, step, rate, basis, entries }
     }
 
-    /// The operations of a step.
-    #[must_use]
     pub fn cost(&self) -> usize {
         self.step.cost().total()
     }
 
-    /// The state at the identity.
-    #[must_use]
     pub fn start(&self, momentum: &[f64]) -> Vec<f64> {
         let identity = |&at: &usize| f64::from(u8::from(at / self.size == at % self.size));
         momentum.iter().copied().chain(self.entries.iter().map(identity)).collect()
     }
 
-    /// The state after one step.
-    #[must_use]
     pub fn advance(&self, state: &[f64], h: f64) -> Vec<f64> {
         self.step.run(&[state, &[h]].concat(), &[])
     }
 
     /// μ̇ at μ.
-    #[must_use]
     pub fn rate(&self, momentum: &[f64]) -> Vec<f64> {
         self.rate.run(momentum, &[])
     }
 
     /// The spatial momentum Ad\*_g μ of a state as it is, wherever it has left the group; NaN where g has no inverse.
-    #[must_use]
     pub fn spatial(&self, state: &[f64]) -> Vec<f64> {
         let mut g = DMatrix::<f64>::identity(self.size, self.size);
         for (&at, &value) in self.entries.iter().zip(&state[self.dim..]) {

@@ -1,10 +1,9 @@
-//! A run: our steps and the rival's side by side, and how far each has drifted.
+//! A run: our steps and the rival's side by side, how far each has drifted, and why a step was refused.
 
 use coadjoint_codegen::step::{Spatial, Start};
-use coadjoint_program::{Program, Stepper};
+use coadjoint_program::{Attempt, Kernel, Program, Stepper};
 
 use crate::history::{History, Sample};
-use crate::refusal::{Reason, usable};
 use crate::system::System;
 
 /// Moments of the trail behind a momentum.
@@ -25,8 +24,8 @@ struct State {
 pub struct Run {
     h: f64,
     /// The rival's steps within one of ours.
-    substeps: usize,
-    steps: u64,
+    pub substeps: usize,
+    pub steps: u64,
     before: State,
     now: State,
     rival: Vec<f64>,
@@ -35,15 +34,13 @@ pub struct Run {
     trail: [Vec<f64>; 2],
     start: Start,
     spatial: Spatial,
-    history: History,
+    pub history: History,
     /// Why there is no next step.
     pub refusal: Option<Refusal>,
 }
 
-/// A refused step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Refusal {
-    /// Why.
     pub reason: Reason,
     /// A shorter step that can be made.
     pub usable: Option<f64>,
@@ -51,7 +48,6 @@ pub struct Refusal {
 
 impl Run {
     /// A run from the identity with this momentum.
-    #[must_use]
     pub fn new(system: &System, momentum: &[f64]) -> Self {
         let size: usize = system.factors.iter().map(|factor| factor.size).sum();
         let identity: Vec<f64> =
@@ -110,37 +106,19 @@ impl Run {
     }
 
     /// t after the last step.
-    #[must_use]
     pub fn time(&self) -> f64 {
         self.steps as f64 * self.h
     }
 
-    /// Steps made.
-    #[must_use]
-    pub fn steps(&self) -> u64 {
-        self.steps
-    }
-
-    /// The rival's steps within one of ours.
-    #[must_use]
-    pub fn substeps(&self) -> usize {
-        self.substeps
-    }
-
-    /// μ now.
-    #[must_use]
     pub fn momentum(&self) -> &[f64] {
         &self.now.mu
     }
 
-    /// The energy now.
-    #[must_use]
     pub fn energy(&self, system: &System) -> f64 {
         system.energy.value(&self.now.mu)
     }
 
     /// μ a part of the way from the last state but one to the last. Only for pictures.
-    #[must_use]
     pub fn between(&self, part: f64) -> Vec<f64> {
         let (a, b) = (&self.before, &self.now);
         let end = |of: &State, i: usize| (of.mu[i], of.rate[i] * self.h);
@@ -148,14 +126,12 @@ impl Run {
     }
 
     /// The matrices of the last state but one and of the last, row by row, one after the other.
-    #[must_use]
     pub fn matrices(&self, system: &System) -> Vec<f64> {
         let program = &system.step.kernel().programs().matrix;
         [&self.before, &self.now].into_iter().flat_map(|state| program.run(&state.g, &[])).collect()
     }
 
     /// Where three coordinates of μ have been, of late: points (x, y, z), smoothed between steps.
-    #[must_use]
     pub fn trail(&self, of_rival: bool, axes: [usize; 3], part: f64) -> Vec<f32> {
         let n = self.now.mu.len();
         let trail = &self.trail[usize::from(of_rival)];
@@ -180,12 +156,6 @@ impl Run {
             }
         }
         points
-    }
-
-    /// The drifts so far.
-    #[must_use]
-    pub fn history(&self) -> &History {
-        &self.history
     }
 
     fn leave_trail(&mut self) {
@@ -247,4 +217,63 @@ fn hermite((a, slope_a): (f64, f64), (b, slope_b): (f64, f64), s: f64) -> f64 {
     let (t, u) = (1.0 - s, s);
     a * t * t * (1.0 + 2.0 * u) + b * u * u * (1.0 + 2.0 * t) + slope_a * u * t * t
         - slope_b * u * u * t
+}
+
+/// Halves of a refused step that are tried.
+const MOST_HALVINGS: u32 = 20;
+
+/// Why the kernel refuses the next step from (g, μ), as `emit --language c` tells them apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reason {
+    NotFinite,
+    /// |μ| is beyond the radius up to which the truncated series means something.
+    BeyondSeries,
+    /// The equation of the step was not solved to rounding near the first guess.
+    NotSolved,
+    BeyondChart,
+    OffGroup,
+}
+
+impl Reason {
+    pub fn of(kernel: &Kernel, slots: &[f64], mu: &[f64]) -> Self {
+        if !mu.iter().all(|entry| entry.is_finite()) {
+            return Self::NotFinite;
+        }
+        let square: f64 = mu.iter().map(|entry| entry * entry).sum();
+        if !slots.last().is_some_and(|&limit| square <= limit) {
+            return Self::BeyondSeries;
+        }
+        let Attempt { residual_bound, distance, accepted, .. } = kernel.attempt(slots, mu);
+        if !(residual_bound <= kernel.tolerance() && distance <= kernel.near()) {
+            return Self::NotSolved;
+        }
+        if accepted { Self::OffGroup } else { Self::BeyondChart }
+    }
+
+    pub fn text(self) -> &'static str {
+        match self {
+            Self::NotFinite => "the momentum is no longer a finite number",
+            Self::BeyondSeries => {
+                "beyond the series: the momentum is so large for this step size that the last terms of S no longer shrink"
+            }
+            Self::NotSolved => {
+                "not solved: the equation of the step has no solution to rounding near the first guess"
+            }
+            Self::BeyondChart => {
+                "beyond the chart: the body would turn farther in one step than the programs accept"
+            }
+            Self::OffGroup => "off the group: rounding has carried the group element away",
+        }
+    }
+}
+
+/// The longest of h/2, h/4, … with which the step can be made.
+pub fn usable(system: &System, g: &[f64], mu: &[f64]) -> Option<f64> {
+    let mut shorter = system.h;
+    (0..MOST_HALVINGS).find_map(|_| {
+        shorter *= 0.5;
+        let slots = system.step.fold(shorter, &[]).unwrap_or_default();
+        let made = system.step.kernel().advance(&slots, &mut g.to_vec(), &mut mu.to_vec(), 1);
+        (made.steps == 1).then_some(shorter)
+    })
 }

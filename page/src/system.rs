@@ -10,7 +10,7 @@ use coadjoint_codegen::system::{self, Options, Parameters, Units};
 
 use crate::fields::Fields;
 use crate::file::File;
-use crate::mistakes::Mistake;
+use crate::file::Mistake;
 use crate::rival::Rival;
 
 /// Steps of more operations than this are too slow for a page.
@@ -24,35 +24,26 @@ pub const LIMIT: TermLimit = TermLimit { terms: 20_000, products: 4_000_000 };
 pub enum Kind {
     /// SO(3), or SU(2) as the real matrices of quaternions.
     Rotation,
-    /// SE(3).
     Motion,
-    /// SE(2).
     Plane,
-    /// Any other.
     Matrix,
 }
 
-/// A factor of the group.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct Factor {
     /// Rotations, vectors or other.
     pub kind: Kind,
     /// Where its coordinates begin, and how many there are.
     pub coordinate: usize,
-    /// Their number.
     pub dim: usize,
     /// The first row of its block in the matrix of the group.
     pub row: usize,
-    /// Rows of the block.
     pub size: usize,
 }
 
-/// A system ready to run.
 #[derive(Debug)]
 pub struct System {
-    /// The text of its system file.
     pub file: String,
-    /// The form as the user filled it in.
     pub fields: Fields,
     /// The integrator, with numbers for the parameters.
     pub integrator: Integrator,
@@ -60,31 +51,23 @@ pub struct System {
     pub step: Step,
     /// Their folded coefficients.
     pub slots: Vec<f64>,
-    /// h.
     pub h: f64,
     /// The duration of a run, for the texts to copy.
     pub time: f64,
     /// μ at the start.
     pub momentum: Vec<f64>,
-    /// H.
     pub energy: Numeric,
-    /// The Casimirs of low degree.
     pub casimirs: Vec<Polynomial>,
     /// The conserved quantities, as numbers.
     pub invariants: Invariants,
-    /// The factors of the group.
     pub factors: Vec<Factor>,
     /// Runge and Kutta's method of order four for the same equations.
     pub rival: Rival,
-    /// Units, for labels.
     pub units: Units,
 }
 
 impl System {
     /// The system of these fields.
-    ///
-    /// # Errors
-    /// All mistakes, each at its place; or why the system is nothing for a page.
     pub fn new(fields: &Fields) -> Result<Self, Vec<Mistake>> {
         let file = File::of(fields);
         let read = match system::read(&file.text, Options::default()) {
@@ -138,21 +121,16 @@ impl System {
         })
     }
 
-    /// The dimension of the group.
-    #[must_use]
     pub fn dim(&self) -> usize {
         self.integrator.problem.algebra.dim()
     }
 
     /// The same system with its parameters kept as names; none where the comoving frame is one for their values alone.
-    #[must_use]
     pub fn with_names(&self) -> Option<Problem> {
         let moving = self.integrator.problem.comoving.is_some();
         kept(&self.fields).filter(|problem| problem.comoving.is_some() == moving)
     }
 
-    /// The parameters with their values.
-    #[must_use]
     pub fn parameters(&self) -> Vec<Parameter> {
         let fixed = Fields { frame: "fixed".into(), ..self.fields.clone() };
         kept(&fixed).map(|problem| problem.parameters).unwrap_or_default()

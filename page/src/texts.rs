@@ -10,43 +10,14 @@ use num_traits::ToPrimitive;
 
 use crate::system::{LIMIT, System};
 
-/// A language.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Language {
-    /// The system file of the command.
-    File,
-    /// A program, and the build script that writes its steps from the system file.
-    Rust,
-    /// The Python package.
-    Python,
-    /// A header of C.
-    C,
-}
-
-impl Language {
-    /// The language of this name.
-    #[must_use]
-    pub fn named(name: &str) -> Option<Self> {
-        Some(match name {
-            "file" => Self::File,
-            "rust" => Self::Rust,
-            "python" => Self::Python,
-            "c" => Self::C,
-            _ => return None,
-        })
-    }
-}
-
-/// The system in this language.
-///
-/// # Errors
-/// Why it cannot be written, in words.
-pub fn text(system: &System, language: Language) -> Result<String, String> {
+/// The system in a language: `file` (its system file), `rust` (a program, and the build script that writes its steps), `python`
+/// or `c` (a header). An error says why it cannot be written.
+pub fn text(system: &System, language: &str) -> Result<String, String> {
     match language {
-        Language::File => Ok(system.file.clone()),
-        Language::Rust => Ok(rust(system)),
-        Language::Python => python(system, &system.parameters()),
-        Language::C => {
+        "file" => Ok(system.file.clone()),
+        "rust" => Ok(rust(system)),
+        "python" => python(system, &system.parameters()),
+        "c" => {
             let problem = &system.integrator.problem;
             let units = &system.units;
             let momentum =
@@ -65,6 +36,7 @@ pub fn text(system: &System, language: Language) -> Result<String, String> {
                 || c::header(&system.integrator, &options).map_err(|error| error.to_string());
             named.map_or_else(valued, Ok)
         }
+        _ => Err("no such language".to_owned()),
     }
 }
 

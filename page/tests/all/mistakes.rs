@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use coadjoint_page::fields::Fields;
-use coadjoint_page::mistakes::Mistake;
+use coadjoint_page::file::Mistake;
 use coadjoint_page::system::System;
 
 fn body() -> Fields {

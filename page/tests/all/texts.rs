@@ -8,7 +8,7 @@ use coadjoint_codegen::emit;
 use coadjoint_codegen::system::{Options, read};
 use coadjoint_page::gallery::gallery;
 use coadjoint_page::system::System;
-use coadjoint_page::texts::{Language, text};
+use coadjoint_page::texts::text;
 
 fn systems() -> impl Iterator<Item = (&'static str, System)> {
     gallery().into_iter().map(|entry| (entry.id, System::new(&entry.fields).unwrap()))
@@ -17,7 +17,7 @@ fn systems() -> impl Iterator<Item = (&'static str, System)> {
 #[test]
 fn the_system_file_is_the_system() {
     for (id, system) in systems() {
-        let copied = read(&text(&system, Language::File).unwrap(), Options::default()).unwrap();
+        let copied = read(&text(&system, "file").unwrap(), Options::default()).unwrap();
         assert_eq!(copied.problem.hamiltonian, system.integrator.problem.hamiltonian, "{id}");
         assert_eq!(copied.run.momentum.unwrap(), system.momentum, "{id}");
         assert_eq!(copied.run.step, Some(system.h), "{id}");
@@ -28,7 +28,7 @@ fn the_system_file_is_the_system() {
 #[test]
 fn the_copied_program_calls_what_its_build_script_writes() {
     for (id, system) in systems() {
-        let copied = text(&system, Language::Rust).unwrap();
+        let copied = text(&system, "rust").unwrap();
         syn::parse_file(&copied).unwrap_or_else(|error| panic!("{id}: {error}\n{copied}"));
         let options = emit::Options::for_problem(&system.integrator.problem.name);
         let name = &options.name;
@@ -45,7 +45,7 @@ fn the_copied_header_is_c99() {
     for (id, system) in
         systems().filter(|(id, _)| ["wing-nut", "heavy-top", "heisenberg-spin-ring"].contains(id))
     {
-        let header = text(&system, Language::C).unwrap();
+        let header = text(&system, "c").unwrap();
         assert!(header.contains(&format!("{}_step(", id.replace('-', "_"))), "{id}");
         let mut compiler = Command::new("cc")
             .args([
@@ -71,7 +71,7 @@ fn the_copied_header_is_c99() {
 fn python_names_the_system_and_its_parameters() {
     let (_, system) = systems().next().unwrap();
     assert_eq!(
-        text(&system, Language::Python).unwrap(),
+        text(&system, "python").unwrap(),
         "import coadjoint as ca\n\nbody = ca.System(\n    \"SO3\",\n    \"x^2/(2*I1) + y^2/(2*I2) + z^2/(2*I3)\",\n    \
          coordinates=\"x y z\",\n    parameters=dict(I1=1.0, I2=2.0, I3=2.6),\n    truncation=7,\n)\n\
          run = body.simulate(momentum=[0.03, 2.5, 0.02], time=60.0, step=0.1)\n"
