@@ -15,9 +15,6 @@ const BODIES: usize = 100_000;
 const FEW: u64 = 8;
 
 /// The command: the one given, or the one beside this program.
-///
-/// # Errors
-/// Where there is none.
 pub fn find(given: Option<&PathBuf>) -> Result<PathBuf, Failure> {
     let beside = || Some(std::env::current_exe().ok()?.with_file_name("coadjoint"));
     let path = given.cloned().or_else(beside).unwrap_or_default();
@@ -68,9 +65,6 @@ fn way<'a>(
 }
 
 /// Prints nanoseconds a step of single runs; the ratio is to `advance`.
-///
-/// # Errors
-/// An error if something could not be measured.
 pub fn single(command: &Path, backends: &[String], quick: bool, only: &str) -> Result<(), Failure> {
     println!("Nanoseconds a step, and the ratio to `advance`:\n");
     for system in SYSTEMS.iter().filter(|system| system.name.contains(only)) {
@@ -86,9 +80,6 @@ pub fn single(command: &Path, backends: &[String], quick: bool, only: &str) -> R
 }
 
 /// Prints nanoseconds a step and trajectory; the ratio is to the attribute's lanes.
-///
-/// # Errors
-/// An error if something could not be measured.
 pub fn ensembles(
     command: &Path,
     given: &[Vec<String>],

@@ -1,13 +1,11 @@
 //! The cost of a step, and the cost of other methods for the same error.
 //!
-//! `cargo run --release -p coadjoint-bench -- step|backends|ensembles|work|smooth`
+//! `cargo run --release -p coadjoint-bench -- step|backends|ensembles|work`
 
 // Indices name components as in the formulas; iterators over three arrays at once would hide them.
 #![allow(clippy::needless_range_loop)]
 
 mod command;
-mod smooth;
-mod step;
 mod systems;
 mod timing;
 mod work;
@@ -17,7 +15,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
 
-use timing::{Failure, Machine};
+use timing::{Failure, machine};
 
 /// Measures steps by the attribute, from files, and against peers; every row is one interleaved run.
 #[derive(Parser)]
@@ -35,10 +33,9 @@ enum Table {
     Backends(FromFile),
     /// 100 000 trajectories on one core, by the attribute in lanes and by the command's `ensemble`
     Ensembles(FromFile),
-    /// The cheapest time for an error, beside DOP853, DMV10 and the exact solution
+    /// The cheapest time for an error, beside DOP853, DMV10 and the exact solution; of Hamiltonians that are no polynomials,
+    /// beside DOP853
     Work(Work),
-    /// The time for an error of Hamiltonians that are no polynomials, beside DOP853
-    Smooth(Common),
 }
 
 #[derive(Args)]
@@ -73,15 +70,12 @@ struct Work {
     /// Only methods whose name contains this
     #[arg(long, value_name = "TEXT", default_value = "")]
     method: String,
-    /// Write NAME.json for each problem and work.md into this folder
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
 }
 
 fn run(table: &Table) -> Result<(), Failure> {
-    println!("{}\n", Machine::here());
+    println!("{}\n", machine());
     match table {
-        Table::Step(common) => step::table(common.quick, &common.only),
+        Table::Step(common) => systems::table(common.quick, &common.only),
         Table::Backends(given) => {
             let command = command::find(given.command.as_ref())?;
             command::single(&command, &given.backend, given.common.quick, &given.common.only)
@@ -96,11 +90,7 @@ fn run(table: &Table) -> Result<(), Failure> {
             }
             command::ensembles(&command, &ways, given.common.quick, &given.common.only)
         }
-        Table::Smooth(common) => smooth::table(common.quick, &common.only),
-        Table::Work(given) => {
-            let Work { common, method, out } = given;
-            work::tables(common.quick, &common.only, method, out.as_deref())
-        }
+        Table::Work(Work { common, method }) => work::tables(common.quick, &common.only, method),
     }
 }
 

@@ -7,7 +7,7 @@ use coadjoint::lanes::ensemble::advance_all;
 use coadjoint::{Phase, SE3, SO3, lie_poisson};
 use nalgebra::SVector;
 
-use crate::timing::{Failure, Way};
+use crate::timing::{Failure, Way, line, medians};
 
 #[lie_poisson(group = SO3, truncation = 7)]
 fn rigid_body(mu: [f64; 3]) -> f64 {
@@ -189,4 +189,30 @@ pub const SYSTEMS: [System; 6] = [
 pub fn momenta(system: &System, count: usize) -> Vec<f64> {
     let size = |i: usize| 1.0 + 0.2 * i as f64 / count as f64;
     (0..count).flat_map(|i| system.momentum.iter().map(move |mu| mu * size(i))).collect()
+}
+
+/// Trajectories in lanes.
+const BODIES: usize = 1024;
+/// Systems that are tried in lanes: the first ones.
+const IN_LANES: usize = 2;
+
+/// Prints nanoseconds a step; the ratio is to `advance`.
+pub fn table(quick: bool, only: &str) -> Result<(), Failure> {
+    rayon::ThreadPoolBuilder::new().num_threads(1).build_global()?;
+    println!("Nanoseconds a step (in lanes: of one trajectory), and the ratio to `advance`:\n");
+    for (number, system) in SYSTEMS.iter().enumerate() {
+        if !system.name.contains(only) {
+            continue;
+        }
+        let mut ways = (system.single)(system.step, system.momentum)?;
+        if number < IN_LANES {
+            ways.extend((system.lanes)(system.step, momenta(system, BODIES))?);
+        }
+        let found = medians(&mut ways, if quick { 7 } else { 31 })?;
+        let end = (system.end)(system.step, system.momentum)?;
+        let digits = |x: &f64| format!("{x:.12}");
+        let end: Vec<String> = end.iter().map(digits).collect();
+        println!("{} after 1000 steps: {} |", line(system.name, &ways, &found), end.join(", "));
+    }
+    Ok(())
 }

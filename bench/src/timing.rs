@@ -1,6 +1,5 @@
 //! Interleaved timing: every way runs once per round, so that a change of the machine's speed meets all alike.
 
-use std::fmt;
 use std::time::{Duration, Instant};
 
 /// Why something could not be measured.
@@ -63,9 +62,6 @@ impl<'a> Way<'a> {
 }
 
 /// The median nanoseconds of a step of one trajectory, for each way over the rounds.
-///
-/// # Errors
-/// The first error of any of the ways.
 pub fn medians(ways: &mut [Way<'_>], rounds: usize) -> Result<Vec<f64>, Failure> {
     let counts = ways.iter_mut().map(Way::steps).collect::<Result<Vec<u64>, Failure>>()?;
     let mut samples = vec![Vec::with_capacity(rounds); ways.len()];
@@ -99,45 +95,23 @@ pub fn median(mut values: Vec<f64>) -> f64 {
     values.get(values.len().saturating_sub(1) / 2).copied().unwrap_or(f64::NAN)
 }
 
-/// The machine, and how this program was built.
-#[derive(Clone, Debug, serde::Serialize)]
-pub struct Machine {
-    /// The processor's name, where the system tells it.
-    pub processor: String,
-    /// Vector features that the program was compiled with, and whether it is optimised.
-    pub built: String,
-    /// Load averages over 1, 5 and 15 minutes at the start.
-    pub load: String,
-}
-
-impl Machine {
-    /// This machine, now.
-    pub fn here() -> Self {
-        let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-        let field = |key: &str| {
-            let line = text.lines().find(|line| line.starts_with(key))?;
-            line.split_once(':').map(|(_, value)| value.trim().to_owned())
-        };
-        let processor = field("model name").unwrap_or_else(|| "unknown processor".to_owned());
-        let features = [
-            ("avx2", cfg!(target_feature = "avx2")),
-            ("fma", cfg!(target_feature = "fma")),
-            ("avx512f", cfg!(target_feature = "avx512f")),
-            ("neon", cfg!(target_feature = "neon")),
-            ("UNOPTIMISED", cfg!(debug_assertions)),
-        ];
-        let present = features.iter().filter(|feature| feature.1).map(|feature| feature.0);
-        let built = std::iter::once(std::env::consts::ARCH).chain(present).collect::<Vec<_>>();
-        let load = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
-        let load = load.split_whitespace().take(3).collect::<Vec<_>>().join(" ");
-        Self { processor, built: built.join(" "), load }
-    }
-}
-
-impl fmt::Display for Machine {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}; built for {}; load {}", self.processor, self.built, self.load)
-    }
+/// The machine, the vector features that this program was built for, whether it is optimised, and the load.
+pub fn machine() -> String {
+    let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let line = text.lines().find(|line| line.starts_with("model name"));
+    let processor = line.and_then(|line| line.split_once(": ")).map_or("unknown", |pair| pair.1);
+    let features = [
+        ("avx2", cfg!(target_feature = "avx2")),
+        ("fma", cfg!(target_feature = "fma")),
+        ("avx512f", cfg!(target_feature = "avx512f")),
+        ("neon", cfg!(target_feature = "neon")),
+        ("UNOPTIMISED", cfg!(debug_assertions)),
+    ];
+    let present = features.iter().filter(|feature| feature.1).map(|feature| feature.0);
+    let built = std::iter::once(std::env::consts::ARCH).chain(present).collect::<Vec<_>>();
+    let load = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
+    let load = load.split_whitespace().take(3).collect::<Vec<_>>().join(" ");
+    format!("{processor}; built for {}; load {load}", built.join(" "))
 }
 
 #[cfg(test)]

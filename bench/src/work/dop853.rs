@@ -1,9 +1,12 @@
 //! The Runge–Kutta method of order 8 of Dormand and Prince, of the crate `ode_solvers`.
 
+use coadjoint::{LieGroup, SE3};
+use nalgebra::Vector6;
 use ode_solvers::{Dop853, SVector, System, dop_shared::OutputType};
 
 use super::method::Method;
 use super::problem::{Kind, Problem, Quaternion, State, Vector, cross, matrix};
+use super::smooth::{root, six, spin};
 use crate::timing::Failure;
 
 /// Steps no honest run needs; above the crate's own limit, which is below what T = 1000 takes.
@@ -23,14 +26,29 @@ pub fn method() -> Option<Method> {
 fn run(problem: &Problem, tolerance: f64) -> Result<State, Failure> {
     let (a, m, f) = (problem.inverse_inertia, problem.momentum, problem.force);
     let start = [m[0], m[1], m[2], 1.0, 0.0, 0.0, 0.0];
-    if problem.kind == Kind::Free {
-        let y = integrate(Free(a), start, problem.end, tolerance)?;
-        return Ok(State::rotating([y[0], y[1], y[2]], matrix(&[y[3], y[4], y[5], y[6]])));
-    }
+    let rotating =
+        |y: [f64; 7]| Ok(State::rotating([y[0], y[1], y[2]], matrix(&[y[3], y[4], y[5], y[6]])));
     let mut whole = [0.0; 13];
     whole[..7].copy_from_slice(&start);
     whole[7..10].copy_from_slice(&f);
     let y = match problem.kind {
+        Kind::Free => {
+            let field = Turning(|m: &Vector| [m[0] * a[0], m[1] * a[1], m[2] * a[2]]);
+            return rotating(integrate(field, start, problem.end, tolerance)?);
+        }
+        Kind::Root => {
+            let field = Turning(|m: &Vector| root(&(*m).into()).into());
+            return rotating(integrate(field, start, problem.end, tolerance)?);
+        }
+        Kind::Spin => {
+            let field = Turning(|m: &Vector| spin(&(*m).into()).into());
+            return rotating(integrate(field, start, problem.end, tolerance)?);
+        }
+        Kind::Six => {
+            let y = integrate(Six, [m[0], m[1], m[2], f[0], f[1], f[2]], problem.end, tolerance)?;
+            let whole = State::rotating([y[0], y[1], y[2]], [[0.0; 3]; 3]);
+            return Ok(State { force: [y[3], y[4], y[5]], ..whole });
+        }
         Kind::TopOnFirst(w) => {
             integrate(Moving(a, Gravity::<0>(w)), whole, problem.end, tolerance)?
         }
@@ -38,7 +56,6 @@ fn run(problem: &Problem, tolerance: f64) -> Result<State, Failure> {
             integrate(Moving(a, Gravity::<1>(w)), whole, problem.end, tolerance)?
         }
         Kind::Fluid(b) => integrate(Moving(a, Mass(b)), whole, problem.end, tolerance)?,
-        Kind::Free => return Err("no motion in space".into()),
     };
     Ok(State {
         force: [y[7], y[8], y[9]],
@@ -48,10 +65,7 @@ fn run(problem: &Problem, tolerance: f64) -> Result<State, Failure> {
 }
 
 /// The end of a motion at a tolerance.
-///
-/// # Errors
-/// Where it takes too many steps.
-pub fn integrate<const N: usize, F: System<f64, SVector<f64, N>>>(
+fn integrate<const N: usize, F: System<f64, SVector<f64, N>>>(
     field: F,
     start: [f64; N],
     end: f64,
@@ -69,15 +83,26 @@ pub fn integrate<const N: usize, F: System<f64, SVector<f64, N>>>(
     last.ok_or_else(|| "no step was made".into())
 }
 
-/// Π̇ = Π × Ω, q̇ = ½ q (0, Ω), Ω = I⁻¹Π; the components are (Π, q).
-struct Free(Vector);
+/// Π̇ = Π × Ω, q̇ = ½ q (0, Ω), Ω = ∂H/∂Π; the components are (Π, q).
+struct Turning<F>(F);
 
-impl System<f64, SVector<f64, 7>> for Free {
+impl<F: Fn(&Vector) -> Vector> System<f64, SVector<f64, 7>> for Turning<F> {
     fn system(&self, _: f64, y: &SVector<f64, 7>, dy: &mut SVector<f64, 7>) {
-        let w = [y[0] * self.0[0], y[1] * self.0[1], y[2] * self.0[2]];
-        let torque = cross(&[y[0], y[1], y[2]], &w);
+        let m = [y[0], y[1], y[2]];
+        let w = (self.0)(&m);
+        let torque = cross(&m, &w);
         let rate = rate(&[y[3], y[4], y[5], y[6]], &w);
         *dy = SVector::from([torque[0], torque[1], torque[2], rate[0], rate[1], rate[2], rate[3]]);
+    }
+}
+
+/// μ̇ = ad\*_ω μ of six variables.
+struct Six;
+
+impl System<f64, SVector<f64, 6>> for Six {
+    fn system(&self, _: f64, y: &SVector<f64, 6>, dy: &mut SVector<f64, 6>) {
+        let m = Vector6::from(y.data.0[0]);
+        *dy = SVector::from(SE3::new().ad_star(&six(&m), &m).data.0[0]);
     }
 }
 

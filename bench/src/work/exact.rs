@@ -56,10 +56,6 @@ struct Motion {
 
 impl Motion {
     /// The motion through a momentum and an attitude (matrix by rows).
-    ///
-    /// # Errors
-    /// On the separatrix, for equal moments and for a steady rotation about a principal axis: there the functions
-    /// degenerate.
     fn new(inertia: &Vector, momentum: &Vector, attitude: &[Vector; 3]) -> Result<Self, Failure> {
         let square = dot(momentum, momentum);
         let twice_energy: f64 = (0..3).map(|i| momentum[i] * momentum[i] / inertia[i]).sum();
@@ -196,13 +192,9 @@ struct Theta {
 /// θ₁, θ₂, θ₃, θ₄ at z and θ₄(z + iy).
 #[derive(Clone, Copy, Debug)]
 struct Values {
-    /// θ₁(z).
     first: f64,
-    /// θ₂(z).
     second: f64,
-    /// θ₃(z).
     third: f64,
-    /// θ₄(z).
     fourth: f64,
     /// Real and imaginary part of θ₄(z + iy).
     shifted: [f64; 2],

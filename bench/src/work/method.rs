@@ -32,9 +32,6 @@ impl Method {
     }
 
     /// Runs it from the start to the end of the problem.
-    ///
-    /// # Errors
-    /// Where a step is refused or does not converge.
     pub fn run(&self, problem: &Problem, setting: f64) -> Result<State, Failure> {
         (self.run)(problem, setting)
     }

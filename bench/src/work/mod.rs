@@ -6,15 +6,14 @@ mod method;
 mod moser_veselov;
 mod ours;
 mod problem;
+mod smooth;
 mod sweep;
 #[cfg(test)]
 mod tests;
 
 use std::fmt::Write as _;
-use std::path::Path;
 
-use crate::timing::{Failure, Machine, figure};
-pub use dop853::integrate;
+use crate::timing::{Failure, figure};
 use method::Method;
 use problem::Problem;
 use sweep::Measurement;
@@ -22,52 +21,24 @@ use sweep::Measurement;
 /// Every method for a problem.
 pub fn methods(problem: &Problem) -> Vec<Method> {
     let mut methods = ours::methods(problem);
+    methods.extend(smooth::methods(problem));
     methods.extend(dop853::method());
     methods.extend(moser_veselov::method(problem));
     methods.extend(exact::method(problem));
     methods
 }
 
-/// Everything measured on one problem, as `work --out DIR` writes it.
-#[derive(serde::Serialize)]
-struct Report<'a> {
-    problem: &'a str,
-    title: &'a str,
-    end: f64,
-    machine: Machine,
-    measurements: Vec<Measurement>,
-}
-
 /// Errors that a table has a column for.
 const TARGETS: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 
-/// Measures every problem whose name contains `only` and prints its table; writes them where a folder is given.
-///
-/// # Errors
-/// Where a reference or a folder cannot be had.
-pub fn tables(quick: bool, only: &str, method: &str, out: Option<&Path>) -> Result<(), Failure> {
-    let mut all = String::new();
-    if let Some(folder) = out {
-        std::fs::create_dir_all(folder)?;
-    }
-    for problem in problem::all()?.iter().filter(|problem| problem.name.contains(only)) {
-        let mut methods = methods(problem);
+/// Measures every problem whose name contains `only` by every method whose name contains `method`, and prints its table.
+pub fn tables(quick: bool, only: &str, method: &str) -> Result<(), Failure> {
+    let problems = problem::all()?.into_iter().chain(smooth::problems(only)?);
+    for problem in problems.filter(|problem| problem.name.contains(only)) {
+        let mut methods = methods(&problem);
         methods.retain(|one| one.name.contains(method));
-        let measurements = sweep::measure(problem, &methods, quick);
-        let (title, end) = (problem.title, problem.end);
-        let text = format!("## {title}, T = {end}\n\n{}", table(&measurements));
-        println!("{text}");
-        if let Some(folder) = out {
-            let (problem, machine) = (problem.name.as_str(), Machine::here());
-            let report = Report { problem, title, end, machine, measurements };
-            let json = serde_json::to_string_pretty(&report)?;
-            std::fs::write(folder.join(format!("{problem}.json")), json)?;
-        }
-        all.push_str(&text);
-        all.push('\n');
-    }
-    if let Some(folder) = out {
-        std::fs::write(folder.join("work.md"), all)?;
+        let measurements = sweep::measure(&problem, &methods, quick);
+        println!("## {}, T = {}\n\n{}", problem.title, problem.end, table(&measurements));
     }
     Ok(())
 }

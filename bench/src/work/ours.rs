@@ -163,6 +163,7 @@ pub fn methods(problem: &Problem) -> Vec<Method> {
             (7, true, 1.0, comoving_fluid_7::run),
             (9, true, 1.0, comoving_fluid_9::run),
         ],
+        _ => &[],
     };
     let method = |&(truncation, comoving, pace, run): &(u32, bool, f64, Run)| {
         let frame = if comoving { "comoving, " } else { "" };

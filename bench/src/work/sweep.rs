@@ -8,14 +8,10 @@ use super::problem::Problem;
 use crate::timing::median;
 
 /// A setting of a method with the error it reaches and its cost.
-#[derive(Clone, Debug, serde::Serialize)]
+#[derive(Clone, Debug)]
 pub struct Measurement {
     /// The method's name.
     pub method: String,
-    /// The name under which its kin are drawn.
-    pub family: String,
-    /// The step or the tolerance.
-    pub setting: f64,
     /// The error at the end.
     pub error: f64,
     /// Nanoseconds of one core per unit of the problem's time: the median over the rounds.
@@ -62,8 +58,6 @@ pub fn measure(problem: &Problem, methods: &[Method], quick: bool) -> Vec<Measur
     }
     let measured = candidates.iter().zip(samples).map(|(candidate, times)| Measurement {
         method: methods[candidate.method].name.clone(),
-        family: methods[candidate.method].family.to_owned(),
-        setting: candidate.setting,
         error: candidate.error,
         nanoseconds: median(times) * 1e9 / problem.end,
     });

@@ -24,7 +24,7 @@ fn best(problem: &Problem) -> Method {
 
 #[test]
 fn body_a_ends_where_others_say() {
-    // 20 digits, T = 1000, from an integration independent of `reference/compute.py`.
+    // 20 digits, T = 1000, from an integration independent of `tests/reference/make_references.py`.
     let momentum =
         [1.959_874_584_250_366_312_6, -0.820_798_983_120_640_078_1, 0.857_426_756_823_914_961_8];
     let reference = named("free-body-a").reference;
