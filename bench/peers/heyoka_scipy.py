@@ -2,16 +2,15 @@
 """heyoka (Taylor's method, compiled at run time) and SciPy on the benchmark's problems, as rows of the same table.
 
     python3 -m venv venv && venv/bin/pip install heyoka scipy numpy
-    venv/bin/python bench/peers/heyoka_scipy.py [--problem NAME] [--rounds N] [--scipy] [--ensemble] [--defaults]
+    venv/bin/python bench/peers/heyoka_scipy.py [--problem NAME] [--rounds N] [--scipy] [--ensemble wide|near]
 
 Equations, initial states and references come from ../reference/end_states.json: y = (momentum, force, quaternion,
 position), the free bodies without force and position. An error is the largest difference of a component of the end
 state, twice that for the quaternion (the Rust program compares rotation matrices), and momenta and positions of the heavy top in units of 100.
-Runs are interleaved over the tolerances; the figures are medians. `--ensemble` runs 4096 free bodies in heyoka's batch
-mode with batches of 8 and prints nanoseconds per trajectory and
-unit of time. Compile times of heyoka are not counted. `--defaults` runs 4096 bodies near one start by the package
-coadjoint with `tolerance=1e-10` and nothing else, and by heyoka's batches at tolerances around it: the least processor time of
-interleaved rounds, in which both have compiled before.
+Runs are interleaved over the tolerances; the figures are medians. `--ensemble` runs 4096 free bodies, with norms from 1.5
+to 3 or near one start, by the package coadjoint with `tolerance=1e-10` and nothing else, and in heyoka's batch mode at
+tolerances around it, with batches of 8: the least processor time of interleaved rounds, in which both have compiled
+before. Compile times of heyoka are not counted.
 """
 import argparse
 import json
@@ -146,62 +145,6 @@ def row(name, rows):
     print(f"| {name} | " + " | ".join(cells) + " |", flush=True)
 
 
-def bodies(count):
-    """SplitMix64 from seed 1: three numbers in [-1, 1) scaled to norm 1.5 to 3."""
-    state, mask = 1, (1 << 64) - 1
-
-    def uniform():
-        nonlocal state
-        state = (state + 0x9E3779B97F4A7C15) & mask
-        z = state
-        z = ((z ^ (z >> 30)) * 0xBF58476D1CE4E5B9) & mask
-        z = ((z ^ (z >> 27)) * 0x94D049BB133111EB) & mask
-        return ((z ^ (z >> 31)) >> 11) / float(1 << 53)
-
-    momenta = []
-    while len(momenta) < count:
-        m = [2 * uniform() - 1 for _ in range(3)]
-        norm = sum(v * v for v in m) ** 0.5
-        size = 1.5 + 1.5 * uniform()
-        if norm > 0.1:
-            momenta.append([v * size / norm for v in m])
-    return numpy.array(momenta)
-
-
-def ensemble(problem, rounds, end=100.0, count=4096, batch=8):
-    system = heyoka_system(problem)
-    momenta = bodies(count)
-    initial = numpy.zeros((count // batch, 7, batch))
-    initial[:, 0:3, :] = momenta.reshape(-1, batch, 3).transpose(0, 2, 1)
-    initial[:, 3, :] = 1.0
-
-    def states(integrator):
-        ends = numpy.empty_like(initial)
-        for index in range(len(initial)):
-            integrator.set_time(0.0)
-            integrator.state[:] = initial[index]
-            integrator.propagate_until(end)
-            ends[index] = integrator.state
-        return ends
-
-    make = lambda tolerance: heyoka.taylor_adaptive_batch(system, initial[0].copy(), tol=tolerance)
-    reference = states(make(1e-17))
-    print(f"\n{count} free bodies, T = {end:g}, heyoka in batches of {batch}, one core\n")
-    print("| tolerance | largest error | median error | ns per trajectory and unit of time |\n|---|---:|---:|---:|")
-    integrators = [(10 ** (-k / 2), make(10 ** (-k / 2))) for k in range(12, 33, 2)]
-    times = [[] for _ in integrators]
-    errors = []
-    for number in range(rounds):
-        for samples, (_, integrator) in zip(times, integrators):
-            start = time.perf_counter_ns()
-            ends = states(integrator)
-            samples.append((time.perf_counter_ns() - start) / (count * end))
-            if number == 0:
-                errors.append(numpy.max(numpy.abs(ends - reference) * problem.units[None, :, None], axis=1).ravel())
-    for (tolerance, _), error, samples in zip(integrators, errors, times):
-        print(f"| {tolerance:.1e} | {error.max():.1e} | {numpy.median(error):.1e} | {statistics.median(samples):.0f} |")
-
-
 def batches(system, initial, end, batch=8):
     """A function of a tolerance that makes one from the initial states to those at the end."""
     first = numpy.ascontiguousarray(initial[:batch].T)
@@ -223,10 +166,14 @@ def batches(system, initial, end, batch=8):
     return of
 
 
-def defaults(problem, rounds, end=100.0, count=4096):
+def ensemble(problem, rounds, wide, end=100.0, count=4096):
     import coadjoint
 
-    momenta = numpy.random.default_rng(1).normal([2, 0.5, 1], 0.1, size=(count, 3))
+    random = numpy.random.default_rng(1)
+    momenta = random.normal([2, 0.5, 1], 0.1, size=(count, 3))
+    if wide:
+        directions = random.normal(size=(count, 3))
+        momenta = directions / numpy.linalg.norm(directions, axis=1, keepdims=True) * random.uniform(1.5, 3, (count, 1))
     initial = numpy.hstack([momenta, numpy.tile([1.0, 0.0, 0.0, 0.0], (count, 1))])
     a, b, c = problem.a
     body = coadjoint.System("SO3", f"{a / 2}*x^2 + {b / 2}*y^2 + {c / 2}*z^2", coordinates="x y z")
@@ -245,7 +192,7 @@ def defaults(problem, rounds, end=100.0, count=4096):
     (took, error), *others = found.values()
     costs = sorted((numpy.log(other), cost) for cost, other in others)
     same = numpy.interp(numpy.log(error), *zip(*costs))
-    print(f"\n{count} free bodies near one start, T = {end:g}, one core\n")
+    print(f"\n{count} free bodies {'of norms from 1.5 to 3' if wide else 'near one start'}, T = {end:g}, one core\n")
     print("| | largest error | ns per trajectory and unit of time |\n|---|---:|---:|")
     for name, (cost, error) in found.items():
         print(f"| {name} | {error:.1e} | {cost:.0f} |")
@@ -257,15 +204,11 @@ def main():
     parser.add_argument("--problem", action="append", help="only this problem; may be repeated")
     parser.add_argument("--rounds", type=int, default=15)
     parser.add_argument("--scipy", action="store_true", help="SciPy's DOP853 and RK45 too (slow)")
-    parser.add_argument("--ensemble", action="store_true", help="the ensemble only")
-    parser.add_argument("--defaults", action="store_true", help="the package coadjoint with a tolerance alone, beside heyoka")
+    parser.add_argument("--ensemble", choices=("wide", "near"), help="heyoka's batches beside coadjoint with a tolerance alone")
     arguments = parser.parse_args()
     problems = [Problem(record) for record in json.loads(FILE.read_text())]
     if arguments.ensemble:
-        ensemble(problems[0], max(3, arguments.rounds // 5))
-        return
-    if arguments.defaults:
-        defaults(problems[0], arguments.rounds)
+        ensemble(problems[0], arguments.rounds, arguments.ensemble == "wide")
         return
     for problem in problems:
         if arguments.problem and problem.name not in arguments.problem:

@@ -5,7 +5,7 @@ use serde_json::Value;
 
 const SATELLITE: &str = "examples/satellite.toml";
 
-/// The largest difference from tests/reference/satellite.json, made by tests/reference/satellite.py.
+/// The largest difference from tests/reference/satellite.json, made by make_references.py beside it.
 fn error(step: &str) -> (f64, Value) {
     let reference: Value =
         serde_json::from_str(&text_of("tests/reference/satellite.json")).unwrap();
