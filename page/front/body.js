@@ -1,7 +1,7 @@
 // The body, or what stands for it on groups that turn no body.
 const TIPS = 240;
 
-// What is drawn for a system, and its shape.
+// The scene of a system, and its shape.
 function sceneOf(about) {
   const [first] = about.factors;
   if (about.factors.length > 1 && about.factors.every((factor) => factor.kind === "rotation")) return { kind: "spins" };

@@ -98,7 +98,7 @@ function fillKnobs() {
   }
 }
 
-// What is said of the system chosen, for as long as it is that.
+// The sentence about the chosen system, as long as the fields are its own.
 function showAbout() {
   const entry = gallery.find((entry) => entry.id === state.system);
   const same = entry && ["group", "algebra", "hamiltonian"].every((key) => entry.fields[key] === state.fields[key]);

@@ -70,7 +70,7 @@ function drawOrbit(canvas, about, start, trails) {
   if (at.length === 3 && at.every(Number.isFinite)) spot(context, frame, at);
 }
 
-// What stays while the momentum moves: the surface, its level curves, the axes.
+// The parts that stay while the momentum moves: the surface, its level curves, the axes.
 function backdrop(canvas, about, frame) {
   const picture = document.createElement("canvas");
   [picture.width, picture.height] = [canvas.width, canvas.height];

@@ -1,4 +1,4 @@
-// What the page shows, and the link that holds it.
+// The state of the page, and the link that holds it.
 const FIELDS = ["name", "group", "algebra", "coordinates", "hamiltonian", "parameters", "truncation", "chart", "frame", "step", "momentum", "time"];
 const TABS = ["formulas", "rust", "file", "python", "c"];
 

@@ -1,4 +1,4 @@
-"""What notebooks show: a table, and a picture where matplotlib is installed."""
+"""The display in notebooks: a table, and a picture where matplotlib is installed."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def _picture(draw: Callable[[Figure], object], size: tuple[float, float]) -> str:
-    """What is drawn into a figure of its own, which no window shows; nothing where it cannot be drawn."""
+    """A picture of a figure that no window shows; nothing where it cannot be drawn."""
     try:
         from matplotlib.figure import Figure
 

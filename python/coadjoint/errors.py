@@ -1,4 +1,4 @@
-"""What can go wrong, as exceptions: all are :class:`Error`.
+"""The exceptions of the package: all are :class:`Error`.
 
 >>> import coadjoint as ca
 >>> try:
@@ -20,7 +20,7 @@ class Error(Exception):
 
 
 class InputError(Error, ValueError):
-    """What was given makes no sense, or cannot be done: the message says where and what to write instead."""
+    """The input makes no sense, or the request is impossible: the message says where, and what to write instead."""
 
 
 class RunError(Error, RuntimeError):

@@ -133,7 +133,7 @@ def orbit(
 ) -> Figure:
     """The orbit of a momentum with three coordinates on its sphere; with the ``system``, the level curves of H too.
 
-    ``view`` is the elevation and the azimuth of the eye, in degrees. What lies behind the sphere is dashed.
+    ``view`` is the elevation and the azimuth of the eye, in degrees. Curves behind the sphere are dashed.
     """
     if run.momentum.shape[1] != 3:
         raise InputError(

@@ -1,4 +1,4 @@
-"""What runs and ensembles come to."""
+"""The results of runs and ensembles."""
 
 from __future__ import annotations
 
@@ -307,23 +307,23 @@ class Run:
 
     @property
     def backend(self) -> str:
-        """What made the steps."""
+        """The back end that made the steps."""
         return str(self._found["backend"])
 
     @property
     def warnings(self) -> list[str]:
-        """What should be known of the run."""
+        """The warnings of the run."""
         return list(self._found["warnings"])
 
     @property
     def notes(self) -> list[str]:
-        """What was chosen for the run: the step for a tolerance, a step that divides the time."""
+        """The choices made for the run: the step for a tolerance, a step that divides the time."""
         notes = [self._found.get("choice"), self._found.get("announcement")]
         return [note for note in notes if note]
 
     @property
     def label(self) -> str:
-        """What made the run, in a few words."""
+        """The method, in a few words."""
         return str(self._found["label"])
 
     @property

@@ -169,7 +169,7 @@ class System:
         self._facts = self._core.facts()
         self._steppers: dict[tuple[float | None, str], _core.Stepper] = {}
 
-    # What it is.
+    # Facts.
 
     @property
     def text(self) -> str:
@@ -449,7 +449,7 @@ class System:
             self._steppers[key] = stepper
         if type(steps) is not int or not 0 <= steps < 2**63:
             steps = _arrays.count(steps, "steps")
-        # What comes from the last call needs no look; numbers are checked where they are copied.
+        # Results of the last call are taken as they are; the extension checks the numbers as it copies them.
         if _ready(momentum, 1) and (group_element is None or _ready(group_element, 2)):
             return stepper.advance(momentum, group_element, steps)
         mu, element = self._state(momentum, group_element)
@@ -689,7 +689,7 @@ class Laws:
 
 
 class Verdict:
-    """What a judgement found; true if every row was judged and none is wrong."""
+    """The result of a judgement; true if every row was judged and none is wrong."""
 
     def __init__(self, found: dict[str, Any]) -> None:
         #: In a few words.

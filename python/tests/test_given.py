@@ -1,4 +1,4 @@
-"""What users give is taken at its word: names of columns, units, rotations, symbols."""
+"""Input of users is taken at its word: names of columns, units, rotations, symbols."""
 
 from __future__ import annotations
 

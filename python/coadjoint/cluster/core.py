@@ -1,4 +1,4 @@
-"""What runs on clusters need of the package: a system as text, its schedule, and rows advanced."""
+"""The part of the package that runs on clusters need: a system as text, its schedule, and rows advanced."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Made:
 
 
 def versions() -> dict[str, str]:
-    """What the bytes of a run depend on besides its manifest.
+    """The versions that the bytes of a run depend on, besides its manifest.
 
     Parquet files name the program that wrote them, and its version chooses encodings and statistics: pyarrow is among
     them. Other kinds of processors may have other last bits.
@@ -87,7 +87,7 @@ def advance(job: dict[str, Any], numbers: Floats, threads: int) -> Made:
 
 
 def warnings(ratio: float, notes: list[str]) -> list[str]:
-    """What should be known of a run."""
+    """The warnings of a run."""
     found = list(dict.fromkeys(notes))
     if ratio != 0.0:
         found.append(hardly_converges(ratio))

@@ -11,7 +11,7 @@ from .shard import Summary, Task, placed
 
 
 class Engine(Protocol):
-    """What runs shards: processes here, Dask, or Ray."""
+    """An engine that runs shards: processes here, Dask, or Ray."""
 
     #: Shards handed over at a time.
     capacity: int
@@ -23,7 +23,7 @@ class Engine(Protocol):
         """The handles that are done, after half a second at most."""
 
     def result(self, handle: Any) -> Summary:
-        """What became of a shard that is done. Raises WorkerDied, ShardError, or what the shard raised."""
+        """The summary of a shard that is done. Raises WorkerDied, ShardError, or what the shard raised."""
 
     def workers(self) -> int:
         """How many workers there are now."""

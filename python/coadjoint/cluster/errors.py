@@ -1,4 +1,4 @@
-"""What can go wrong in a run over many shards; options that make no sense are ``coadjoint.InputError``."""
+"""The exceptions of runs over many shards; options that make no sense are ``coadjoint.InputError``."""
 
 from __future__ import annotations
 

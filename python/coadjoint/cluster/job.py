@@ -77,7 +77,7 @@ class Job:
         return list(dict.fromkeys(keep))
 
     def manifest(self) -> dict[str, Any]:
-        """What the bytes of the run depend on."""
+        """Everything that the bytes of the run depend on."""
         return {
             "format": 1,
             "versions": self.versions,
@@ -141,7 +141,7 @@ class Job:
         try:
             again = drive(engine, self.tasks(threads, verify), attempts, done)
         finally:
-            # What workers have left that were killed, here or elsewhere.
+            # Remove the partial files of killed workers, here or elsewhere.
             self.folder.sweep(lambda name: shard.number(name) in self.shards)
         complete = result.summarize(self.folder, self.plan)
         drift: dict[str, float] = {}

@@ -98,7 +98,7 @@ def run(
     ManifestError
         Where ``out`` holds another run; it says in what the two differ.
     ShardError
-        Where a shard cannot be made. What is finished stays.
+        Where a shard cannot be made. Finished shards stay.
     ClusterError
         Where not a single row reaches the end.
     """
@@ -117,7 +117,7 @@ def run(
 
 
 def engine_of(client: Any, workers: int | None, threads: int) -> Engine:
-    """What runs the shards."""
+    """The engine that runs the shards."""
     if client is None:
         return local.engine(workers)
     home = client.__name__ if hasattr(client, "__path__") else type(client).__module__

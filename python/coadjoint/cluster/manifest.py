@@ -1,4 +1,4 @@
-"""What a run is: everything that its bytes depend on, in a file beside them."""
+"""The manifest of a run: everything that its bytes depend on, in a file beside them."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def settle(folder: Folder, wanted: dict[str, Any]) -> bool:
 
 
 def differences(then: Any, now: Any, name: str = "") -> list[str]:
-    """What differs, in words."""
+    """The differences, in words."""
     if isinstance(then, dict) and isinstance(now, dict):
         found = []
         for key in sorted(then.keys() | now.keys()):

@@ -1,4 +1,4 @@
-"""What a run has left: its parts, its bad rows, and whether all of it is as it was written."""
+"""The output of a run: its parts, its bad rows, and whether all of it is as it was written."""
 
 from __future__ import annotations
 

@@ -45,7 +45,7 @@ class Task:
 
 @dataclass(frozen=True)
 class Summary:
-    """What became of one shard."""
+    """The outcome of one shard."""
 
     shard: int
     rows: int
@@ -232,7 +232,7 @@ def _worker() -> str:
 
 def _memory() -> int:
     try:
-        # What getrusage says includes the process that has started this one.
+        # The figure of getrusage includes the process that has started this one.
         with open("/proc/self/status", encoding="ascii") as status:
             for line in status:
                 if line.startswith("VmHWM:"):

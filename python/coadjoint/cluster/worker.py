@@ -16,7 +16,7 @@ def main() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     tasks = sys.stdin.buffer
     answers = os.fdopen(os.dup(1), "wb")
-    # What anything prints does not get between the answers.
+    # Output of other code must not come between the answers.
     os.dup2(2, 1)
     while True:
         try:

@@ -1,4 +1,4 @@
-"""What the tests of clusters share; also imported by scripts that they start."""
+"""Helpers of the tests of clusters; also imported by scripts that they start."""
 
 from __future__ import annotations
 

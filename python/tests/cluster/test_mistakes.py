@@ -1,4 +1,4 @@
-"""What cannot be run is refused before anything runs, or ends the run with its reason."""
+"""Runs that are impossible are refused before anything runs, or end with their reason."""
 
 import os
 import subprocess

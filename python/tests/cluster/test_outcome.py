@@ -1,4 +1,4 @@
-"""What a run leaves: rows in their order, bad rows by their numbers, and the same bytes by every way."""
+"""The output of a run: rows in their order, bad rows by their numbers, and the same bytes by every way."""
 
 import json
 
