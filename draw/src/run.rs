@@ -8,7 +8,7 @@ use crate::style::Style;
 use crate::svg::Svg;
 
 /// Differences below this, and zero, which has no logarithm, are drawn here.
-pub const FLOOR: i32 = -17;
+const FLOOR: i32 = -17;
 
 /// A run, recorded at some times.
 #[derive(Clone, Debug, Default)]

@@ -188,7 +188,7 @@ impl Session {
 
     /// The drifts so far, seven numbers a moment: t, then energy, momentum, Casimirs, ours and the rival's.
     pub fn history(&self) -> Vec<f64> {
-        let samples = self.run.history.samples().iter();
+        let samples = self.run.history.samples.iter();
         samples
             .flat_map(|sample| [sample.time].into_iter().chain(sample.drifts.into_iter().flatten()))
             .collect()
@@ -196,7 +196,7 @@ impl Session {
 
     /// The largest drifts so far: energy, momentum, Casimirs, ours and the rival's.
     pub fn most(&self) -> Vec<f64> {
-        self.run.history.most().into_iter().flatten().collect()
+        self.run.history.most.into_iter().flatten().collect()
     }
 
     /// The level curves of the energy on the orbit of this momentum, where the algebra has three dimensions and a

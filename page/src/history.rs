@@ -14,17 +14,17 @@ pub struct Sample {
 /// Moments, each standing for several of which it has the largest drifts.
 #[derive(Clone, Debug)]
 pub struct History {
-    samples: Vec<Sample>,
-    /// Moments that one stands for.
+    pub samples: Vec<Sample>,
+    /// Moments so far, and how many of them one sample stands for.
+    count: usize,
     width: usize,
-    /// How many the last one has so far.
-    filled: usize,
-    most: [[f64; 3]; 2],
+    /// The largest drifts so far: ours, then the rival's.
+    pub most: [[f64; 3]; 2],
 }
 
 impl Default for History {
     fn default() -> Self {
-        Self { samples: Vec::new(), width: 1, filled: 1, most: [[0.0; 3]; 2] }
+        Self { samples: Vec::new(), count: 0, width: 1, most: [[0.0; 3]; 2] }
     }
 }
 
@@ -39,42 +39,30 @@ fn raise(into: &mut [[f64; 3]; 2], by: &[[f64; 3]; 2]) {
     }
 }
 
+impl Sample {
+    /// Takes a later moment in.
+    fn extend(&mut self, later: &Self) {
+        raise(&mut self.drifts, &later.drifts);
+        self.time = later.time;
+    }
+}
+
 impl History {
     pub fn push(&mut self, sample: Sample) {
         raise(&mut self.most, &sample.drifts);
-        match self.samples.last_mut() {
-            Some(last) if self.filled < self.width => {
-                raise(&mut last.drifts, &sample.drifts);
-                last.time = sample.time;
-                self.filled += 1;
-            }
-            _ => {
-                self.samples.push(sample);
-                self.filled = 1;
-            }
+        match self.samples.get_mut(self.count / self.width) {
+            Some(last) => last.extend(&sample),
+            None => self.samples.push(sample),
         }
+        self.count += 1;
         if self.samples.len() > MOST {
-            let pair = |pair: &[Sample]| {
+            self.width *= 2;
+            let whole = |pair: &[Sample]| {
                 let mut both = pair[0];
-                for other in &pair[1..] {
-                    raise(&mut both.drifts, &other.drifts);
-                    both.time = other.time;
-                }
+                pair[1..].iter().for_each(|later| both.extend(later));
                 both
             };
-            self.filled =
-                if self.samples.len().is_multiple_of(2) { 2 * self.width } else { self.filled };
-            self.samples = self.samples.chunks(2).map(pair).collect();
-            self.width *= 2;
+            self.samples = self.samples.chunks(2).map(whole).collect();
         }
-    }
-
-    /// The largest drifts so far: ours, then the rival's.
-    pub fn most(&self) -> [[f64; 3]; 2] {
-        self.most
-    }
-
-    pub fn samples(&self) -> &[Sample] {
-        &self.samples
     }
 }

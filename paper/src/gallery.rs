@@ -6,8 +6,8 @@ use std::path::Path;
 use coadjoint_codegen::smooth::Facts;
 use coadjoint_codegen::system::{Options, Parameters};
 use coadjoint_draw::curves::range;
-use coadjoint_draw::run::{FLOOR, Picture, Run, Series, drift_panels, motion_panels, orbit_panel};
-use coadjoint_draw::{Axis, Panel, Style, escaped};
+use coadjoint_draw::run::{Picture, Run, Series, drift_panels, motion_panels, orbit_panel};
+use coadjoint_draw::{Panel, escaped};
 use coadjoint_run::simulate::{self, Drift, Moment, Schedule, Setup, Sink};
 use coadjoint_run::{Accuracy, Derived, meet_tolerance, read_varying};
 
@@ -122,24 +122,17 @@ pub fn exhibit(picture: &Picture) -> String {
     text
 }
 
-/// All drifts of a run in one panel.
+/// All drifts of a run in one panel, as if each were of a run of its own.
 fn together(run: &Run, across: (f64, f64), unit: Option<&str>) -> Option<Panel> {
-    let panels = drift_panels(std::slice::from_ref(run), across, unit);
-    let mut whole = panels.first()?.clone();
-    whole.heading = "Relative drifts".to_owned();
-    whole.legend.clear();
-    whole.curves.clear();
-    for (i, (panel, series)) in panels.into_iter().zip(&run.drifts).enumerate() {
-        for mut curve in panel.curves {
-            curve.name = series.name.split(',').next().unwrap_or_default().to_owned();
-            curve.style = Style::new(i);
-            whole.curves.push(curve);
-        }
-    }
-    let points = whole.curves.iter().flat_map(|curve| &curve.points);
-    let values: Vec<f64> = points.map(|point| point.1).collect();
-    whole.y = Axis::floored(&values, (FLOOR, -12), 6);
-    Some(whole.with_legend())
+    let alone = |drift: &Series| Run {
+        label: drift.name.split(',').next().unwrap_or_default().to_owned(),
+        times: run.times.clone(),
+        drifts: vec![Series { name: String::new(), ..drift.clone() }],
+        ..Run::default()
+    };
+    let runs: Vec<Run> = run.drifts.iter().map(alone).collect();
+    let panel = drift_panels(&runs, across, unit).into_iter().next()?;
+    Some(Panel { heading: "Relative drifts".to_owned(), ..panel }.with_legend())
 }
 
 /// A mark: does it hold?

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
-use coadjoint_paper::experiment::{Options, run};
-use coadjoint_paper::outcome::{Fallible, files, write};
+use coadjoint_paper::experiment::run;
+use coadjoint_paper::outcome::{Fallible, Options, files, write};
 use coadjoint_paper::{gallery, page};
 
 /// Run the experiments of the paper and print its figures beside ours

@@ -48,6 +48,37 @@ pub fn brief(value: f64) -> String {
     text.replace('-', "−")
 }
 
+/// How to run experiments.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// Fewer samples and steps, smaller networks.
+    pub quick: bool,
+    /// The seed everything follows from.
+    pub seed: u64,
+    /// Where outcomes and the state of training are kept.
+    pub out: Option<PathBuf>,
+}
+
+impl Options {
+    /// An empty report.
+    pub(crate) fn report(&self, name: &str) -> Report {
+        Report { name: name.into(), quick: self.quick, seed: self.seed, ..Report::default() }
+    }
+
+    /// A seed of its own for every use.
+    pub(crate) fn seed(&self, number: u64) -> u64 {
+        self.seed.wrapping_mul(1_000_003).wrapping_add(number)
+    }
+
+    /// `full`, or `quick` in the short version.
+    pub(crate) fn pick<T>(&self, full: T, quick: T) -> T {
+        if self.quick { quick } else { full }
+    }
+}
+
+/// The ending of the state of an unfinished training.
+pub(crate) const CHECKPOINT: &str = "checkpoint";
+
 /// A table with its title and the heads of its columns.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Table {

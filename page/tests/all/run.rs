@@ -20,7 +20,7 @@ fn a_run_has_the_bits_of_the_command() {
     let mut run = Run::new(&system, &system.momentum);
     assert_eq!(run.advance(&system, 1000), 1000);
     assert_eq!(run.momentum(), MOMENTUM);
-    let [[_, momentum, casimirs], [rival, ..]] = run.history.most();
+    let [[_, momentum, casimirs], [rival, ..]] = run.history.most;
     assert!(momentum < 1e-14 && casimirs < 1e-14);
     assert!(rival > 1e-12, "{rival:e}");
 }
@@ -37,7 +37,7 @@ fn drifts_are_those_that_the_command_reports() {
         let system = System::new(&fields).unwrap();
         let mut run = Run::new(&system, &system.momentum);
         assert_eq!(run.advance(&system, steps), steps);
-        let [[energy, momentum, casimirs], _] = run.history.most();
+        let [[energy, momentum, casimirs], _] = run.history.most;
         assert!((energy / expected - 1.0).abs() < 1e-4, "{energy:e}");
         assert!(momentum < 1e-13 && casimirs < 1e-13);
     }
@@ -116,10 +116,10 @@ fn histories_stay_short_and_forget_no_largest_drift() {
     let system = System::new(&fields("wing-nut")).unwrap();
     let mut run = Run::new(&system, &system.momentum);
     run.advance(&system, 5000);
-    let samples = run.history.samples();
+    let samples = &run.history.samples;
     assert!(samples.len() <= 721, "{}", samples.len());
     assert_eq!(samples.last().unwrap().time, run.time());
-    for (kind, most) in run.history.most()[0].into_iter().enumerate() {
+    for (kind, most) in run.history.most[0].into_iter().enumerate() {
         assert_eq!(samples.iter().map(|sample| sample.drifts[0][kind]).fold(0.0, f64::max), most);
     }
 }

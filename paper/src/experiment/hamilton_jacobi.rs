@@ -13,9 +13,8 @@ use nalgebra::{DMatrix, DVector, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::Options;
 use super::poisson::map;
-use crate::outcome::{Curve, Fallible, Report, Table, row};
+use crate::outcome::{Curve, Fallible, Options, Report, Table, row};
 use crate::state::{RIGID_BODY, Steps};
 
 /// The time T up to which S is fitted.

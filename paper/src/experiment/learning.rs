@@ -16,10 +16,9 @@ use coadjoint_learn::{
 use nalgebra::DMatrix;
 use serde_json::Value;
 
-use super::options::CHECKPOINT;
 use super::poisson::map;
-use super::{Options, type_two};
-use crate::outcome::{Curve, Fallible, Report, Table, row};
+use super::type_two;
+use crate::outcome::{CHECKPOINT, Curve, Fallible, Options, Report, Table, row};
 use crate::state::{Errors, START, State, exact};
 
 const COLUMNS: &str = "model | mse x | mse momentum | mse group | max x | max momentum | max group | unsolved | paper's mse";

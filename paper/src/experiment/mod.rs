@@ -2,16 +2,12 @@
 
 mod hamilton_jacobi;
 mod learning;
-mod options;
 mod poisson;
 mod reduction_error;
 mod series;
 mod type_two;
 
-pub use options::Options;
-
-use crate::outcome::{Fallible, Report};
-use options::CHECKPOINT;
+use crate::outcome::{CHECKPOINT, Fallible, Options, Report};
 
 type Run = fn(&Options) -> Fallible<Report>;
 

@@ -12,8 +12,7 @@ use coadjoint_learn::truth::{
 use coadjoint_learn::{Generating, MomentumFunction, Scaled, drifts, evaluate_momenta};
 use nalgebra::Vector3;
 
-use super::Options;
-use crate::outcome::{Curve, Fallible, Report, Table, row};
+use crate::outcome::{Curve, Fallible, Options, Report, Table, row};
 use crate::state::{Errors, START, State, exact_momenta, momenta};
 
 /// Step, samples, and the paper's mean squared and largest errors.

@@ -5,8 +5,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use super::Options;
-use crate::outcome::{Curve, Fallible, Report, Table, row};
+use crate::outcome::{Curve, Fallible, Options, Report, Table, row};
 
 pub fn run(options: &Options) -> Fallible<Report> {
     let mut report = options.report("reduction-error");

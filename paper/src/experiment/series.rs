@@ -6,8 +6,7 @@ use coadjoint_learn::truth::Separable;
 use coadjoint_program::Program;
 use serde_json::Value;
 
-use super::Options;
-use crate::outcome::{Curve, Fallible, Report, Table, row};
+use crate::outcome::{Curve, Fallible, Options, Report, Table, row};
 use crate::state::{Errors, RIGID_BODY, START, State, Steps, exact, exact_phases, largest, rk45};
 
 /// The simulation figure: K = 3, 5, 7, momentum against RK45, distance over time.

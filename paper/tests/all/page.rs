@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
 use coadjoint_draw::run::{Picture, Run, Series};
-use coadjoint_paper::experiment::{EXPERIMENTS, Options, run};
-use coadjoint_paper::outcome::Report;
+use coadjoint_paper::experiment::{EXPERIMENTS, run};
+use coadjoint_paper::outcome::{Options, Report};
 use coadjoint_paper::page::{page, sections};
 use coadjoint_paper::text::figures;
 
