@@ -44,10 +44,13 @@ const KEPT: usize = 7;
 /// The most of these that serve steps longer than ½ in h|Ω|, over which rates vary too much.
 const KEPT_LONG: usize = 5;
 
-/// The largest share of the highest polynomial in the velocity up to which steps are accepted, by the number of nodes. Of
-/// 18 000 random steps each on so(3)\* and se(3)\*, h|Ω| up to 3, the worst below it erred relatively by 0.5, 0.2, 5e-3, and
-/// with four nodes and more by 2e-4.
-const LARGEST_TAIL: [f64; MAX_NODES] = [0.2, 0.2, 0.05, 1e-2, 1e-2, 1e-2, 1e-2, 1e-2];
+/// The largest share of the highest polynomial in the velocity up to which steps with two nodes and more are accepted, by
+/// the number of nodes; with one node the largest product of [`Collocation::bend`].
+const LARGEST_TAIL: [f64; MAX_NODES] = [0.08, 0.3, 0.08, 1e-2, 1e-2, 1e-2, 1e-2, 1e-2];
+
+/// The largest highest polynomial in the force, relative to the momentum: where it is larger, as where momenta grow along
+/// the step on a group that is not compact, a velocity that is resolved does not tell that the step is.
+const LARGEST_FORCE: f64 = 0.3;
 
 /// Steps of size h of the flow of H(t, μ), by collocation at `M` nodes (1 to 8): order 2M.
 ///
@@ -234,27 +237,43 @@ where
         if extent.is_nan() || extent > 1.0 {
             return Err(StepError::OutsideChart { extent: extent.simd_sqrt(), at });
         }
-        let tail = self.tail(mu, &attempt.rates);
         let limit = LARGEST_TAIL[M - 1];
-        match tail <= limit {
+        let [tail, force] = match M {
+            1 => [self.bend(mu, attempt), 0.0],
+            _ => self.tails(mu, &attempt.rates),
+        };
+        if tail.is_nan() || tail > limit {
+            return Err(StepError::Unresolved { tail, limit, at });
+        }
+        match force <= LARGEST_FORCE {
             true => Ok(()),
-            false => Err(StepError::Unresolved { tail, limit, at }),
+            false => Err(StepError::Unresolved { tail: force, limit: LARGEST_FORCE, at }),
         }
     }
 
-    /// The share of the highest polynomial through the nodes in the velocity; with one node, which has but one, the force
-    /// in its place.
-    fn tail(&self, mu: &G::Vector, rates: &Rates<G::Vector, M>) -> f64 {
+    /// The highest polynomials through two nodes and more: of the velocity, as a share of it, and of the force, times the
+    /// step and relative to the momentum.
+    fn tails(&self, mu: &G::Vector, rates: &Rates<G::Vector, M>) -> [f64; 2] {
         let dim = mu.dim();
-        let size = |rows| largest::<G::Vector, M>(dim, rows);
-        let (part, whole) = match M {
-            1 => (size(&rates.p), mu.largest_entry()),
-            _ => {
-                let part: G::Vector = total(dim, &Self::NODES.highest, &rates.x);
-                (part.largest_entry(), size(&rates.x))
-            }
-        };
-        if part == 0.0 { 0.0 } else { part / whole }
+        let [x, p] = [&rates.x, &rates.p].map(|rows| {
+            let part: G::Vector = total(dim, &Self::NODES.highest, rows);
+            part.largest_entry()
+        });
+        let share = |part, whole| if part == 0.0 { 0.0 } else { part / whole };
+        [share(x, largest::<G::Vector, M>(dim, &rates.x)), share(p, mu.largest_entry())]
+    }
+
+    /// The error of a step with one node, about, which has no polynomial to show it: the product of its velocity, of its
+    /// force f relative to the momentum, and of what the force changes: the velocity, by the gain of the equations, and
+    /// the momentum, by f. All are times the step, so this is of third order.
+    fn bend(&self, mu: &G::Vector, attempt: &Attempt<G::Vector, M>) -> f64 {
+        let size = |rows| largest::<G::Vector, M>(mu.dim(), rows);
+        let force = size(&attempt.rates.p);
+        if force == 0.0 {
+            return 0.0;
+        }
+        let force = force / mu.largest_entry();
+        force * size(&attempt.rates.x) * (attempt.gain + force)
     }
 
     /// The error of a gradient that is not finite at a node.

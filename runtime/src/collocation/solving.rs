@@ -38,6 +38,9 @@ pub(super) struct Attempt<V: Coordinates<f64>, const M: usize> {
     pub sweeps: u32,
     /// The change by the last sweep, relative to the momentum.
     pub residual: f64,
+    /// With one node, by how much a change of the momentum in the middle changes that which follows from it, to first
+    /// order: a sum of rows; 1 where there is no linear model.
+    pub gain: f64,
     pub ending: Ending<V>,
 }
 
@@ -101,7 +104,8 @@ where
             }
             before = residual;
         };
-        Attempt { rates, x, sweeps, residual, ending }
+        let gain = model.filter(|_| M == 1).map_or(1.0, |model| model.gain(self.group));
+        Attempt { rates, x, sweeps, residual, gain, ending }
     }
 
     /// The rates that follow from others with the momentum `p` in the middle.
@@ -114,7 +118,7 @@ where
         rates: &Rates<G::Vector, M>,
         p: &G::Vector,
     ) -> Result<Rates<G::Vector, M>, (f64, G::Vector)> {
-        let (nodes, degree, dim) = (&Self::NODES, 2 * M - 2, p.dim());
+        let (nodes, degree, dim) = (&Self::NODES, degree(M), p.dim());
         let x = mixed(&G::Vector::zeros(dim), &nodes.matrix, &rates.x);
         let p = mixed(p, &nodes.matrix, &rates.p);
         let mu = self.group.node_momenta::<M>(&x, &p, degree);
@@ -161,7 +165,27 @@ where
     }
 }
 
+/// The degree of charts by series: the orders of a step, and that of the force at its middle, which a step with one node
+/// is judged by.
+fn degree(nodes: usize) -> usize {
+    (2 * nodes - 2).max(1)
+}
+
 impl<V: Coordinates<f64>, const M: usize> Model<'_, V, M> {
+    /// The largest sum of a row of h·H″·∂P/∂x, where P = μ + ½ad\*_x μ to first order.
+    fn gain<G: LieGroup<Scalar = f64, Vector = V>>(&self, group: &G) -> f64 {
+        let dim = self.p.dim();
+        let mut rows = V::zeros(dim);
+        for j in 0..dim {
+            let turned = group.ad_star(&V::unit(dim, j), &self.p);
+            for i in 0..dim {
+                let entry: f64 = (0..dim).map(|k| self.hessian[(i, k)] * turned[k]).sum();
+                rows[i] += 0.5 * entry.abs();
+            }
+        }
+        rows.largest_entry()
+    }
+
     /// The change of the rates in the next sweep that follows from this one, to first order in it and in the step.
     #[inline(always)]
     fn change<G>(&self, group: &G, rates: &Rates<V, M>, change: &Rates<V, M>) -> Rates<V, M>

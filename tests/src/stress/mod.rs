@@ -11,6 +11,7 @@ mod random;
 mod runtime;
 mod verdict;
 
+pub use collocation::Drawn;
 pub use random::Random;
 pub use verdict::{Tally, Wrong, report, times};
 

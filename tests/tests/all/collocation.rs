@@ -8,7 +8,7 @@ use coadjoint::groups::{
 use coadjoint::{LieGroup, Phase, SE3, SO3, StepError};
 use coadjoint_tests::bridge::matrix_group;
 use coadjoint_tests::energies::{Any, Driven, Root, SIX, Six, Spin, THREE, Top};
-use coadjoint_tests::stress::Random;
+use coadjoint_tests::stress::{Drawn, Random};
 use nalgebra::{DVector, Vector3, Vector6};
 
 /// The momentum after steps from the time 0.1.
@@ -321,6 +321,48 @@ fn refused_steps_say_why_and_leave_the_state() {
     assert!(error.asks_for_smaller_step(), "{error}");
     let invalid = Collocation::<_, _, 4>::new(SO3::new(), Root, 0.0).map(|_| ());
     assert_eq!(invalid, Err(StepError::InvalidStep { step: 0.0 }));
+}
+
+/// Whether the first step with `M` nodes on SL(2, ℝ) is refused because its nodes do not resolve it. The form is given by
+/// its entries 01, 02 and 12.
+fn unresolved<const M: usize>(
+    [h, a, b, c]: [f64; 4],
+    root: [f64; 3],
+    form: [f64; 3],
+    linear: [f64; 3],
+) -> bool {
+    let [xy, xz, yz] = form;
+    let form = vec![vec![0.0, xy, xz], vec![xy, 0.0, yz], vec![xz, yz, 0.0]];
+    let energy = Drawn { root: root.to_vec(), form, linear: linear.to_vec() };
+    let mut step = Collocation::<_, _, M>::new(SL2::new(), energy, h).unwrap();
+    let mut state = Phase::<SL2>::at_identity([a, b, c]);
+    matches!(step.advance(&mut state, 0.0), Err(StepError::Unresolved { .. }))
+}
+
+#[test]
+fn steps_far_from_the_flow_are_refused() {
+    // One node, in a chart by series: its force is of the first power of x. Off by 1.6 times the momentum.
+    assert!(unresolved::<1>(
+        [0.847, 4.039, 2.3204, -1.3407],
+        [0.6059, 1.2243, 1.2932],
+        [-0.2169, 0.0906, -0.1112],
+        [0.0573, -0.294, -0.2719],
+    ));
+    // One node, near a steady motion that is not stable: a small force that a large Hessian makes a large change of the
+    // velocity. Off by 2.7.
+    assert!(unresolved::<1>(
+        [1.8214, 0.0, 2.5636, 0.0],
+        [1.3013, 0.3396, 0.9825],
+        [0.239, -0.2068, -0.1856],
+        [-0.2883, -0.2694, -0.009],
+    ));
+    // Three nodes, momenta that grow along the step: the velocity is resolved, the force is not. Off by 0.034.
+    assert!(unresolved::<3>(
+        [2.584, 0.1795, -0.0994, 0.0],
+        [1.1365, 0.2741, 1.3801],
+        [0.2208, 0.0513, 0.0429],
+        [-0.0352, 0.2732, 0.3139],
+    ));
 }
 
 #[test]
