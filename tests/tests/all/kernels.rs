@@ -1,4 +1,4 @@
-//! Steps as programs make the runtime's steps, to rounding, on every group and chart; lanes have the bits of scalars.
+//! Steps as programs make the runtime's steps, to rounding, on every group and chart.
 #![allow(clippy::unwrap_used)]
 
 use coadjoint::generating::PolynomialFunction;
@@ -12,7 +12,7 @@ use coadjoint_codegen::lie;
 use coadjoint_codegen::problem::Solver;
 use coadjoint_codegen::step::Step;
 use coadjoint_codegen::system::{Options, read};
-use coadjoint_program::{Stepper, WIDTH};
+use coadjoint_program::Stepper;
 use coadjoint_tests::bridge::{matrix_group, series_function};
 use coadjoint_tests::kernels::{SYSTEMS, integrator, integrator_by, limited, unlimited};
 use nalgebra::{DMatrix, DVector};
@@ -62,7 +62,6 @@ fn compare<G, C>(
     for (found, wanted) in found.iter().zip(&wanted) {
         assert!((found - wanted).abs() < 1e-13 * largest, "{name}: g {found} for {wanted}");
     }
-    lanes(name, &step, &slots);
     watched(name, &step, &slots, &momentum(n, 0.9), &mu, &g);
 }
 
@@ -81,43 +80,6 @@ fn momenta_beyond_the_radius_are_those_that_the_series_depends_on() {
     assert_eq!(steps(body, 0.9, 1e3), 20);
     assert_eq!(steps(body, 6.0, 1.0), 0);
     assert_eq!(steps(&format!("{body} + a*d/9"), 0.9, 1e3), 0);
-}
-
-/// Lanes have the bits of scalars; one that is refused changes no neighbour.
-fn lanes(name: &str, step: &Step, slots: &[f64]) {
-    let kernel = step.kernel();
-    let (n, m) = (kernel.dim(), kernel.element());
-    let rows = (kernel.programs().matrix.outputs().len() as f64).sqrt() as usize;
-    let identity = step.element_of(DMatrix::<f64>::identity(rows, rows).as_slice());
-    // The last lane is driven far too hard.
-    let start = |lane: usize| match lane {
-        7 => momentum(n, 1e8),
-        lane => momentum(n, 0.2 + 0.1 * lane as f64),
-    };
-    let (mut g, mut mu) = (vec![0.0; m * WIDTH], vec![0.0; n * WIDTH]);
-    for lane in 0..WIDTH {
-        for i in 0..m {
-            g[i * WIDTH + lane] = identity[i];
-        }
-        for i in 0..n {
-            mu[i * WIDTH + lane] = start(lane)[i];
-        }
-    }
-    let mut live = [true; WIDTH];
-    live[3] = false;
-    let made = kernel.advance_lanes(slots, &mut g, &mut mu, 300, live);
-    for lane in 0..WIDTH {
-        let (mut own_g, mut own_mu) = (identity.clone(), start(lane));
-        let steps = if live[lane] { 300 } else { 0 };
-        let outcome = kernel.advance(slots, &mut own_g, &mut own_mu, steps);
-        assert_eq!(made[lane], outcome.steps, "{name}, lane {lane}");
-        for (i, value) in own_g.iter().enumerate() {
-            assert_eq!(value.to_bits(), g[i * WIDTH + lane].to_bits(), "{name}, lane {lane}");
-        }
-        for (i, value) in own_mu.iter().enumerate() {
-            assert_eq!(value.to_bits(), mu[i * WIDTH + lane].to_bits(), "{name}, lane {lane}");
-        }
-    }
 }
 
 /// Energy and Casimirs at the end are what they were.
