@@ -18,17 +18,13 @@ pub(crate) enum CliError {
     /// A file that cannot be read.
     #[error("cannot read {}: {source}", .path.display())]
     Read {
-        /// The file.
         path: PathBuf,
-        /// Why.
         source: std::io::Error,
     },
     /// A file that cannot be written.
     #[error("cannot write {}: {source}", .path.display())]
     Write {
-        /// The file.
         path: PathBuf,
-        /// Why.
         source: std::io::Error,
     },
     /// Nobody reads the records any more, which is no failure.
@@ -46,9 +42,7 @@ pub(crate) enum CliError {
         .list.as_ref().map(|list| format!("; {} says why", list.display())).unwrap_or_default()
     )]
     Rows {
-        /// How many.
         failed: u64,
-        /// The list of reasons.
         list: Option<PathBuf>,
     },
     /// Nothing can be said of some rows; what was found has been printed.

@@ -13,7 +13,7 @@ use std::path::Path;
 
 use coadjoint_codegen::system::Parameters;
 use coadjoint_program::{Precision, WIDTH};
-use coadjoint_run::ensemble::{Asked, Attitude, Course, Engine, How, Known, Shape, Use, in_lanes};
+use coadjoint_run::ensemble::{Attitude, Course, Engine, How, Known, Shape, Use, in_lanes};
 use coadjoint_run::simulate::Times;
 use coadjoint_run::{Derived, learned};
 
@@ -72,7 +72,7 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let derived = Derived::of_file(path, in_lanes(system)?)?;
     let facts = derived.facts();
     let precision = options.precision;
-    let device = options.device.map(|device| Asked { device, precision });
+    let device = options.device.map(|device| (device, precision));
     // Little is left of what a device makes.
     let work = if device.is_some() { 0.0 } else { work(options, facts.algebra.dim(), steps) };
     let how = How { backend: options.backend, work, device };

@@ -25,8 +25,6 @@ pub(crate) struct Trajectory {
     /// The method.
     pub label: String,
     pub header: Header,
-    /// K; `None` for a method beside ours.
-    pub truncation: Option<usize>,
     /// Names of the momentum's coordinates.
     pub coordinates: Vec<String>,
     /// A bounded choice of the moments of the run, the start first and the end last; empty where no picture is
@@ -102,7 +100,6 @@ pub(crate) fn keep(
     Ok(Trajectory {
         label,
         header,
-        truncation: None,
         coordinates: coordinates.to_vec(),
         samples: samples.map(Samples::finish).unwrap_or_default(),
         announcement: settings.setup.schedule.announcement(),

@@ -13,7 +13,7 @@ mod target;
 
 use std::path::Path;
 
-use coadjoint_codegen::smooth::{Facts, Hamiltonian};
+use coadjoint_codegen::smooth::Hamiltonian;
 use coadjoint_codegen::system::{Parameters, Run, Units};
 use coadjoint_learn::ModelFile;
 use coadjoint_run::simulate::{Schedule, Setup, Sink, run_model};
@@ -99,11 +99,10 @@ fn runs(
         let system = Derived::of_file(path, system)?;
         drop(phase);
         let header = Header::new(&settings, &system);
-        let Facts { coordinates, truncation, .. } = system.facts();
+        let coordinates = system.facts().coordinates;
         let label = system.label();
         let drive = |sink: &mut dyn Sink| coadjoint_run::simulate::run(&system, setup, sink);
-        let made = keep(&settings, label, header.clone(), coordinates, drive)?;
-        runs.push(Trajectory { truncation: Some(truncation), ..made });
+        runs.push(keep(&settings, label, header.clone(), coordinates, drive)?);
         // The rival knows no truncation: once is enough.
         if options.compare.is_some() && runs.len() == 1 {
             runs.insert(0, rival::rk45(&system, &settings, header, options.compare_tolerance)?);

@@ -30,7 +30,8 @@ pub(crate) fn draw(
 /// Group, chart, K, step and duration, and what else is said of a run in its label.
 fn settings(runs: &[Trajectory], units: &Units) -> Vec<String> {
     let unit = units.time.as_ref().map(|unit| format!(" {unit}")).unwrap_or_default();
-    let ours = || runs.iter().filter(|run| run.truncation.is_some());
+    // Methods beside ours have none.
+    let ours = || runs.iter().filter(|run| run.header.get("truncation").is_some());
     let Some(first) = ours().next() else { return Vec::new() };
     let said = |name| first.header.text(name);
     let all = |text: fn(&Trajectory) -> String| {

@@ -87,7 +87,6 @@ pub(crate) fn rk45(
     Ok(Trajectory {
         header: header.only(&KNOWN).with("method", json!(name)),
         label: name,
-        truncation: None,
         coordinates: facts.coordinates.to_vec(),
         samples: if settings.sampled { samples.finish() } else { Vec::new() },
         announcement: None,

@@ -45,16 +45,10 @@ fn momentum_casimirs_and_energy_are_kept() {
 fn the_order_is_that_of_the_truncation() {
     let folder = Folder::with(FAST_BODY);
     let end = |step: f64| -> Vec<f64> {
-        let report = report_of(&folder, &format!("--time 8 --step {step}"));
-        let end = report["momentum"].as_array().unwrap();
-        end.iter().map(|value| value.as_f64().unwrap()).collect()
+        numbers(&report_of(&folder, &format!("--time 8 --step {step}"))["momentum"])
     };
     let exact = end(0.1);
-    let error = |step| -> f64 {
-        let end = end(step);
-        end.iter().zip(&exact).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
-    };
-    let order = (error(1.6) / error(0.8)).log2();
+    let order = (distance(&end(1.6), &exact) / distance(&end(0.8), &exact)).log2();
     assert!((order - 8.0).abs() < 1.0, "{order}");
 }
 
@@ -109,10 +103,8 @@ fn rows_of_an_ensemble_are_runs() {
         let found: Vec<f64> = found.split(',').take(3).map(|cell| cell.parse().unwrap()).collect();
         let system = FAST_BODY.replace("I1 = 1.5", &format!("I1 = {inertia}"));
         let system = system.replace("[2.0, 0.5, 1.0]", &format!("{start:?}"));
-        let alone = &report_of(&Folder::with(&system), "--time 20")["momentum"];
-        let alone: Vec<f64> =
-            alone.as_array().unwrap().iter().map(|value| value.as_f64().unwrap()).collect();
-        let apart = found.iter().zip(&alone).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let alone = numbers(&report_of(&Folder::with(&system), "--time 20")["momentum"]);
+        let apart = distance(&found, &alone);
         assert!(apart < 1e-13, "{inertia}: {apart:e}");
     }
 }
@@ -128,8 +120,7 @@ fn laws_hold_and_can_be_broken_by_long_steps() {
         .replace("z^2/2.5)", "z^2/2.5) + 1/sqrt(2 + p^2 + q^2) + exp(-r^2)")
         .replace("[2.0, 0.5, 1.0]", "[0.4, -0.5, 1.1, 0.3, 0.2, -0.9]");
     let folder = Folder::with(&six);
-    let ran = folder.run("check system.toml --format json").ok();
-    let found: Value = serde_json::from_str(&ran.out).unwrap();
+    let found = folder.json("check system.toml");
     let laws = found["laws"].as_array().unwrap();
     assert_eq!(laws.len(), 7, "{found}");
     assert!(laws.iter().all(|law| law["pass"] == true), "{found}");
@@ -142,15 +133,13 @@ fn a_tolerance_chooses_nodes_and_step() {
     let folder = Folder::with(&FAST_BODY.replace("truncation = 7\nstep = 0.2\n", ""));
     let end = |options: &str| -> (u64, Vec<f64>) {
         let report = report_of(&folder, &format!("--time 40 {options}"));
-        let end = report["momentum"].as_array().unwrap();
-        let end = end.iter().map(|value| value.as_f64().unwrap()).collect();
-        (report["truncation"].as_u64().unwrap(), end)
+        (report["truncation"].as_u64().unwrap(), numbers(&report["momentum"]))
     };
     let (_, exact) = end("--step 0.05 --truncation 13");
     let mut before = 0;
     for tolerance in [1e-4, 1e-8, 1e-12] {
         let (truncation, found) = end(&format!("--tolerance {tolerance:e}"));
-        let apart = found.iter().zip(&exact).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let apart = distance(&found, &exact);
         assert!(apart < 2.3 * tolerance, "{tolerance}: {apart:e}");
         assert!(truncation >= before, "{tolerance}: K = {truncation} after {before}");
         before = truncation;
@@ -171,10 +160,7 @@ fn a_polynomial_takes_either_method() {
         (&own["method"], &series["method"]),
         (&json!("collocation, 6 nodes"), &json!("K = 11, exp"))
     );
-    let end = |report: &Value| -> Vec<f64> {
-        report["momentum"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
-    };
-    let apart = end(&own).iter().zip(&end(&series)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let apart = distance(&numbers(&own["momentum"]), &numbers(&series["momentum"]));
     assert!(apart < 1e-12, "{apart:e}");
     let folder = Folder::with(&FAST_BODY.replace("step = 0.2", "step = 0.2\nmethod = \"series\""));
     let reasons = ["`sqrt` of the momentum is not a polynomial", "without `method = \"series\"`"];

@@ -122,15 +122,6 @@ pub struct Watch<'a> {
     pub stop: &'a AtomicBool,
 }
 
-/// The device that is to make the steps.
-#[derive(Clone, Copy, Debug)]
-pub struct Asked {
-    /// Which.
-    pub device: Device,
-    /// Its numbers.
-    pub precision: Precision,
-}
-
 /// The device that makes the steps.
 #[derive(Clone, Debug)]
 pub struct Use {
@@ -159,8 +150,8 @@ pub struct How {
     pub backend: Backend,
     /// About how many steps all lanes together make.
     pub work: f64,
-    /// The device, where one is named.
-    pub device: Option<Asked>,
+    /// The device, where one is named, and its numbers.
+    pub device: Option<(Device, Precision)>,
 }
 
 /// Advances rows of states of one system by steps of one size.
@@ -202,9 +193,10 @@ impl<'a> Engine<'a> {
             (Trajectories::One, how.work * WIDTH as f64)
         };
         let compiled = system.compiled(step, how.backend, work, trajectories)?;
-        let asked = how.device.and_then(|asked| Some((&system.series()?.integrator, asked)));
-        let card =
-            asked.map(|(integrator, asked)| card(integrator, step, asked.device, asked.precision));
+        let asked = how.device.zip(system.series());
+        let card = asked.map(|((device, precision), series)| {
+            card(&series.integrator, step, device, precision)
+        });
         let card = card.transpose()?.map(Mutex::new);
         let motion = system.steps(step, compiled.as_ref());
         let motion = motion.map_err(RunError::at_start)?;

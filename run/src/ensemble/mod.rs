@@ -4,5 +4,5 @@ mod engine;
 mod layout;
 mod march;
 
-pub use engine::{Asked, Course, Drift, Engine, How, Rejected, Rows, Use, Watch, in_lanes};
+pub use engine::{Course, Drift, Engine, How, Rejected, Rows, Use, Watch, in_lanes};
 pub use layout::{Attitude, Found, Known, Layout, Shape};
