@@ -81,9 +81,6 @@ pub(crate) struct LearnOptions {
     /// Widths of the hidden layers of a network
     #[arg(long, value_name = "N", value_delimiter = ',', default_values_t = [500, 500])]
     widths: Vec<usize>,
-    /// The activation of a network, tanh or logistic
-    #[arg(long, default_value = "tanh")]
-    activation: String,
     /// Evaluations of the loss of a network
     #[arg(long, value_name = "N", default_value_t = 1000)]
     evaluations: usize,
@@ -150,7 +147,6 @@ pub(crate) fn run(options: &LearnOptions) -> Result<(), CliError> {
     });
     let network = TrainingOptions {
         widths: options.widths.clone(),
-        activation: options.activation.parse()?,
         checkpoint: checkpoint.clone(),
         ..TrainingOptions::budget(options.evaluations)
     };

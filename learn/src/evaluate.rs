@@ -132,7 +132,7 @@ where
         }
     }
     Figures {
-        samples: pairs.len(),
+        samples: pairs.count(),
         mse: Errors { momentum: momentum.mse(), ..Errors::default() },
         max_error: Errors { momentum: momentum.largest(), ..Errors::default() },
         unsolved,

@@ -214,13 +214,13 @@ pub fn fit_gaussian_process(
     let mean = fit_polynomial(data, MEAN_DEGREE, 0.0)
         .or_else(|_| fit_polynomial(data, MEAN_DEGREE, 1e-8))?;
     let scaling = Scaling::of(&data.p);
-    let dim = data.dim();
+    let dim = data.p.nrows();
     // Residual gradients in normalised momenta: ∂/∂u_j = w_j ∂/∂p_j.
     let thinned = |limit: usize| -> (Vec<f64>, DVector<f64>) {
-        let stride = data.len().div_ceil(limit.max(1)).max(1);
+        let stride = data.count().div_ceil(limit.max(1)).max(1);
         let (mut points, mut targets) = (Vec::new(), Vec::new());
         let mut slope = vec![0.0; dim];
-        for i in (0..data.len()).step_by(stride) {
+        for i in (0..data.count()).step_by(stride) {
             let p = data.p.column(i);
             mean.gradient(p.as_slice(), &mut slope);
             for j in 0..dim {

@@ -247,7 +247,7 @@ impl ModelFile {
 /// # Errors
 /// [`LearnError::NotConverged`] for a number that is not finite.
 pub fn exact_polynomial(model: &PolynomialModel) -> Result<Polynomial, LearnError> {
-    let dim = model.basis().dim();
+    let dim = model.dim();
     let exact = |value: f64| {
         Rational::from_f64(value).ok_or_else(|| {
             LearnError::NotConverged(format!("the coefficient {value} is not a number"))
@@ -256,20 +256,20 @@ pub fn exact_polynomial(model: &PolynomialModel) -> Result<Polynomial, LearnErro
     // T_k(u_i) with u_i = (p_i − centre)/half_width, for every coordinate and degree.
     let mut tables = Vec::with_capacity(dim);
     for i in 0..dim {
-        let width = exact(model.scaling().half_width[i])?;
-        let shift = -exact(model.scaling().centre[i])? / &width;
+        let width = exact(model.scaling.half_width[i])?;
+        let shift = -exact(model.scaling.centre[i])? / &width;
         let slope = Rational::one() / width;
         let variable = Polynomial::variable(dim, i).scale(&slope);
         let u = &variable + &Polynomial::constant(dim, shift);
         let twice = u.scale(&Rational::from_integer(2.into()));
         let mut row = vec![Polynomial::constant(dim, Rational::one()), u];
-        for k in 2..=model.basis().degree() {
+        for k in 2..=model.basis.degree {
             row.push(&(&twice * &row[k - 1]) - &row[k - 2]);
         }
         tables.push(row);
     }
     let mut sum = Polynomial::zero(dim);
-    for (term, coefficient) in model.basis().terms().zip(model.coefficients()) {
+    for (term, coefficient) in model.basis.terms().zip(&model.coefficients) {
         let value = exact(*coefficient)?;
         if value.is_zero() {
             continue;

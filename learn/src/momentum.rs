@@ -47,16 +47,16 @@ where
     G: LieGroup<Scalar = f64>,
     C: Chart<G>,
 {
-    if pairs.is_empty() {
+    if pairs.count() == 0 {
         return Err(LearnError::NoSamples);
     }
-    check(group.dim(), degree, pairs.len())?;
+    check(group.dim(), degree, pairs.count())?;
     let (dim, samples) = pairs.before.shape();
     // p is near both momenta.
     let mut seen = pairs.before.clone().resize_horizontally(2 * samples, 0.0);
     seen.columns_mut(samples, samples).copy_from(&pairs.after);
     let start = PolynomialModel::zero(Basis::new(dim, degree), Scaling::of(&seen));
-    let terms = start.basis().len();
+    let terms = start.basis().terms().len();
 
     let residual = |c: &DVector<f64>| {
         let model = start.clone().with_coefficients(c.as_slice());

@@ -110,7 +110,7 @@ pub struct Summary {
 /// A word about a polynomial with more coefficients than there were rows.
 fn few_rows(model: &Model, rows: usize) -> Option<String> {
     let Model::Polynomial(polynomial) = model else { return None };
-    let coefficients = polynomial.basis().len();
+    let coefficients = polynomial.basis().terms().len();
     (rows < coefficients).then(|| {
         format!(
             "{rows} rows for {coefficients} coefficients: the errors on the training data say little; test the model on \
@@ -222,7 +222,7 @@ impl Visitor for Learner<'_> {
             test,
             drifts: start.and_then(|s| drifts(&map, &group, &s, request.drift_steps, None).ok()),
             dropped: named(&reduction.dropped),
-            warnings: Vec::from_iter(few_rows(&model, data.len())),
+            warnings: Vec::from_iter(few_rows(&model, data.count())),
             unused: recording.unused,
         };
         let training = TrainingRecord { train: Some(train), ..record };
@@ -245,7 +245,7 @@ fn fit(
     progress: &mut dyn FnMut(Progress),
 ) -> Result<(Model, TrainingRecord), LearnError> {
     let mut record =
-        TrainingRecord { samples: data.len(), seed: request.seed, ..TrainingRecord::default() };
+        TrainingRecord { samples: data.count(), seed: request.seed, ..TrainingRecord::default() };
     let selection = || select_polynomial(data, 2..=10, request.seed);
     let model = match request.kind {
         Kind::Polynomial | Kind::Auto if request.degree.is_some() => {
@@ -286,7 +286,7 @@ fn automatic(
 ) -> Result<Model, LearnError> {
     let Selection { model: polynomial, best, candidates } = selection;
     record.candidates = candidates;
-    let held = folds(data.len(), 5, request.seed).into_iter().next().unwrap_or_default();
+    let held = folds(data.count(), 5, request.seed).into_iter().next().unwrap_or_default();
     let ((p, rest_p), (x, rest_x)) = (split(&data.p, &held), split(&data.x, &held));
     let rest = ReducedData { x: rest_x, p: rest_p, momenta: data.momenta.clone() };
     let mut rivals: Vec<(Kind, String, f64)> = Vec::new();
@@ -358,15 +358,15 @@ fn learn_momenta<G: DataGroup, C: Chart<G>>(
         return Err(LearnError::option("model", request.kind.name(), requirement));
     }
     if let Some(degree) = request.degree {
-        check(group.dim(), degree, pairs.len())?;
+        check(group.dim(), degree, pairs.count())?;
     }
     let tolerance = request.tolerance.unwrap_or(TOLERANCE);
     let finite = |m: &DMatrix<f64>, i: usize| m.column(i).iter().all(|v| v.is_finite());
-    let mut bad: Vec<BadRow> = (0..pairs.len())
+    let mut bad: Vec<BadRow> = (0..pairs.count())
         .filter(|&i| !(finite(&pairs.before, i) && finite(&pairs.after, i)))
         .map(|i| BadRow { row: i + 1, problem: RowProblem::NonFinite })
         .collect();
-    let changes: Vec<f64> = (0..pairs.len()).map(|i| casimir_change(group, pairs, i)).collect();
+    let changes: Vec<f64> = (0..pairs.count()).map(|i| casimir_change(group, pairs, i)).collect();
     // A method that is not a Poisson map changes them; the learned map is the nearest that does not.
     if !request.momenta_only {
         let off = changes.iter().enumerate().filter(|(_, change)| **change > tolerance);
@@ -377,18 +377,22 @@ fn learn_momenta<G: DataGroup, C: Chart<G>>(
         bad.sort_by_key(|bad| bad.row);
     }
     if !bad.is_empty() && request.policy == RowPolicy::Refuse {
-        return Err(LearnError::BadRows(BadRows { rows: bad, total: pairs.len(), chart: C::NAME }));
+        return Err(LearnError::BadRows(BadRows {
+            rows: bad,
+            total: pairs.count(),
+            chart: C::NAME,
+        }));
     }
     let kept: Vec<usize> =
-        (0..pairs.len()).filter(|i| bad.iter().all(|b| b.row != i + 1)).collect();
+        (0..pairs.count()).filter(|i| bad.iter().all(|b| b.row != i + 1)).collect();
     let pairs = pairs.select(&kept);
-    if pairs.is_empty() {
+    if pairs.count() == 0 {
         return Err(LearnError::NoSamples);
     }
     // Each pair says as much as an orbit has dimensions.
     let orbit = group.dim() - group.casimir_count().min(group.dim());
     let fit = |degree: usize, pairs: &MomentumPairs| {
-        let (terms, samples) = (Basis::size(group.dim(), degree), pairs.len());
+        let (terms, samples) = (Basis::size(group.dim(), degree), pairs.count());
         if orbit * samples < terms {
             return Err(LearnError::NotDetermined { degree, terms, samples, ridge: 0.0 });
         }
@@ -402,9 +406,9 @@ fn learn_momenta<G: DataGroup, C: Chart<G>>(
         (degree, format!("polynomial degree {degree}, as asked; p eliminated"))
     } else {
         // One split: a fifth of the samples is left out.
-        let parts = folds(pairs.len(), 5, request.seed);
+        let parts = folds(pairs.count(), 5, request.seed);
         let held = parts.first().cloned().unwrap_or_default();
-        let rest: Vec<usize> = (0..pairs.len()).filter(|i| !held.contains(i)).collect();
+        let rest: Vec<usize> = (0..pairs.count()).filter(|i| !held.contains(i)).collect();
         let (inside, outside) = (pairs.select(&held), pairs.select(&rest));
         for degree in 2..=6 {
             if Basis::size(group.dim(), degree) > 300 {
@@ -436,7 +440,7 @@ fn learn_momenta<G: DataGroup, C: Chart<G>>(
     let train = figures(&model, &pairs);
     let map = Map::<'_, G, C>::new(group.clone(), &model);
     let first = pairs.before.column_iter().next().map(|mu| mu.iter().copied().collect());
-    let mut warnings = Vec::from_iter(few_rows(&model, pairs.len()));
+    let mut warnings = Vec::from_iter(few_rows(&model, pairs.count()));
     let largest = changes.iter().copied().fold(0.0, f64::max);
     if largest > tolerance {
         warnings.push(format!(
@@ -456,7 +460,7 @@ fn learn_momenta<G: DataGroup, C: Chart<G>>(
         unused: Vec::new(),
     };
     let training = TrainingRecord {
-        samples: pairs.len(),
+        samples: pairs.count(),
         seed: request.seed,
         choice,
         candidates,

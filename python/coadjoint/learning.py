@@ -298,7 +298,6 @@ def learn(
     start: Numbers | None = None,
     seed: int = 0,
     widths: Sequence[int] = (500, 500),
-    activation: str = "tanh",
     evaluations: int = 1000,
     drift_steps: int = 1000,
     progress: bool | Progress | None = None,
@@ -336,7 +335,6 @@ def learn(
         "start": None if start is None else [float(x) for x in _momentum(start, "start")],
         "seed": count(seed, "seed"),
         "widths": [count(width, "widths") for width in listed(widths, "widths")],
-        "activation": text(activation, "activation"),
         "evaluations": count(evaluations, "evaluations"),
         "drift_steps": count(drift_steps, "drift_steps"),
     }

@@ -42,7 +42,6 @@ pub struct Settings {
     start: Option<Vec<f64>>,
     seed: u64,
     widths: Vec<usize>,
-    activation: String,
     evaluations: usize,
     drift_steps: usize,
 }
@@ -64,8 +63,6 @@ impl Settings {
             let what = "there are \"exp\" and \"cayley\"";
             return Err(refused(py, format!("chart=\"{}\": {what}", self.chart)));
         }
-        let activation = self.activation.parse();
-        let activation = activation.map_err(|error| raised(py, &RunError::Learn(error)))?;
         let group = match &self.algebra {
             Some(text) => read_group("group", text).map_err(|error| raised(py, &error))?,
             None => self.group.into(),
@@ -84,7 +81,6 @@ impl Settings {
             seed: self.seed,
             network: TrainingOptions {
                 widths: self.widths,
-                activation,
                 ..TrainingOptions::budget(self.evaluations)
             },
             drift_steps: self.drift_steps,
@@ -92,9 +88,8 @@ impl Settings {
     }
 }
 
-fn columns(named: Named<'_>) -> Result<table::Table, RunError> {
-    let own = named.into_iter().map(|(name, values)| (name, values.as_array().to_vec()));
-    Ok(table::Table::of_columns(Path::new("the data"), own.collect())?)
+fn columns(named: Named<'_>) -> Vec<(String, Vec<f64>)> {
+    named.into_iter().map(|(name, values)| (name, values.as_array().to_vec())).collect()
 }
 
 /// Learns a map from columns: the model as text, and a summary as JSON.
@@ -107,14 +102,14 @@ pub fn learn<'py>(
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<(String, String)> {
     let request = settings.request(py)?;
-    let data = columns(data).map_err(|error| raised(py, &error))?;
-    let test = test.map(columns).transpose().map_err(|error| raised(py, &error))?;
+    let (data, test) = (columns(data), test.map(columns));
     let made = work(py, progress.as_ref(), move |control| -> Result<_, RunError> {
         let mut told = |Progress { step, total, .. }: Progress| {
             control.total.store(total as u64, Ordering::Relaxed);
             control.done.store(step as u64, Ordering::Relaxed);
         };
-        let source = Source::Tables(data, test);
+        let table = |columns| table::Table::of_columns(Path::new("the data"), columns);
+        let source = Source::Tables(table(data)?, test.map(table).transpose()?);
         let (file, summary) = coadjoint_learn::learn(&request, source, &mut told)?;
         let unwritten = |error: &dyn std::fmt::Display| RunError::Option(error.to_string());
         let text = file.text().map_err(|error| unwritten(&error))?;

@@ -173,7 +173,7 @@ impl Recording {
             }
         };
         let (mut pairs, mut bad) = (Vec::new(), Vec::new());
-        for i in 0..self.momenta.len() {
+        for i in 0..self.momenta.count() {
             let (mu, mu_next) = (self.momenta.before.column(i), self.momenta.after.column(i));
             let row = i + 1;
             if !mu.iter().chain(mu_next.iter()).all(|v| v.is_finite()) {

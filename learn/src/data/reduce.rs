@@ -22,13 +22,8 @@ pub struct MomentumPairs {
 
 impl MomentumPairs {
     /// N, the number of samples.
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.before.ncols()
-    }
-
-    /// Whether there are no samples.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
     }
 
     /// The samples with the numbers given.
@@ -54,18 +49,8 @@ pub struct ReducedData {
 
 impl ReducedData {
     /// N, the number of samples.
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.p.ncols()
-    }
-
-    /// Whether there are no samples.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// n, the dimension of the group.
-    pub fn dim(&self) -> usize {
-        self.p.nrows()
     }
 
     /// The samples with the numbers given.
@@ -293,7 +278,7 @@ fn increments(
 ) -> Option<Vec<PolynomialModel>> {
     let (dim, samples) = before.shape();
     let model = PolynomialModel::zero(Basis::new(dim, degree), Scaling::of(before));
-    let terms = model.basis().len();
+    let terms = model.basis().terms().len();
     let mut matrix = DMatrix::from_element(samples, terms + 1, 1.0);
     let mut row = vec![0.0; terms];
     for (i, mu) in before.column_iter().enumerate() {

@@ -3,14 +3,31 @@
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
-use super::options::Activation;
 use crate::function::MomentumFunction;
 use crate::polynomial::Scaling;
+
+/// The activation σ = tanh by `libm`, which has the same bits on every machine. 1e-16 off near zero: a network needs
+/// absolute accuracy only. A network of logistic functions is one of these with other weights: 1/(1 + e⁻ᶻ) = ½ + ½ tanh ½z.
+#[inline(always)]
+fn activation(z: f64) -> f64 {
+    1.0 - 2.0 / (libm::exp(2.0 * z) + 1.0)
+}
+
+/// The derivative σ′, given the value a.
+#[inline(always)]
+pub(super) fn slope(a: f64) -> f64 {
+    1.0 - a * a
+}
+
+/// The second derivative σ″, given the value a.
+#[inline(always)]
+pub(super) fn bend(a: f64) -> f64 {
+    -2.0 * a * (1.0 - a * a)
+}
 
 /// The hidden layers and the last weights of N.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Layers {
-    pub(super) activation: Activation,
     pub(super) hidden: Vec<Hidden>,
     pub(super) last: DVector<f64>,
 }
@@ -34,12 +51,7 @@ pub(super) struct Passes {
 
 impl Layers {
     /// The network of unknowns in a row: per hidden layer W column by column, and b; then the last weights.
-    pub(super) fn of(
-        unknowns: &[f64],
-        mut inputs: usize,
-        widths: &[usize],
-        activation: Activation,
-    ) -> Self {
+    pub(super) fn of(unknowns: &[f64], mut inputs: usize, widths: &[usize]) -> Self {
         let mut rest = unknowns;
         let mut hidden = Vec::with_capacity(widths.len());
         for &width in widths {
@@ -50,7 +62,7 @@ impl Layers {
             hidden.push(Hidden { matrix, transpose, biases });
             (inputs, rest) = (width, after);
         }
-        Self { activation, hidden, last: DVector::from_column_slice(rest) }
+        Self { hidden, last: DVector::from_column_slice(rest) }
     }
 
     /// The outputs of the hidden layers.
@@ -60,7 +72,7 @@ impl Layers {
             let mut z = matrix * values.last().unwrap_or(points);
             for mut column in z.column_iter_mut() {
                 let pairs = column.iter_mut().zip(biases);
-                pairs.for_each(|(z, b)| *z = self.activation.value(*z + b));
+                pairs.for_each(|(z, b)| *z = activation(*z + b));
             }
             values.push(z);
         }
@@ -73,7 +85,7 @@ impl Layers {
         let mut above = DMatrix::from_fn(self.last.len(), points.ncols(), |i, _| self.last[i]);
         let (mut by_value, mut by_sum) = (Vec::new(), Vec::new());
         for (Hidden { transpose, .. }, value) in self.hidden.iter().zip(&values).rev() {
-            let inner = above.zip_map(value, |b, a| b * self.activation.slope(a));
+            let inner = above.zip_map(value, |b, a| b * slope(a));
             let below = transpose * &inner;
             by_value.push(std::mem::replace(&mut above, below));
             by_sum.push(inner);
@@ -104,6 +116,13 @@ pub struct DenseNetwork {
     scale: f64,
 }
 
+/// The one activation that files name.
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Activation {
+    Tanh,
+}
+
 /// The form on disk.
 #[derive(Serialize, Deserialize)]
 struct Stored {
@@ -123,7 +142,7 @@ impl From<DenseNetwork> for Stored {
             biases: biases.as_slice().to_vec(),
         };
         let hidden = layers.hidden.iter().map(layer).collect();
-        let (activation, output) = (layers.activation, layers.last.as_slice().to_vec());
+        let (activation, output) = (Activation::Tanh, layers.last.as_slice().to_vec());
         Self { activation, scaling, mean, scale, hidden, output }
     }
 }
@@ -132,9 +151,9 @@ impl TryFrom<Stored> for DenseNetwork {
     type Error = String;
 
     fn try_from(stored: Stored) -> Result<Self, String> {
-        let Stored { activation, scaling, mean, scale, hidden, output } = stored;
+        let Stored { scaling, mean, scale, hidden, output, .. } = stored;
         let mut width = scaling.centre.len();
-        let mut layers = Layers { activation, hidden: Vec::new(), last: output.into() };
+        let mut layers = Layers { hidden: Vec::new(), last: output.into() };
         for (number, Layer { inputs, weights, biases }) in hidden.into_iter().enumerate() {
             if inputs != width || weights.len() != width * biases.len() {
                 return Err(format!("layer {} must take {width} inputs", number + 1));
@@ -213,14 +232,14 @@ impl MomentumFunction for DenseNetwork {
         let mut moved = Vec::with_capacity(layers.hidden.len());
         for (layer, value) in layers.hidden.iter().zip(&passes.values) {
             let z = &layer.matrix * &tangent;
-            tangent = times(z.clone(), &value.map(|a| layers.activation.slope(a)));
+            tangent = times(z.clone(), &value.map(|a| slope(a)));
             moved.push(z);
         }
         let mut change = DMatrix::zeros(layers.last.len(), dim);
         for (k, layer) in layers.hidden.iter().enumerate().rev() {
             let (value, by_value) = (&passes.values[k], &passes.by_value[k]);
-            let bend = value.zip_map(by_value, |a, by| layers.activation.bend(a) * by);
-            let slope = value.map(|a| layers.activation.slope(a));
+            let bend = value.zip_map(by_value, |a, by| bend(a) * by);
+            let slope = value.map(|a| slope(a));
             change = &layer.transpose * (times(change, &slope) + times(moved[k].clone(), &bend));
         }
         let width = &self.scaling.half_width;

@@ -14,7 +14,7 @@ use descent::minimise;
 use slope::SlopeFit;
 
 pub use dense::DenseNetwork;
-pub use options::{Activation, Progress, TrainingOptions};
+pub use options::{Progress, TrainingOptions};
 
 /// Fits f = mean·p + scale·N(u) to the gradients of a function at points, a sample per column:
 /// min Σ|gᵢ − ∂f/∂p(pᵢ)|² with inputs and targets normalised. Returns the network and the loss after every evaluation.
@@ -51,7 +51,7 @@ pub fn fit_network(
         let u = DMatrix::from_fn(points.nrows(), points.ncols(), |j, i| {
             scaling.normalise(j, points[(j, i)])
         });
-        SlopeFit::new((&options.widths, options.activation), &u, &(weighted(gradients) / scale))
+        SlopeFit::new(&options.widths, &u, &(weighted(gradients) / scale))
     };
     let train = fit(points, gradients);
     let watched = validation.map(|(points, gradients)| fit(points, gradients));

@@ -11,8 +11,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use super::dense::{Hidden, Layers, Passes};
-use super::options::Activation;
+use super::dense::{Hidden, Layers, Passes, bend, slope};
 
 /// Samples of a piece. More would leave threads idle on a few hundred samples, fewer make products of matrices slower.
 const PIECE: usize = 64;
@@ -21,24 +20,19 @@ const PIECE: usize = 64;
 pub(super) struct SlopeFit {
     inputs: usize,
     widths: Vec<usize>,
-    activation: Activation,
     /// Points, and the slopes wanted there, a sample per column.
     pieces: Vec<(DMatrix<f64>, DMatrix<f64>)>,
 }
 
 impl SlopeFit {
-    pub(super) fn new(
-        (widths, activation): (&[usize], Activation),
-        points: &DMatrix<f64>,
-        slopes: &DMatrix<f64>,
-    ) -> Self {
+    pub(super) fn new(widths: &[usize], points: &DMatrix<f64>, slopes: &DMatrix<f64>) -> Self {
         let piece = |from| {
             let count = PIECE.min(points.ncols() - from);
             let cut = |m: &DMatrix<f64>| m.columns(from, count).into_owned();
             (cut(points), cut(slopes))
         };
         let pieces = (0..points.ncols()).step_by(PIECE).map(piece).collect();
-        Self { inputs: points.nrows(), widths: widths.to_vec(), activation, pieces }
+        Self { inputs: points.nrows(), widths: widths.to_vec(), pieces }
     }
 
     /// First weights, drawn uniformly: in the first layer from ±1/inputs, with biases from ±1, so that inputs in [−1, 1]
@@ -66,7 +60,7 @@ impl SlopeFit {
 
     /// The network of a row of unknowns.
     pub(super) fn layers(&self, unknowns: &[f64]) -> Layers {
-        Layers::of(unknowns, self.inputs, &self.widths, self.activation)
+        Layers::of(unknowns, self.inputs, &self.widths)
     }
 
     /// The mean squared misfit and its derivative.
@@ -93,7 +87,7 @@ impl SlopeFit {
 
 /// Half the derivative of the sum of the squares of `miss` in the unknowns.
 fn half_gradient(
-    Layers { activation, hidden, .. }: &Layers,
+    Layers { hidden, .. }: &Layers,
     points: &DMatrix<f64>,
     Passes { values, by_value, by_sum, .. }: &Passes,
     miss: DMatrix<f64>,
@@ -104,9 +98,9 @@ fn half_gradient(
     for (k, Hidden { matrix, .. }) in hidden.iter().enumerate() {
         by_matrices.push(&by_sum[k] * by_below.transpose());
         let by_inner = matrix * by_below;
-        let bent = by_inner.zip_map(&values[k], |by, a| by * activation.bend(a));
+        let bent = by_inner.zip_map(&values[k], |by, a| by * bend(a));
         by_inputs.push(bent.component_mul(&by_value[k]));
-        by_below = by_inner.zip_map(&values[k], |by, a| by * activation.slope(a));
+        by_below = by_inner.zip_map(&values[k], |by, a| by * slope(a));
     }
     // Downwards: through σ and σ′ to Z_k, and in W_k and b_k of Z_k = W_k A_{k−1} + b_k.
     let mut from_above: Option<DMatrix<f64>> = None;
@@ -114,7 +108,7 @@ fn half_gradient(
     let layers = hidden.iter().zip(by_matrices).zip(by_inputs).enumerate().rev();
     for (k, ((Hidden { transpose, .. }, mut by_matrix), mut by_input)) in layers {
         if let Some(above) = from_above {
-            by_input += above.zip_map(&values[k], |by, a| by * activation.slope(a));
+            by_input += above.zip_map(&values[k], |by, a| by * slope(a));
         }
         let below = if k == 0 { points } else { &values[k - 1] };
         by_matrix.gemm(1.0, &by_input, &below.transpose(), 1.0);
@@ -131,13 +125,12 @@ mod tests {
 
     #[test]
     fn the_gradient_agrees_with_differences() {
-        use Activation::{Logistic, Tanh};
-        for (activation, widths) in [(Tanh, &[7][..]), (Tanh, &[6, 5]), (Logistic, &[4, 6, 5])] {
+        for widths in [&[7][..], &[6, 5], &[4, 6, 5]] {
             let wave = |seed: f64, count| {
                 DMatrix::from_fn(3, count, |i, j| (seed + 1.7 * i as f64 + 0.9 * j as f64).sin())
             };
             // More than one piece.
-            let fit = SlopeFit::new((widths, activation), &wave(0.3, 270), &wave(1.1, 270));
+            let fit = SlopeFit::new(widths, &wave(0.3, 270), &wave(1.1, 270));
             let mut flat = fit.draw(3);
             // Biases too.
             flat.iter_mut().enumerate().for_each(|(i, w)| *w += 0.1 * (i as f64).sin());

@@ -24,7 +24,7 @@ fn gradient_problem(
     gradients: &DMatrix<f64>,
 ) -> Reduced {
     let (dim, samples) = points.shape();
-    let terms = model.basis().len();
+    let terms = model.basis().terms().len();
     let mut matrix = DMatrix::zeros(dim * samples, terms);
     let mut row = vec![0.0; terms * dim];
     for (i, point) in points.column_iter().enumerate() {
@@ -56,7 +56,7 @@ pub fn fit_gradients(
     let (dim, samples) = points.shape();
     Basis::check_fit(dim, degree, samples)?;
     let model = PolynomialModel::zero(Basis::new(dim, degree), Scaling::of(points));
-    let terms = model.basis().len();
+    let terms = model.basis().terms().len();
     let coefficients = gradient_problem(&model, points, gradients)
         .solve(ridge)
         .ok_or(LearnError::NotDetermined { degree, terms, samples, ridge })?;

@@ -49,7 +49,8 @@ const LARGEST_FIT: usize = 1 << 27;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Basis {
     dim: usize,
-    degree: usize,
+    /// The total degree.
+    pub(crate) degree: usize,
     /// Exponents of all terms, `dim` per term.
     exponents: Vec<u8>,
 }
@@ -111,28 +112,8 @@ impl Basis {
         Ok(())
     }
 
-    /// The number of basis functions.
-    pub fn len(&self) -> usize {
-        self.exponents.len() / self.dim.max(1)
-    }
-
-    /// Whether there is no basis function (degree 0).
-    pub fn is_empty(&self) -> bool {
-        self.exponents.is_empty()
-    }
-
-    /// The number of coordinates.
-    pub fn dim(&self) -> usize {
-        self.dim
-    }
-
-    /// The total degree.
-    pub fn degree(&self) -> usize {
-        self.degree
-    }
-
     /// The Chebyshev indices of every basis function, in order.
-    pub fn terms(&self) -> impl Iterator<Item = &[u8]> {
+    pub fn terms(&self) -> impl ExactSizeIterator<Item = &[u8]> {
         self.exponents.chunks_exact(self.dim.max(1))
     }
 
@@ -204,9 +185,10 @@ impl Tables {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Stored", into = "Stored")]
 pub struct PolynomialModel {
-    basis: Basis,
-    scaling: Scaling,
-    coefficients: Vec<f64>,
+    pub(crate) basis: Basis,
+    pub(crate) scaling: Scaling,
+    /// The coefficients c_k, in the order of [`Basis::terms`].
+    pub(crate) coefficients: Vec<f64>,
 }
 
 /// The form on disk: the basis follows from dimension and degree.
@@ -220,7 +202,7 @@ struct Stored {
 impl From<PolynomialModel> for Stored {
     fn from(model: PolynomialModel) -> Self {
         Self {
-            degree: model.basis.degree(),
+            degree: model.basis.degree,
             scaling: model.scaling,
             coefficients: model.coefficients,
         }
@@ -260,7 +242,7 @@ impl TryFrom<Stored> for PolynomialModel {
 impl PolynomialModel {
     /// The zero polynomial in `basis`.
     pub fn zero(basis: Basis, scaling: Scaling) -> Self {
-        let coefficients = vec![0.0; basis.len()];
+        let coefficients = vec![0.0; basis.terms().len()];
         Self { basis, scaling, coefficients }
     }
 
@@ -277,20 +259,10 @@ impl PolynomialModel {
         &self.basis
     }
 
-    /// The normalisation of the inputs.
-    pub fn scaling(&self) -> &Scaling {
-        &self.scaling
-    }
-
-    /// The coefficients c_k, in the order of [`Basis::terms`].
-    pub fn coefficients(&self) -> &[f64] {
-        &self.coefficients
-    }
-
     /// ∂φ_k/∂p_j at `p` for every basis function: `row[k·n + j]`, `row` of length len·n.
     pub fn basis_gradients(&self, p: &[f64], row: &mut [f64]) {
         let tables = self.tables(p);
-        for (term, out) in self.basis.terms().zip(row.chunks_exact_mut(self.basis.dim())) {
+        for (term, out) in self.basis.terms().zip(row.chunks_exact_mut(self.basis.dim)) {
             for (j, entry) in out.iter_mut().enumerate() {
                 *entry = tables.product(term, [j, usize::MAX]) / self.scaling.half_width[j];
             }
@@ -312,7 +284,7 @@ impl PolynomialModel {
 
 impl MomentumFunction for PolynomialModel {
     fn dim(&self) -> usize {
-        self.basis.dim()
+        self.basis.dim
     }
 
     fn value(&self, p: &[f64]) -> f64 {
@@ -334,7 +306,7 @@ impl MomentumFunction for PolynomialModel {
 
     fn gradient_and_hessian(&self, p: &[f64], gradient: &mut [f64], hessian: &mut [f64]) {
         self.gradient(p, gradient);
-        let (tables, dim) = (self.tables(p), self.basis.dim());
+        let (tables, dim) = (self.tables(p), self.basis.dim);
         let width = &self.scaling.half_width;
         hessian.fill(0.0);
         for (term, c) in self.basis.terms().zip(&self.coefficients) {
@@ -361,7 +333,7 @@ mod tests {
     fn counts_are_binomial() {
         for (dim, degree, expected) in [(3, 6, 83), (3, 8, 164), (6, 4, 209), (1, 5, 5)] {
             assert_eq!(Basis::size(dim, degree), expected);
-            assert_eq!(Basis::new(dim, degree).len(), expected);
+            assert_eq!(Basis::new(dim, degree).terms().len(), expected);
         }
     }
 

@@ -67,7 +67,7 @@ fn files_read_back_what_was_written() {
 fn both_formulas_for_the_canonical_momentum_agree() {
     use coadjoint::groups::Chart;
     let data = load(&csv("formulas.csv", &csv_of(&SO3::new(), &pairs(0.1, 20)))).unwrap().data;
-    for i in 0..data.len() {
+    for i in 0..data.count() {
         let column = |m: &nalgebra::DMatrix<f64>| nalgebra::Vector3::from_fn(|r, _| m[(r, i)]);
         let p = Exponential.pull_back(&SO3::new(), &column(&data.x), &column(&data.momenta.before));
         assert!((p - column(&data.p)).norm() < 1e-13);
@@ -104,7 +104,7 @@ fn npz_and_npy_hold_the_same_data() {
     archive.finish().unwrap();
     let (a, b) = (load(&npy).unwrap(), load(&npz).unwrap());
     assert_eq!(a, b);
-    assert_eq!(a.data.len(), 5);
+    assert_eq!(a.data.count(), 5);
     assert_eq!(a.data.momenta.before[(1, 2)], pairs[2].before.momentum.y);
 }
 
@@ -213,7 +213,7 @@ fn other_columns_are_left_alone() {
     let header = "when,mu_1,mu_2,mu_3,mu_next_1,mu_next_2,mu_next_3,q_w,q_x,q_y,q_z,q_next_w,\
                   q_next_x,q_next_y,q_next_z,note";
     let text = format!("{header}\n2026-01-01T00:00Z,1,2,3,1,2,3,1,0,0,0,1,0,0,0,ok\n");
-    assert_eq!(load(&csv("more.csv", &text)).unwrap().data.len(), 1);
+    assert_eq!(load(&csv("more.csv", &text)).unwrap().data.count(), 1);
 }
 
 #[test]
@@ -233,8 +233,8 @@ fn data_beyond_the_cayley_fold_are_named_and_the_exponential_chart_suggested() {
     assert!(message.contains("beyond the fold") && message.contains("exponential chart"));
     let dropped = reduce::<SO3, Cayley>(&SO3::new(), &pairs, TOLERANCE, RowPolicy::Drop);
     let dropped = dropped.unwrap();
-    assert!(!dropped.dropped.is_empty() && dropped.data.len() + dropped.dropped.len() == 100);
-    for i in 0..dropped.data.len() {
+    assert!(!dropped.dropped.is_empty() && dropped.data.count() + dropped.dropped.len() == 100);
+    for i in 0..dropped.data.count() {
         assert!(2.0 * (0.5 * dropped.data.x.column(i).norm()).atan() < 1.3066);
     }
     reduce::<SO3, Exponential>(&SO3::new(), &pairs, TOLERANCE, RowPolicy::Refuse).unwrap();

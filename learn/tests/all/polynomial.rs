@@ -19,11 +19,11 @@ fn reduced<C: Chart<SO3>>(count: usize, seed: u64, noise: f64) -> ReducedData {
 fn error(model: &impl MomentumFunction, data: &ReducedData) -> f64 {
     let mut x = [0.0; 3];
     let mut sum = 0.0;
-    for i in 0..data.len() {
+    for i in 0..data.count() {
         model.gradient(data.p.column(i).as_slice(), &mut x);
         sum += (0..3).map(|j| (x[j] - data.x[(j, i)]).powi(2)).sum::<f64>();
     }
-    sum / (3 * data.len()) as f64
+    sum / (3 * data.count()) as f64
 }
 
 /// Bounds for 500 samples at Δt = 0.1: degree 6 ≤ 5e-12, degree 8 ≤ 1e-14. The Cayley

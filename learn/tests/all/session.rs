@@ -59,7 +59,7 @@ fn any_group_of_the_catalogue_in_either_chart() {
 #[test]
 fn the_exact_monomial_form_is_the_model() {
     let basis = Basis::new(3, 4);
-    let coefficients: Vec<f64> = (0..basis.len()).map(|k| (k as f64 * 0.7).sin()).collect();
+    let coefficients: Vec<f64> = (0..basis.terms().len()).map(|k| (k as f64 * 0.7).sin()).collect();
     let scaling = Scaling { centre: vec![0.3, -0.1, 0.7], half_width: vec![2.0, 1.5, 0.9] };
     let model = PolynomialModel::zero(basis, scaling).with_coefficients(&coefficients);
     let exact = exact_polynomial(&model).unwrap();

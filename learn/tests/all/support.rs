@@ -77,11 +77,11 @@ fn scaling(dim: usize) -> Scaling {
 
 pub fn random_polynomial(dim: usize, rng: &mut ChaCha8Rng) -> PolynomialModel {
     let basis = Basis::new(dim, 4);
-    let coefficients = draw(rng, basis.len(), 0.1 / dim as f64);
+    let coefficients = draw(rng, basis.terms().len(), 0.1 / dim as f64);
     PolynomialModel::zero(basis, scaling(dim)).with_coefficients(&coefficients)
 }
 
-pub fn random_network(dim: usize, activation: &str, rng: &mut ChaCha8Rng) -> DenseNetwork {
+pub fn random_network(dim: usize, rng: &mut ChaCha8Rng) -> DenseNetwork {
     let mut layer = |inputs: usize, outputs: usize| {
         let weights = draw(rng, inputs * outputs, 0.5);
         json!({ "inputs": inputs, "weights": weights, "biases": draw(rng, outputs, 0.5) })
@@ -89,7 +89,7 @@ pub fn random_network(dim: usize, activation: &str, rng: &mut ChaCha8Rng) -> Den
     let hidden = [layer(dim, 20), layer(20, 10)];
     let (mean, output) = (draw(rng, dim, 0.3), draw(rng, 10, 0.5));
     let network = json!({
-        "activation": activation, "scaling": scaling(dim), "mean": mean, "scale": 0.4,
+        "activation": "tanh", "scaling": scaling(dim), "mean": mean, "scale": 0.4,
         "hidden": hidden, "output": output,
     });
     serde_json::from_value(network).unwrap()

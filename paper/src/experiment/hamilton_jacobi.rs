@@ -33,7 +33,8 @@ fn solve(
     let scaling = Scaling { centre: vec![0.0; 3], half_width: vec![1.0; 3] };
     let model = PolynomialModel::zero(Basis::new(3, degree), scaling);
     // The basis lacks the constant, which does not matter to x = ∂S/∂p but does to ∂S/∂t.
-    let (terms, unknowns) = (model.basis().len(), powers.len() * (model.basis().len() + 1));
+    let terms = model.basis().terms().len();
+    let unknowns = powers.len() * (terms + 1);
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let mut draw = || rng.random::<f64>();
     // At each sample p and the rows by which the unknowns make ∂S/∂t and the three coordinates of x = ∂S/∂p.

@@ -279,7 +279,7 @@ pub fn noise(options: &Options) -> Fallible<Report> {
         eprintln!("  {label}");
         let reduction = reduced(&pairs.into())?;
         let (data, dropped) = (&reduction.data, reduction.dropped.len());
-        let count = data.len();
+        let count = data.count();
         let title = format!(
             "trained {label} on {count} samples ({dropped} rows dropped), Δt = {step}; 100 noise-free tests"
         );
