@@ -2,15 +2,14 @@
 
 use std::collections::BTreeSet;
 
+use coadjoint_codegen::emit;
 use proc_macro2::{Ident, TokenStream};
 use quote::{ToTokens, quote};
 use syn::{FnArg, ItemFn, Pat};
 
-use coadjoint_codegen::emit;
-
-use crate::arguments::{self, Arguments};
+use crate::arguments::{self, Arguments, help_without_runtime};
+use crate::fallback;
 use crate::generate::Generate;
-use crate::{dependency, fallback};
 
 /// The function itself, followed by what is generated for it, or by the errors and a stand-in, whose `new` takes the
 /// argument `first` before the parameters.
@@ -34,7 +33,7 @@ pub(crate) fn expand(
     };
     if krate.is_none()
         && error.is_none()
-        && let Some(help) = dependency::help()
+        && let Some(help) = help_without_runtime()
     {
         // Without the runtime not even a stand-in compiles.
         let error = syn::Error::new(proc_macro2::Span::call_site(), help).into_compile_error();

@@ -5,7 +5,6 @@
 //! `coadjoint-codegen`.
 
 mod arguments;
-mod dependency;
 mod expansion;
 mod fallback;
 mod generate;

@@ -13,8 +13,9 @@ pub use crate::group::element_error::ElementError;
 #[cfg(feature = "alloc")]
 pub use crate::group::product::DirectProduct;
 pub use crate::group::product::{Power, Product};
+pub use crate::group::so3::{Quaternions, SO3, SU2};
 pub use crate::group::{CayleyGroup, FixedDimension, LieGroup, Rows};
-pub use crate::group::{se2::SE2, se3::SE3, so3::SO3, su2::SU2};
+pub use crate::group::{se2::SE2, se3::SE3};
 pub use crate::linear::coordinates::Coordinates;
 pub use crate::table::{
     Aff1, Aff1Algebra, BasisEntry, CasimirTerm, CayleyAlgebra, Heisenberg, HeisenbergAlgebra,

@@ -201,4 +201,4 @@ pub use group::LieGroup;
 pub use group::phase::Phase;
 pub use group::se3::SE3;
 pub use group::so3::SO3;
-pub use number::scalar::Scalar;
+pub use number::Scalar;

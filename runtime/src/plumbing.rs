@@ -6,10 +6,10 @@ use crate::collocation::Undefined;
 use crate::error::StepError;
 use crate::generating::ScalarOf;
 use crate::group::phase::Phase;
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 use crate::solve::Integrator;
 
-pub use crate::number::program::{Coefficients, Number, Registers};
+pub use crate::number::{Coefficients, Number, Registers};
 pub use crate::solve::{Driven, DrivenOf, estimated_ratio};
 pub use crate::step::numbers::ElementNumbers;
 pub use crate::step::printed::{

@@ -86,7 +86,7 @@ struct Waves {
     height: f64,
     count: f64,
     solver: Solver,
-    /// What programs have found and refused.
+    /// A step that programs have solved and refused.
     refused: Option<Vector3<f64>>,
 }
 

@@ -243,24 +243,19 @@ fn mistakes_in_tables_are_named() {
 
 #[test]
 fn matrices_outside_a_group_are_refused() {
-    let reflection = |i: usize, j: usize| {
-        if i != j {
-            0.0
-        } else if i == 0 {
-            -1.0
-        } else {
-            1.0
+    // Diagonal, all ones but for the first entry.
+    let diagonal = |first: f64| {
+        move |i: usize, j: usize| {
+            if i != j {
+                0.0
+            } else if i == 0 {
+                first
+            } else {
+                1.0
+            }
         }
     };
-    let stretch = |i: usize, j: usize| {
-        if i != j {
-            0.0
-        } else if i == 0 {
-            2.0
-        } else {
-            1.0
-        }
-    };
+    let (reflection, stretch) = (diagonal(-1.0), diagonal(2.0));
     assert!(matches!(
         SO3::<f64>::new().element_from_matrix(reflection),
         Err(ElementError::Determinant { .. })

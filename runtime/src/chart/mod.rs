@@ -7,7 +7,7 @@ use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd};
 use crate::group::{CayleyGroup, LieGroup};
 use crate::linear::coordinates::Coordinates;
 use crate::linear::{differences, square};
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// The most terms of a series of derivatives: enough for ‖ad_x‖ up to 50.
 const TERMS: usize = 200;

@@ -31,7 +31,7 @@ use crate::error::{Circumstances, StepError, Stopped};
 use crate::group::LieGroup;
 use crate::group::phase::Phase;
 use crate::linear::coordinates::Coordinates;
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 use crate::step::{StepReport, check};
 
 use nodes::Nodes;

@@ -1,7 +1,7 @@
 //! The unknowns of a step: the velocities of the canonical coordinates at its nodes, times the step size.
 
 use crate::linear::coordinates::Coordinates;
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// hẋᵢ and hṗᵢ at the nodes.
 #[derive(Clone, Debug)]

@@ -8,7 +8,7 @@ use super::solving::Attempt;
 use crate::error::StepError;
 use crate::group::LieGroup;
 use crate::linear::coordinates::Coordinates;
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// A solution of the equations of a step at `M` nodes, in the notation of [`collocation`](super).
 #[derive(Clone, Debug)]

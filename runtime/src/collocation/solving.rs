@@ -5,7 +5,7 @@ use super::nodes::Nodes;
 use super::rates::{Rates, add, mixed, total};
 use crate::group::LieGroup;
 use crate::linear::coordinates::Coordinates;
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// Sweeps allowed before the solver gives up.
 const MAX_SWEEPS: u32 = 60;

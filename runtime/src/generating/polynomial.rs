@@ -8,10 +8,11 @@ use coadjoint_program::limits::LARGEST_RATIO;
 use nalgebra::ComplexField;
 
 use crate::chart::Chart;
-use crate::generating::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf, series};
+use crate::generating::series;
+use crate::generating::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf};
 use crate::group::LieGroup;
 use crate::linear::coordinates::Coordinates;
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 use crate::table::TableError;
 
 /// The polynomial S(p) = Σ c·∏ pᵢ^power as a generating function on the group `G` in the chart

@@ -1,6 +1,6 @@
 //! Whether a truncated series means something: the ratio of its last two terms.
 
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// A last term that adds no more than rounding to coordinates of order one: what is left of a term that cancels (of a
 /// spherical body, say) is of this size, and its ratio means nothing.

@@ -2,7 +2,7 @@
 
 use nalgebra::SimdBool;
 
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// Why a matrix is not an element of a group.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

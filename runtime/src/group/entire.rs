@@ -7,7 +7,7 @@
 
 use nalgebra::SimdBool;
 
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// Up to this t (θ = 2.4) the series are exact to rounding.
 const NEAR: f64 = 5.8;

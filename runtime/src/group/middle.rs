@@ -1,7 +1,7 @@
 //! The exponential chart about the middle of a step, by the series J_R = Σ βₖ (ad\*_x)ᵏ p in any algebra.
 
 use crate::linear::coordinates::Coordinates;
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// The powers of x a series may have.
 pub(crate) const MAX_DEGREE: usize = 14;

@@ -9,13 +9,12 @@ pub(crate) mod product;
 pub(crate) mod se2;
 pub(crate) mod se3;
 pub(crate) mod so3;
-pub(crate) mod su2;
 
 use core::fmt::Debug;
 
 use crate::group::element_error::ElementError;
 use crate::linear::coordinates::Coordinates;
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// A Lie group G with a chosen basis e₁…eₙ of its Lie algebra 𝔤.
 ///

@@ -1,6 +1,6 @@
 //! Vectors of space at several nodes, the numbers of all nodes side by side: the compiler makes lanes of them.
 
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// A number at each node.
 pub(super) type Row<T, const M: usize> = [T; M];

@@ -11,7 +11,7 @@ use crate::group::entire::{dexp_inverse, entire};
 use crate::group::nodes::Rows3;
 use crate::group::se3::{Rows6, SE3};
 use crate::group::{CayleyGroup, FixedDimension, LieGroup};
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// The Euclidean group of the plane, elements as a rotation (unit complex number) and a
 /// translation.

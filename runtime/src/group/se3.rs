@@ -11,7 +11,7 @@ use crate::group::so3::{
     SO3, cross, dot, plus, quaternion, rotate_back, rotation_from, scaled, sum,
 };
 use crate::group::{CayleyGroup, FixedDimension, LieGroup};
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// The Euclidean group SE(3), elements as a rotation (unit quaternion) and a translation.
 ///

@@ -1,30 +1,41 @@
-//! SO(3): rotations of space, as unit quaternions.
+//! SO(3), the rotations of space, and SU(2), their double cover, as unit quaternions.
 
 use core::marker::PhantomData;
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, SimdBool, UnitQuaternion, Vector3};
 
-use crate::group::element_error::{ElementError, finite, within};
+use crate::group::element_error::{ElementError, finite, fixed, within};
 use crate::group::entire::{entire, half_angle, log_factor};
 use crate::group::nodes::{self, Row, Rows3};
 use crate::group::{CayleyGroup, FixedDimension, LieGroup};
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// The rotation group SO(3), elements as unit quaternions.
 ///
 /// Basis: the generators of rotations about the three axes, [e₁, e₂] = e₃ and cyclic, so that
 /// [x, y] = x × y, Ad_R x = Rx, Ad\*_R μ = Rμ, ad\*_x μ = μ × x. Casimir: |μ|². Both charts.
+pub type SO3<T = f64> = Quaternions<T, false>;
+
+/// The group SU(2), elements as unit quaternions; q and −q are different here.
+///
+/// Basis: e_k = −iσ_k/2 with the Pauli matrices, so that [e₁, e₂] = e₃ and cyclic, and brackets,
+/// Ad and Ad\* are those of [`SO3`]. Matrices: the complex 2×2 matrix a + ib as the real 4×4
+/// matrix ((a, −b), (b, a)). Casimir: |μ|². Both charts; the Cayley map is that of the 2×2
+/// matrices, which differs from SO(3)'s.
+pub type SU2<T = f64> = Quaternions<T, true>;
+
+/// The groups of unit quaternions: [`SO3`], where q and −q are one element, and [`SU2`], the double cover.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SO3<T = f64>(PhantomData<T>);
+pub struct Quaternions<T, const DOUBLE_COVER: bool>(PhantomData<T>);
 
 // Not derived: that would ask for `T: Default`, which lanes need not have.
-impl<T> Default for SO3<T> {
+impl<T, const DOUBLE_COVER: bool> Default for Quaternions<T, DOUBLE_COVER> {
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl<T> SO3<T> {
+impl<T, const DOUBLE_COVER: bool> Quaternions<T, DOUBLE_COVER> {
     /// The group; there is nothing to choose.
     #[must_use]
     pub const fn new() -> Self {
@@ -32,7 +43,7 @@ impl<T> SO3<T> {
     }
 }
 
-impl<T> FixedDimension for SO3<T> {
+impl<T, const DOUBLE_COVER: bool> FixedDimension for Quaternions<T, DOUBLE_COVER> {
     const DIM: usize = 3;
 }
 
@@ -135,7 +146,40 @@ pub(crate) fn rotation_from<T: Scalar>(
     Ok(UnitQuaternion::new_normalize(q.into_inner()))
 }
 
-impl<T: Scalar> LieGroup for SO3<T> {
+/// Entry (row, column) of the matrix of SU(2).
+fn complex_entry<T: Scalar>(q: &Quaternion<T>, row: usize, column: usize) -> T {
+    // w − i(xσ₁ + yσ₂ + zσ₃): real part ((w, −y), (y, w)), imaginary part ((−z, −x), (−x, z)).
+    let real = [[q.w, -q.j], [q.j, q.w]];
+    let imaginary = [[-q.k, -q.i], [-q.i, q.k]];
+    match (row / 2, column / 2) {
+        (0, 1) => -imaginary[row % 2][column % 2],
+        (1, 0) => imaginary[row % 2][column % 2],
+        _ => real[row % 2][column % 2],
+    }
+}
+
+/// The element of SU(2) whose matrix has these (finite) entries.
+fn complex_from<T: Scalar>(
+    entry: impl Fn(usize, usize) -> T,
+) -> Result<UnitQuaternion<T>, ElementError> {
+    let u = V::new(-entry(2, 1), entry(1, 0), -entry(2, 0));
+    let w = entry(0, 0);
+    let norm = (w * w + dot(&u, &u)).simd_sqrt();
+    let defect = (norm - T::of(1.0)).simd_abs();
+    if !within(defect, T::of(1.0)) {
+        return Err(ElementError::NotOrthogonal { defect: defect.largest_lane() });
+    }
+    let q = quaternion(w / norm, &(u / norm));
+    for row in 0..4 {
+        for column in 0..4 {
+            let expected = complex_entry(q.as_ref(), row, column);
+            fixed(&|i, j| entry(i, j) - expected, (row, column), 0.0)?;
+        }
+    }
+    Ok(q)
+}
+
+impl<T: Scalar, const DOUBLE_COVER: bool> LieGroup for Quaternions<T, DOUBLE_COVER> {
     type Scalar = T;
     type Vector = Vector3<T>;
     type Element = UnitQuaternion<T>;
@@ -176,9 +220,18 @@ impl<T: Scalar> LieGroup for SO3<T> {
         quaternion(cosine, &(x * sine))
     }
 
+    /// The logarithm with |x| ≤ π; of the double cover with |x| < 2π, and `None` at −1, which every direction reaches.
     fn log(&self, g: &Self::Element) -> Option<Self::Vector> {
-        // q and −q are the same rotation; the one with w ≥ 0 has the smaller angle.
         let q = g.as_ref();
+        if DOUBLE_COVER {
+            let u = V::new(q.i, q.j, q.k);
+            let squared = dot(&u, &u);
+            if q.w.simd_lt(T::of(0.0)).any() && squared.simd_le(T::epsilon() * T::epsilon()).any() {
+                return None;
+            }
+            return Some(u * log_factor(q.w, squared));
+        }
+        // q and −q are the same rotation; the one with w ≥ 0 has the smaller angle.
         let sign = T::of(1.0).simd_copysign(q.w);
         let u = V::new(q.i, q.j, q.k) * sign;
         let factor = log_factor(q.w * sign, dot(&u, &u));
@@ -263,10 +316,13 @@ impl<T: Scalar> LieGroup for SO3<T> {
     }
 
     fn matrix_size(&self) -> usize {
-        3
+        if DOUBLE_COVER { 4 } else { 3 }
     }
 
     fn matrix_entry(&self, g: &Self::Element, row: usize, column: usize) -> T {
+        if DOUBLE_COVER {
+            return complex_entry(g.as_ref(), row, column);
+        }
         let mut unit = V::repeat(T::of(0.0));
         unit[column] = T::of(1.0);
         self.coadjoint(g, &unit)[row]
@@ -276,13 +332,20 @@ impl<T: Scalar> LieGroup for SO3<T> {
         &self,
         entry: impl Fn(usize, usize) -> T,
     ) -> Result<Self::Element, ElementError> {
-        finite(3, &entry)?;
-        rotation_from(entry)
+        finite(self.matrix_size(), &entry)?;
+        if DOUBLE_COVER { complex_from(entry) } else { rotation_from(entry) }
     }
 }
 
-impl<T: Scalar> CayleyGroup for SO3<T> {
+impl<T: Scalar, const DOUBLE_COVER: bool> CayleyGroup for Quaternions<T, DOUBLE_COVER> {
     fn cayley(&self, x: &Self::Vector) -> Self::Element {
+        if DOUBLE_COVER {
+            // (1 − a)⁻¹(1 + a) = (1 + a)²/(1 + |a|²) for the pure quaternion a = x/4.
+            let a = x * T::of(0.25);
+            let n = dot(&a, &a);
+            let factor = T::of(1.0) / (T::of(1.0) + n);
+            return quaternion((T::of(1.0) - n) * factor, &(a * (T::of(2.0) * factor)));
+        }
         // The rotation with quaternion (1, x/2)/√(1 + |x|²/4).
         let half = x * T::of(0.5);
         let w = T::of(1.0) / (T::of(1.0) + dot(&half, &half)).simd_sqrt();
@@ -290,10 +353,22 @@ impl<T: Scalar> CayleyGroup for SO3<T> {
     }
 
     fn cayley_extent(&self, x: &Self::Vector) -> T {
+        if DOUBLE_COVER {
+            // Eigenvalues of x are ±i|x|/2.
+            return dot(x, x) * T::of(0.0625);
+        }
         dot(x, x) * T::of(0.25)
     }
 
     fn cayley_inverse(&self, g: &Self::Element) -> Option<Self::Vector> {
+        if DOUBLE_COVER {
+            let q = g.as_ref();
+            let below = T::of(1.0) + q.w;
+            if below.simd_le(T::epsilon()).any() {
+                return None; // −1: cay never reaches it
+            }
+            return Some(V::new(q.i, q.j, q.k) * (T::of(4.0) / below));
+        }
         let q = g.as_ref();
         if q.w.simd_abs().simd_le(T::epsilon()).any() {
             return None; // a half turn: cay never reaches it
@@ -303,6 +378,13 @@ impl<T: Scalar> CayleyGroup for SO3<T> {
     }
 
     fn dcay_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
+        if DOUBLE_COVER {
+            // ((1 − |a|²)μ + 2(a·μ)a + 2 μ×a)/(1 + |a|²)², a = x/4
+            let a = x * T::of(0.25);
+            let n = dot(&a, &a);
+            let (above, below) = (T::of(1.0) - n, T::of(1.0) + n);
+            return (mu * above + (a * dot(&a, mu) + cross(mu, &a)) * T::of(2.0)) / (below * below);
+        }
         // d^R cay_x = (1 + x̂/2)/(1 + |x|²/4); its transpose sends μ to (μ + ½ μ×x)/(1 + |x|²/4).
         let factor = T::of(1.0) / (T::of(1.0) + dot(x, x) * T::of(0.25));
         (mu + cross(mu, x) * T::of(0.5)) * factor

@@ -7,7 +7,7 @@ use super::Lanes;
 use super::registers::Of;
 use crate::error::StepError;
 use crate::group::phase::Phase;
-use crate::number::program::Registers;
+use crate::number::Registers;
 use crate::step::advance_by;
 use crate::step::printed::BLOCK as STEPS_PER_BLOCK;
 

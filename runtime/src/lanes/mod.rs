@@ -8,7 +8,7 @@ mod registers;
 pub use simba::simd::{AutoF64x4 as F64x4, AutoF64x8 as F64x8};
 
 use crate::group::phase::Phase;
-use crate::number::program::Registers;
+use crate::number::Registers;
 use crate::solve::Integrator;
 
 /// An integrator whose steps ensembles make in lanes: what the attribute generates.

@@ -5,7 +5,7 @@ use core::ops::{Add, BitAnd, Div, Mul, Neg, Not, Sub};
 use coadjoint_program::bits::{exponent, power_of_two};
 use pulp::Simd;
 
-use crate::number::program::{Coefficients, Number, Registers};
+use crate::number::{Coefficients, Number, Registers};
 
 /// Several numbers in a register of the instructions `S`; each lane has the bits that a single number would have.
 #[derive(Clone, Copy)]

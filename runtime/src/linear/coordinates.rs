@@ -6,7 +6,7 @@ use core::ops::{Index, IndexMut};
 use nalgebra::{SMatrix, SVector};
 
 use crate::linear::square;
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// Coordinates of an element of 𝔤 (in its basis) or of 𝔤\* (in the dual basis).
 ///

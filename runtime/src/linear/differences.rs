@@ -1,7 +1,7 @@
 //! Derivatives by differences.
 
 use super::coordinates::Coordinates;
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// The third root of rounding, at which the two errors of a central difference balance.
 pub(crate) fn spacing<T: Scalar>() -> T {

@@ -2,7 +2,7 @@
 
 use core::ops::IndexMut;
 
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// The operations of a square matrix that the functions below need.
 pub(crate) trait Square<T>: Clone + IndexMut<(usize, usize), Output = T> {}

@@ -5,7 +5,7 @@ use nalgebra::SimdBool;
 use crate::generating::{GeneratingFunction, ScalarOf, VectorOf};
 use crate::group::LieGroup;
 use crate::linear::coordinates::Coordinates;
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// A step as a method of solution proposes it.
 #[derive(Clone, Debug)]
@@ -14,9 +14,9 @@ pub struct Candidate<V, T> {
     pub x: V,
     /// How far the solution lies from the first guess of p, relative to the largest coordinate of μ.
     pub moved: T,
-    /// What is left of p − (d^R τ_x)ᵀ μ, relative to the largest coordinate of μ.
+    /// The residual p − (d^R τ_x)ᵀ μ, relative to the largest coordinate of μ.
     pub residual: T,
-    /// What is known of folds and forks of the equation at x.
+    /// Whether the equation may have a fold or a fork at x.
     pub branch: Branch,
     /// Newton iterations, or evaluations of the fixed point (in lanes: until the last lane was done).
     pub iterations: u32,

@@ -12,7 +12,7 @@ use super::{Integrator, propose_scaled};
 use crate::chart::Chart;
 use crate::generating::{ScalarOf, VectorOf};
 use crate::linear::coordinates::Coordinates;
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// The first stretch of s, and the longest.
 const LONGEST: f64 = 0.25;

@@ -7,7 +7,7 @@ use super::candidate::{Branch, Candidate, CandidateOf, inverse_scale, rounding};
 use crate::chart::Chart;
 use crate::generating::{GeneratingFunction, ScalarOf, VectorOf};
 use crate::linear::coordinates::Coordinates;
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// Evaluations of the fixed point allowed before the solver gives up.
 const MAX_EVALUATIONS: u32 = 60;

@@ -9,20 +9,18 @@ mod candidate;
 mod continuation;
 mod fixed_point;
 mod newton;
-mod plain;
-mod rate;
-
-pub(crate) use accept::accept;
-pub(crate) use candidate::{Candidate, CandidateOf};
-#[doc(hidden)]
-pub use rate::estimated_ratio;
 
 use crate::chart::Chart;
 use crate::error::StepError;
-use crate::generating::{GeneratingFunction, ScalarOf, VectorOf};
+use crate::generating::{GeneratingFunction, Reversed, ScalarOf, VectorOf};
 use crate::group::LieGroup;
 use crate::group::phase::Phase;
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
+
+pub(crate) use accept::accept;
+#[doc(hidden)]
+pub use accept::estimated_ratio;
+pub(crate) use candidate::{Candidate, CandidateOf};
 
 /// Up to this dimension Newton's method is faster than the fixed point.
 const LARGEST_DENSE: usize = 24;
@@ -97,7 +95,7 @@ pub struct Solution<V, T> {
     pub x: V,
     /// Newton iterations, or evaluations of the fixed point.
     pub iterations: u32,
-    /// What is left of p − (d^R τ_x)ᵀ μ, relative to the largest coordinate of μ.
+    /// The residual p − (d^R τ_x)ᵀ μ, relative to the largest coordinate of μ.
     pub residual: T,
 }
 
@@ -149,3 +147,12 @@ fn propose_scaled<S: Integrator + ?Sized>(
         Solver::FixedPoint => fixed_point::fixed_point(generating, mu, scale, guess),
     }
 }
+
+impl<S: Integrator + ?Sized> Integrator for Reversed<'_, S> {
+    fn solver(&self) -> Solver {
+        self.0.solver()
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl<G: LieGroup, C: Chart<G>> Integrator for crate::generating::PolynomialFunction<G, C> {}

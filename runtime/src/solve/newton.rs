@@ -6,7 +6,7 @@ use super::candidate::{Branch, Candidate, CandidateOf, inverse_scale, rounding};
 use crate::chart::Chart;
 use crate::generating::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf};
 use crate::linear::coordinates::Coordinates;
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// Newton iterations allowed before the solver gives up.
 const MAX_ITERATIONS: u32 = 20;
@@ -78,7 +78,7 @@ fn bends<S: GeneratingFunction + ?Sized>(
     })
 }
 
-/// What 1 − D·Hess S tells, D = ∂p/∂x.
+/// The branch of the solution, as far as 1 − D·Hess S tells, D = ∂p/∂x.
 fn branch<S: GeneratingFunction + ?Sized>(
     dim: usize,
     derivative: &MatrixOf<S>,

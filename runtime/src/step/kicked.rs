@@ -7,7 +7,7 @@ use crate::generating::{ScalarOf, VectorOf};
 use crate::group::LieGroup;
 use crate::group::phase::Phase;
 use crate::linear::coordinates::Coordinates;
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 use crate::solve::Integrator;
 use crate::step::advance;
 

@@ -13,7 +13,7 @@ use crate::generating::{GeneratingFunction, ScalarOf, VectorOf};
 use crate::group::LieGroup;
 use crate::group::phase::Phase;
 use crate::linear::coordinates::Coordinates;
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 use crate::solve::{Candidate, Integrator, accept, propose};
 
 /// How the solve of one step went.

@@ -7,7 +7,7 @@ use nalgebra::{SimdComplexField, SimdPartialOrd};
 use crate::group::LieGroup;
 use crate::group::phase::Phase;
 use crate::linear::coordinates::Coordinates;
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// The largest drifts seen so far, each relative to its scale. NaN where a state was not finite.
 #[derive(Clone, Copy, Debug, PartialEq)]

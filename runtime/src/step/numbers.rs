@@ -7,9 +7,8 @@ use crate::group::LieGroup;
 use crate::group::product::{Power, Product};
 use crate::group::se2::SE2;
 use crate::group::se3::SE3;
-use crate::group::so3::SO3;
-use crate::group::su2::SU2;
-use crate::number::scalar::Scalar;
+use crate::group::so3::Quaternions;
+use crate::number::Scalar;
 use crate::table::{StaticAlgebra, StaticMatrixGroup};
 
 /// A group whose elements the programs of a step read and write as a row of numbers; `coadjoint emit` says which.
@@ -39,26 +38,19 @@ fn read_quaternion<T: Scalar>(n: &[T]) -> UnitQuaternion<T> {
     UnitQuaternion::new_unchecked(Quaternion::new(n[0], n[1], n[2], n[3]))
 }
 
-/// Unit quaternions.
-macro_rules! quaternions {
-    ($($group:ident)*) => {$(
-        impl<T: Scalar> ElementNumbers for $group<T> {
-            const COUNT: usize = 4;
+impl<T: Scalar, const DOUBLE_COVER: bool> ElementNumbers for Quaternions<T, DOUBLE_COVER> {
+    const COUNT: usize = 4;
 
-            #[inline(always)]
-            fn write(g: &Self::Element, numbers: &mut [T]) {
-                write_quaternion(g, numbers);
-            }
+    #[inline(always)]
+    fn write(g: &Self::Element, numbers: &mut [T]) {
+        write_quaternion(g, numbers);
+    }
 
-            #[inline(always)]
-            fn read(numbers: &[T]) -> Self::Element {
-                read_quaternion(numbers)
-            }
-        }
-    )*};
+    #[inline(always)]
+    fn read(numbers: &[T]) -> Self::Element {
+        read_quaternion(numbers)
+    }
 }
-
-quaternions!(SO3 SU2);
 
 impl<T: Scalar> ElementNumbers for SE3<T> {
     const COUNT: usize = 7;

@@ -6,8 +6,7 @@ use nalgebra::SVector;
 
 use crate::group::LieGroup;
 use crate::group::phase::Phase;
-use crate::number::program::{Coefficients, Number, Registers};
-use crate::number::scalar::Scalar;
+use crate::number::{Coefficients, Number, Registers, Scalar};
 use crate::solve::Driven;
 use crate::step::numbers::ElementNumbers;
 

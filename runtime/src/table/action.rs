@@ -10,7 +10,7 @@ use super::group::TableGroup;
 use super::tables::Tables;
 use crate::linear::coordinates::Coordinates;
 use crate::linear::square;
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// Up to this norm of A one Taylor series is used.
 const TAYLOR: f64 = 1.5;

@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 use core::ops::Index;
 
 use super::algebra::{BasisEntry, StructureConstant};
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// Basis vectors that span a nilpotent ideal, as bits. An algebra of more dimensions than bits is not looked at.
 pub(super) const MAX_DIM: usize = 128;

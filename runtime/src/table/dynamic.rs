@@ -14,7 +14,7 @@ use super::group::TableGroup;
 use super::tables::{Tables, monomial};
 use crate::linear::coordinates::Coordinates;
 use crate::linear::square;
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// A matrix group known at run time, coordinates in `DVector<f64>`.
 ///
@@ -550,7 +550,7 @@ impl<const CAYLEY: bool> Tables for DynamicTables<CAYLEY> {
     }
 }
 
-impl super::cayley::CayleyTables for DynamicTables<true> {}
+impl super::group::CayleyTables for DynamicTables<true> {}
 
 #[cfg(test)]
 mod tests {

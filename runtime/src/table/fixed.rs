@@ -10,7 +10,7 @@ use super::domain;
 use super::group::TableGroup;
 use super::tables::{Tables, monomial};
 use crate::group::FixedDimension;
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// A Lie algebra written down in the program, for [`StaticMatrixGroup`]. Generated code implements
 /// it for a marker type.
@@ -158,7 +158,7 @@ impl<A: StaticAlgebra, const N: usize, const D: usize, T: Scalar> Tables
     }
 }
 
-impl<A: CayleyAlgebra, const N: usize, const D: usize, T: Scalar> super::cayley::CayleyTables
+impl<A: CayleyAlgebra, const N: usize, const D: usize, T: Scalar> super::group::CayleyTables
     for StaticTables<A, N, D, T>
 {
 }

@@ -10,7 +10,7 @@ use super::tables::Tables;
 use crate::group::LieGroup;
 use crate::linear::coordinates::Coordinates;
 use crate::linear::square;
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// Square roots taken at most; more than enough for any finite element near which log exists.
 const ROOTS: u32 = 64;

@@ -3,14 +3,12 @@
 mod action;
 mod algebra;
 mod catalogue;
-mod cayley;
 mod domain;
 #[cfg(feature = "alloc")]
 mod dynamic;
 mod fixed;
 mod group;
 mod logarithm;
-mod membership;
 mod tables;
 
 pub use algebra::{BasisEntry, CasimirTerm, StructureConstant};

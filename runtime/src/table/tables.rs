@@ -6,7 +6,7 @@ use super::algebra::Algebra;
 use super::domain;
 use crate::linear::coordinates::Coordinates;
 use crate::linear::square;
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// Matrices of the representation.
 pub type MatrixOf<K> = <<K as Tables>::Column as Coordinates<<K as Tables>::Scalar>>::Matrix;

@@ -8,7 +8,7 @@ use nalgebra::SVector;
 use crate::group::element_error::{ElementError, finite, fixed};
 use crate::group::{CayleyGroup, FixedDimension, LieGroup, Rows};
 use crate::linear::coordinates::Coordinates;
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// The direct product A × B of two groups of fixed dimension, `N` the sum of the dimensions
 /// (checked by the compiler).

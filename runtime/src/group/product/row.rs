@@ -13,7 +13,7 @@ use nalgebra::SVector;
 use crate::group::element_error::{ElementError, finite, fixed};
 use crate::group::{CayleyGroup, FixedDimension, LieGroup, Rows};
 use crate::linear::coordinates::Coordinates;
-use crate::number::scalar::Scalar;
+use crate::number::Scalar;
 
 /// Groups in a row, and how coordinates and elements of their product are stored.
 pub trait Row: Clone + Debug {
