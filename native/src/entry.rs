@@ -31,7 +31,7 @@ pub struct Entry {
 
 impl std::fmt::Debug for Entry {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Entry").field("dim", &self.kernel.dim()).finish_non_exhaustive()
+        f.debug_struct("Entry").field("dim", &self.kernel.dim).finish_non_exhaustive()
     }
 }
 
@@ -42,7 +42,7 @@ impl Entry {
     /// The functions must be compiled from `kernel`, be pure but for the slices they are given, and be valid as long
     /// as `code` is not dropped.
     #[must_use]
-    pub unsafe fn new(
+    pub(crate) unsafe fn new(
         kernel: &Kernel,
         advance: Option<AdvanceFunction>,
         lanes: Option<LanesFunction>,
@@ -55,8 +55,8 @@ impl Entry {
     fn lacks(&self, slots: &[f64], g: &[f64], mu: &[f64], trajectories: usize) -> bool {
         let kernel = &self.kernel;
         slots.len() < kernel.slots()
-            || g.len() < kernel.element() * trajectories
-            || mu.len() < kernel.dim() * trajectories
+            || g.len() < kernel.element * trajectories
+            || mu.len() < kernel.dim * trajectories
     }
 }
 

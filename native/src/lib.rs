@@ -11,6 +11,6 @@ mod error;
 pub mod jit;
 mod library;
 
-pub use c::{COptions, CacheFolder, Native};
+pub use c::{COptions, Native};
 pub use entry::{AdvanceFunction, Entry, LanesFunction};
 pub use error::NativeError;

@@ -33,7 +33,7 @@ pub(crate) fn load(
     let sizes = sizes.map_err(|error| fault(told(&error)))?;
     // SAFETY: the symbol is the address of an array of four numbers, in memory that stays as long as the library.
     let found = unsafe { **sizes };
-    let expected = [ABI, kernel.dim() as u64, kernel.element() as u64, kernel.slots() as u64];
+    let expected = [ABI, kernel.dim as u64, kernel.element as u64, kernel.slots() as u64];
     if found != expected {
         return Err(fault(format!("it has the sizes {found:?}, the step has {expected:?}")));
     }

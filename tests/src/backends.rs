@@ -5,7 +5,7 @@ use std::sync::Arc;
 use coadjoint::groups::MatrixGroup;
 use coadjoint::{LieGroup, Phase};
 use coadjoint_codegen::step::Step;
-use coadjoint_native::{COptions, CacheFolder, Native, NativeError};
+use coadjoint_native::{COptions, Native, NativeError};
 #[cfg(feature = "jit")]
 use coadjoint_program::Trajectories;
 use coadjoint_program::{Kernel, Stepper};
@@ -49,17 +49,14 @@ impl Backend {
     pub fn stepper(self, kernel: &Kernel) -> Option<AnyStepper> {
         match self {
             Self::Interpreter => Some(Arc::new(kernel.clone())),
-            Self::C => {
-                let options = COptions { cache: CacheFolder::None, ..COptions::default() };
-                match Native::by_c(kernel, &options) {
-                    Ok(native) => Some(Arc::new(native.entry)),
-                    Err(NativeError::NoCompiler { .. }) => {
-                        eprintln!("no C compiler: it is left out");
-                        None
-                    }
-                    Err(error) => panic!("{error}"),
+            Self::C => match Native::by_c(kernel, &COptions::default()) {
+                Ok(native) => Some(Arc::new(native.entry)),
+                Err(NativeError::NoCompiler { .. }) => {
+                    eprintln!("no C compiler: it is left out");
+                    None
                 }
-            }
+                Err(error) => panic!("{error}"),
+            },
             #[cfg(feature = "jit")]
             Self::Jit => Some(Arc::new(
                 coadjoint_native::jit::compile(kernel, Trajectories::Both).expect("code"),
@@ -81,7 +78,7 @@ pub fn numbers_of(
 
 /// The matrix, row by row, of an element given by the numbers that the programs have for it.
 pub fn matrix_of(kernel: &Kernel, g: &[f64]) -> Vec<f64> {
-    kernel.programs().matrix.run(g, &[])
+    kernel.programs.matrix.run(g, &[])
 }
 
 /// The state of the runtime that the programs have as these numbers.

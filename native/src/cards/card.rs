@@ -2,21 +2,24 @@
 
 use coadjoint_program::{Kernel, Precision};
 
-use super::device::{Api, Device};
-use super::error::DeviceError;
 use super::machine::{Machine, Opened};
+use crate::cards::{Api, Device, DeviceError};
 
 /// A step compiled for a device, its folded coefficients included.
 pub struct Card {
     pub(crate) machine: Box<dyn Machine>,
-    pub(crate) device: Device,
-    pub(crate) name: String,
-    pub(crate) precision: Precision,
+    /// The device.
+    pub device: Device,
+    /// Its name.
+    pub name: String,
+    /// Whether the device is this machine's processor.
+    pub is_processor: bool,
+    /// The numbers it computes with.
+    pub precision: Precision,
     pub(crate) element: usize,
     pub(crate) dim: usize,
     /// Rows that are tried at once.
     pub(crate) fits: usize,
-    processor: bool,
 }
 
 impl std::fmt::Debug for Card {
@@ -55,38 +58,14 @@ impl Card {
     }
 
     pub(crate) fn of(opened: Opened, device: Device, kernel: &Kernel) -> Self {
-        let Opened { machine, name, processor, memory: (all, one) } = opened;
-        let (precision, element, dim) = (kernel.precision(), kernel.element(), kernel.dim());
+        let Opened { machine, name, processor: is_processor, memory: (all, one) } = opened;
+        let (precision, element, dim) = (kernel.precision(), kernel.element, kernel.dim);
         let bytes = precision.bytes() as u64;
         let longest = bytes * element.max(dim).max(1) as u64;
         let row = bytes * (element + dim) as u64 + 12;
         let fits = (all / row).min(one / longest.max(8)).max(1);
         let fits = usize::try_from(fits).unwrap_or(usize::MAX);
-        Self { machine, device, name, precision, element, dim, fits, processor }
-    }
-
-    /// The device.
-    #[must_use]
-    pub fn device(&self) -> Device {
-        self.device
-    }
-
-    /// Its name.
-    #[must_use]
-    pub fn name(&self) -> &str {
-        &self.name
-    }
-
-    /// Whether the device is this machine's processor.
-    #[must_use]
-    pub fn is_processor(&self) -> bool {
-        self.processor
-    }
-
-    /// The numbers it computes with.
-    #[must_use]
-    pub fn precision(&self) -> Precision {
-        self.precision
+        Self { machine, device, name, is_processor, precision, element, dim, fits }
     }
 
     /// Limits the rows taken at once.

@@ -15,10 +15,9 @@ use cudarc::driver::{
 };
 use cudarc::nvrtc::Ptx;
 
-use super::device::Device;
-use super::error::DeviceError;
 use super::machine::{Array, Call, Fault, Machine, Opened, Room};
 use super::nvrtc;
+use super::{Device, DeviceError};
 
 /// Threads of a block.
 const BLOCK: u32 = 128;

@@ -1,6 +1,6 @@
 //! The interface of a device.
 
-use super::error::DeviceError;
+use crate::cards::DeviceError;
 #[cfg(any(feature = "opencl", feature = "cuda"))]
 pub(crate) use calls::{Call, Fault};
 

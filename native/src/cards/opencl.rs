@@ -27,9 +27,8 @@ use opencl3::platform::get_platforms;
 use opencl3::program::Program;
 use opencl3::types::{CL_BLOCKING, cl_mem};
 
-use super::device::Device;
-use super::error::DeviceError;
 use super::machine::{Array, Call, Fault, Machine, Opened, Room};
+use crate::cards::{Device, DeviceError};
 use crate::error::first_errors;
 
 /// The number of threads is a multiple of this, the number that cards run together.

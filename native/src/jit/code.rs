@@ -8,9 +8,8 @@ use cranelift_codegen::isa::OwnedTargetIsa;
 use cranelift_jit::{JITBuilder, JITModule};
 use cranelift_module::{FuncId, Linkage, Module, ModuleError, ModuleReloc, default_libcall_names};
 
-use super::error::JitError;
-use super::host::Assembled;
 use crate::entry::{AdvanceFunction, Entry, LanesFunction};
+use crate::jit::host::{Assembled, JitError};
 
 /// Executable memory, freed when the last entry to it is dropped.
 struct Code(Mutex<Option<JITModule>>);

@@ -10,10 +10,9 @@ use cranelift_codegen::ir::{
 use cranelift_codegen::isa::TargetFrontendConfig;
 use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext};
 
-use super::coder::{Coder, Form};
-use super::error::JitError;
-use super::frame::Frame;
-use super::steps::Loop;
+use crate::jit::coder::{Coder, Form, Frame};
+use crate::jit::host::JitError;
+use crate::jit::steps::Loop;
 
 /// A function of [`AdvanceFunction`](crate::AdvanceFunction)'s signature, or of
 /// [`LanesFunction`](crate::LanesFunction)'s for pairs.

@@ -6,9 +6,6 @@
 
 mod code;
 mod coder;
-mod error;
-mod evaluate;
-mod frame;
 mod function;
 mod host;
 mod steps;
@@ -16,8 +13,10 @@ mod steps;
 use coadjoint_program::{Kernel, Trajectories};
 
 use crate::Entry;
-use coder::Form;
-pub use error::JitError;
+use crate::jit::coder::Form;
+use crate::jit::host::{assemble, isa};
+
+pub use host::JitError;
 
 /// The kernel's functions that are asked for as machine code for this processor; the interpreter makes the steps
 /// of the other one.
@@ -25,10 +24,10 @@ pub use error::JitError;
 /// # Errors
 /// [`JitError`] where the processor or the kernel has no code.
 pub fn compile(kernel: &Kernel, trajectories: Trajectories) -> Result<Entry, JitError> {
-    let isa = host::isa()?;
+    let isa = isa()?;
     let config = isa.frontend_config();
-    let one = || host::assemble(&isa, function::build(kernel, Form::Number, config)?);
-    let pairs = || host::assemble(&isa, function::build(kernel, Form::Pair, config)?);
+    let one = || assemble(&isa, function::build(kernel, Form::Number, config)?);
+    let pairs = || assemble(&isa, function::build(kernel, Form::Pair, config)?);
     let (advance, lanes) = match trajectories {
         Trajectories::One => (Some(one()?), None),
         Trajectories::Lanes => (None, Some(pairs()?)),

@@ -7,7 +7,7 @@ use cranelift_codegen::ir::types::{F64, I8, I64, I64X2};
 use cranelift_codegen::ir::{InstBuilder, Value};
 use cranelift_frontend::Variable as Register;
 
-use super::coder::{Coder, Form};
+use crate::jit::coder::{Coder, Form};
 
 /// Writes the loop.
 pub(super) struct Loop<'f, 'k> {
@@ -267,7 +267,7 @@ impl<'f, 'k> Loop<'f, 'k> {
             Test::Below(a, most) => (self.get(a), self.whole(most)),
             Test::Right => return self.compare(Variable::Right, FloatCC::Equal, 1.0),
             Test::Open => {
-                let (most, far) = (self.kernel.tolerance(), self.kernel.near());
+                let (most, far) = (self.kernel.tolerance, self.kernel.near);
                 let solved = self.compare(Variable::ResidualBound, FloatCC::LessThanOrEqual, most);
                 let near = self.compare(Variable::Distance, FloatCC::LessThanOrEqual, far);
                 return self.coder.builder.ins().band_not(near, solved);

@@ -4,12 +4,12 @@
 use crate::samples::{Chance, Sample, Seen, Shape, compare};
 use coadjoint_native::Entry;
 #[cfg(unix)]
-use coadjoint_native::{COptions, CacheFolder, Native};
+use coadjoint_native::{COptions, Native};
 use coadjoint_program::{Kernel, Stepper, Trajectories, WIDTH};
 
 #[cfg(unix)]
 fn by_c(kernel: &Kernel, trajectories: Trajectories) -> Entry {
-    let options = COptions { cache: CacheFolder::None, trajectories, ..COptions::default() };
+    let options = COptions { trajectories, ..COptions::default() };
     Native::by_c(kernel, &options).unwrap().entry
 }
 

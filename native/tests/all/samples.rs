@@ -86,11 +86,7 @@ impl Sample {
 
     /// A short one with three coordinates and four numbers in an element.
     pub fn small(seed: u64) -> Self {
-        Self::with_element(seed, 4)
-    }
-
-    pub fn with_element(seed: u64, element: usize) -> Self {
-        let (dim, constants, slots, nodes, corrections) = (3, 1, 5, 20, 5);
+        let (dim, element, constants, slots, nodes, corrections) = (3, 4, 1, 5, 20, 5);
         let (comoving, flows) = (true, 0);
         let shape = Shape { dim, element, constants, slots, nodes, corrections, comoving, flows };
         Self::new(shape, &mut Chance(seed))
@@ -98,7 +94,7 @@ impl Sample {
 }
 
 /// A random graph on the inputs; its nodes, the last of them using most of it.
-fn grow(graph: &mut Graph, shape: Shape, inputs: usize, chance: &mut Chance) -> Vec<Id> {
+fn grow(graph: &Graph, shape: Shape, inputs: usize, chance: &mut Chance) -> Vec<Id> {
     let mut ids: Vec<Id> = (0..inputs).map(|i| graph.input(i)).collect();
     ids.extend((0..shape.slots).map(|i| graph.slot(i)));
     ids.extend([graph.zero(), graph.epsilon()]);
@@ -120,10 +116,7 @@ fn grow(graph: &mut Graph, shape: Shape, inputs: usize, chance: &mut Chance) -> 
             9 => graph.abs(a),
             10 => graph.sqrt(a),
             11 => graph.round(a),
-            12 => {
-                let k = graph.round(b);
-                graph.scale(a, k)
-            }
+            12 => graph.scale(a, graph.round(b)),
             13 => graph.exponent(a),
             _ => graph.select(a, b, c, d),
         });
@@ -132,7 +125,7 @@ fn grow(graph: &mut Graph, shape: Shape, inputs: usize, chance: &mut Chance) -> 
 }
 
 /// Between −2 and 2, and a number whatever a is.
-fn within(graph: &mut Graph, a: Id) -> Id {
+fn within(graph: &Graph, a: Id) -> Id {
     let (low, high) = (graph.constant(-2.0), graph.constant(2.0));
     let below = graph.min(a, high);
     graph.select(low, below, below, low)
@@ -146,24 +139,21 @@ fn random(
     restless: Option<usize>,
     chance: &mut Chance,
 ) -> Program {
-    let mut graph = Graph::new();
-    let ids = grow(&mut graph, shape, inputs, chance);
+    let graph = Graph::new();
+    let ids = grow(&graph, shape, inputs, chance);
     let mut results = Vec::new();
     for _ in 0..outputs {
         let from = ids.len() - 1 - chance.below(ids.len().min(3 * outputs));
         // Now and then the bare value, which may be an input or not a number.
         results.push(match chance.below(8) {
             0 => ids[chance.below(ids.len())],
-            _ => within(&mut graph, ids[from]),
+            _ => within(&graph, ids[from]),
         });
     }
     if let Some(i) = restless {
         let x = graph.input(i);
         let (one, factor) = (graph.constant(1.0), graph.constant(3.99));
-        let rest = graph.sub(one, x);
-        let product = graph.mul(x, rest);
-        let product = graph.mul(factor, product);
-        results[i] = within(&mut graph, product);
+        results[i] = within(&graph, graph.mul(factor, graph.mul(x, graph.sub(one, x))));
     }
     graph.finish(inputs, &results)
 }
@@ -176,8 +166,8 @@ fn rarely_no(
     restless: Option<usize>,
     chance: &mut Chance,
 ) -> Program {
-    let mut graph = Graph::new();
-    let ids = grow(&mut graph, shape, inputs, chance);
+    let graph = Graph::new();
+    let ids = grow(&graph, shape, inputs, chance);
     let one = graph.constant(1.0);
     let mut result = graph.zero();
     for _ in 0..conditions {
@@ -217,7 +207,7 @@ fn lane(list: &[f64], r: usize) -> Vec<f64> {
 /// Compares both functions of an entry with the interpreter on eight drawn states, lanes being live at random.
 pub fn compare(sample: &Sample, entry: &Entry, steps: u64, chance: &mut Chance, seen: &mut Seen) {
     let Sample { kernel, slots } = sample;
-    let [g, mu] = [kernel.element(), kernel.dim()].map(|count| chance.state(count * WIDTH));
+    let [g, mu] = [kernel.element, kernel.dim].map(|count| chance.state(count * WIDTH));
     let live: [bool; WIDTH] = std::array::from_fn(|_| chance.below(5) > 0);
     let (mut g_expected, mut mu_expected) = (g.clone(), mu.clone());
     let (mut g_lanes, mut mu_lanes) = (g.clone(), mu.clone());

@@ -194,9 +194,8 @@ impl<'a> Engine<'a> {
         };
         let compiled = system.compiled(step, how.backend, work, trajectories)?;
         let asked = how.device.zip(system.series());
-        let card = asked.map(|((device, precision), series)| {
-            card(&series.integrator, step, device, precision)
-        });
+        let card = asked
+            .map(|((device, precision), series)| card(&series.integrator, step, device, precision));
         let card = card.transpose()?.map(Mutex::new);
         let motion = system.steps(step, compiled.as_ref());
         let motion = motion.map_err(RunError::at_start)?;
@@ -236,10 +235,10 @@ impl<'a> Engine<'a> {
     pub fn device(&self) -> Option<Use> {
         let card = self.card.as_ref()?.lock().unwrap_or_else(PoisonError::into_inner);
         Some(Use {
-            device: card.device(),
-            name: card.name().to_owned(),
-            precision: card.precision(),
-            processor: card.is_processor(),
+            device: card.device,
+            name: card.name.clone(),
+            precision: card.precision,
+            processor: card.is_processor,
             redone: self.redone.load(Ordering::Relaxed),
         })
     }

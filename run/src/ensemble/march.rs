@@ -135,7 +135,7 @@ impl March<'_> {
         steps: u64,
         told: &dyn Fn(u64),
     ) -> Result<u64, DeviceError> {
-        let single = card.precision() == Precision::Single;
+        let single = card.precision == Precision::Single;
         let settle = |own: &mut Numbers| {
             if single {
                 own.g = self.motion.space().settled(&own.g);

@@ -6,17 +6,15 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use coadjoint_program::{Graph, Kernel, KernelParts, Precision, Programs};
 
-use super::{FEWEST, word};
 use crate::cards::card::Card;
-use crate::cards::device::{Api, Device};
-use crate::cards::error::DeviceError;
 use crate::cards::machine::{Array, Machine, Opened, Room};
-use crate::cards::row::{Refused, Row, Status};
+use crate::cards::piece::{FEWEST, Refused, Row, Status, word};
+use crate::cards::{Api, Device, DeviceError};
 
 /// A step of no meaning with one number in g and one in μ.
 fn kernel() -> Kernel {
     let program = |inputs: usize, outputs: usize| {
-        let mut graph = Graph::new();
+        let graph = Graph::new();
         let ids: Vec<_> = (0..outputs).map(|_| graph.constant(1.0)).collect();
         graph.finish(inputs, &ids)
     };
@@ -181,5 +179,5 @@ fn counts_and_states_that_cannot_be_are_errors() {
     list[2].g.clear();
     let error = card.advance(&mut list, 10, &mut |_, _| {}, &|_| {}).unwrap_err();
     assert_eq!(error, DeviceError::Shape { row: 2, element: 1, dim: 1 });
-    assert_eq!(card.precision(), Precision::Double);
+    assert_eq!(card.precision, Precision::Double);
 }

@@ -1,0 +1,318 @@
+//! Steps compiled by the system's C compiler, in a private folder.
+
+use std::ffi::{OsStr, OsString};
+use std::fs::File;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use coadjoint_program::print::native_unit;
+use coadjoint_program::{Kernel, Trajectories};
+use tempfile::TempDir;
+
+use crate::entry::Entry;
+use crate::error::{NativeError, first_errors};
+use crate::library::load;
+
+/// A step as machine code, and its origin.
+#[derive(Clone, Debug)]
+pub struct Native {
+    /// The step.
+    pub entry: Entry,
+    /// The command of the compiler.
+    pub compiler: String,
+    /// The time until it was ready.
+    pub ready: Duration,
+}
+
+impl Native {
+    /// The step of a kernel, compiled by a C compiler with the machine's own instructions; the bits are those of
+    /// the interpreter.
+    ///
+    /// # Errors
+    /// [`NativeError`] where there is no compiler, it fails, is stopped or does not end in time, no temporary file can be written, or
+    /// the library cannot be loaded.
+    pub fn by_c(kernel: &Kernel, options: &COptions) -> Result<Self, NativeError> {
+        let start = Instant::now();
+        let folder = private_folder()?;
+        let compiler = Compiler::find(options, folder.path())?;
+        let text = native_unit(kernel, options.trajectories);
+        let library = compiler.compile(&text, folder.path())?;
+        let entry = load(kernel, options.trajectories, &library)?;
+        if cfg!(windows) {
+            // A loaded library needs its file no more, except there.
+            let _ = folder.keep();
+        }
+        Ok(Self { entry, compiler: compiler.name(), ready: start.elapsed() })
+    }
+}
+
+/// A folder for this user alone, removed when it is dropped.
+fn private_folder() -> Result<TempDir, NativeError> {
+    tempfile::Builder::new()
+        .prefix("coadjoint-")
+        .tempdir()
+        .map_err(|source| NativeError::Write { path: std::env::temp_dir(), source })
+}
+
+/// A C compiler that answers.
+#[derive(Clone, Debug)]
+struct Compiler {
+    program: OsString,
+    arguments: Vec<OsString>,
+    limit: Duration,
+    stop: Arc<AtomicBool>,
+}
+
+/// The time limit for asking the version.
+const VERSION_LIMIT: Duration = Duration::from_secs(10);
+
+impl Compiler {
+    /// The compiler that was named, or that of the environment variable CC, else the first of `cc`, `gcc` and `clang`
+    /// that answers.
+    fn find(options: &COptions, folder: &Path) -> Result<Self, NativeError> {
+        let named = options.compiler.as_deref();
+        let environment = std::env::var_os("CC").filter(|command| !command.is_empty());
+        if let Some(command) = named.map(OsStr::to_owned).or(environment) {
+            return Self::ask(&command, options, folder);
+        }
+        let candidates = ["cc", "gcc", "clang"];
+        let mut first = None;
+        for candidate in candidates {
+            match Self::ask(OsStr::new(candidate), options, folder) {
+                Ok(compiler) => return Ok(compiler),
+                Err(NativeError::Start { source, .. })
+                    if source.kind() == std::io::ErrorKind::NotFound => {}
+                Err(error) => {
+                    first.get_or_insert(error);
+                }
+            }
+        }
+        Err(first.unwrap_or_else(|| NativeError::NoCompiler { tried: candidates.join(", ") }))
+    }
+
+    /// A command that tells its version. It may have arguments, as in `ccache gcc`.
+    fn ask(command: &OsStr, options: &COptions, folder: &Path) -> Result<Self, NativeError> {
+        let (program, arguments) = split(command);
+        let (limit, stop) = (options.time_limit, options.stop.clone());
+        let compiler = Self { program, arguments, limit, stop };
+        let mut command = compiler.command();
+        command.arg("--version");
+        compiler.run(command, limit.min(VERSION_LIMIT), folder)?;
+        Ok(compiler)
+    }
+
+    /// The name it was called by.
+    fn name(&self) -> String {
+        self.program.to_string_lossy().into_owned()
+    }
+
+    /// The arguments it is given, but those that name files. Nothing may be contracted or reordered; long straight-line
+    /// programs gain nothing from the vectoriser, and operations are in a good order already.
+    fn flags() -> &'static [&'static str] {
+        &[
+            "-std=gnu99",
+            "-O1",
+            #[cfg(any(target_arch = "x86_64", target_arch = "x86"))]
+            "-march=native",
+            #[cfg(target_arch = "aarch64")]
+            "-mcpu=native",
+            "-ffp-contract=off",
+            "-fno-math-errno",
+            "-fno-trapping-math",
+            "-fno-tree-vectorize",
+            "-fno-tree-slp-vectorize",
+            "-fvisibility=hidden",
+            #[cfg(not(windows))]
+            "-fPIC",
+            "-shared",
+            "-w",
+        ]
+    }
+
+    /// Compiles a unit in a folder of its own; the library.
+    fn compile(&self, text: &str, folder: &Path) -> Result<PathBuf, NativeError> {
+        let (unit, library) = (folder.join("step.c"), folder.join(LIBRARY));
+        std::fs::write(&unit, text)
+            .map_err(|source| NativeError::Write { path: unit.clone(), source })?;
+        let mut command = self.command();
+        command.args(Self::flags()).arg("-o").arg(&library).arg(&unit).arg("-lm");
+        // The compiler's own temporary files go with the folder, whatever happens.
+        for variable in ["TMPDIR", "TMP", "TEMP"] {
+            command.env(variable, folder);
+        }
+        self.run(command, self.limit, folder)?;
+        let written =
+            std::fs::metadata(&library).is_ok_and(|data| data.is_file() && data.len() > 0);
+        match written {
+            true => Ok(library),
+            false => Err(NativeError::NoLibrary { compiler: self.name() }),
+        }
+    }
+
+    fn command(&self) -> Command {
+        let mut command = Command::new(&self.program);
+        command.args(&self.arguments).env("LC_ALL", "C");
+        command
+    }
+
+    fn run(&self, mut command: Command, limit: Duration, folder: &Path) -> Result<(), NativeError> {
+        let compiler = self.name();
+        let finished =
+            run(&mut command, limit, &self.stop, folder).map_err(|fault| match fault {
+                Fault::Start(source) => NativeError::Start { compiler: compiler.clone(), source },
+                Fault::Output(source) => NativeError::Write { path: folder.to_owned(), source },
+                Fault::Stopped => NativeError::Stopped { compiler: compiler.clone() },
+                Fault::TimedOut => NativeError::TimedOut {
+                    compiler: compiler.clone(),
+                    seconds: limit.as_secs_f64(),
+                },
+            })?;
+        if finished.status.success() {
+            return Ok(());
+        }
+        let message = first_errors(&format!("{}\n{}", finished.errors, finished.output));
+        Err(NativeError::Failed { compiler, status: finished.status.to_string(), message })
+    }
+}
+
+/// A command and its arguments; a file whose name has spaces is a command as it stands.
+fn split(command: &OsStr) -> (OsString, Vec<OsString>) {
+    let words = command.to_str().filter(|_| !Path::new(command).is_file());
+    let mut words = words.into_iter().flat_map(str::split_whitespace).map(OsString::from);
+    match words.next() {
+        Some(program) => (program, words.collect()),
+        None => (command.to_owned(), Vec::new()),
+    }
+}
+
+/// Why a command has no result.
+#[derive(Debug)]
+enum Fault {
+    /// It could not be started.
+    Start(std::io::Error),
+    /// Its output cannot be kept.
+    Output(std::io::Error),
+    /// It exceeded its time limit; it and the processes it had started were ended.
+    TimedOut,
+    /// It was stopped on request, with the processes it had started.
+    Stopped,
+}
+
+/// How a command ended, and what it wrote to its outputs, the error output last.
+struct Finished {
+    pub status: ExitStatus,
+    pub output: String,
+    pub errors: String,
+}
+
+/// Runs a command until it ends, the time limit passes or `stop` is set. Neither it nor its children outlive this process.
+/// Its outputs go through files in `folder`: a pipe would stay open as long
+/// as anything that the command started.
+fn run(
+    command: &mut Command,
+    limit: Duration,
+    stop: &AtomicBool,
+    folder: &Path,
+) -> Result<Finished, Fault> {
+    let (output, errors) = (folder.join("output"), folder.join("errors"));
+    let create = |path: &Path| File::create(path).map_err(Fault::Output);
+    command.stdin(Stdio::null()).stdout(create(&output)?).stderr(create(&errors)?);
+    #[cfg(unix)]
+    std::os::unix::process::CommandExt::process_group(command, 0);
+    let mut child = command.spawn().map_err(Fault::Start)?;
+    let watcher = Watcher::new(child.id());
+    let status = wait(&mut child, limit, stop);
+    drop(watcher);
+    let status = status?;
+    let read = |path: &Path| {
+        let bytes = std::fs::read(path).map_err(Fault::Output)?;
+        Ok(String::from_utf8_lossy(&bytes).into_owned())
+    };
+    Ok(Finished { status, output: read(&output)?, errors: read(&errors)? })
+}
+
+/// A shell that ends a group of processes when this process ends, in whatever way: its input is closed then.
+struct Watcher(Child);
+
+impl Watcher {
+    /// The watcher of the group that this process leads; `None` where there are no groups or no shell.
+    fn new(leader: u32) -> Option<Self> {
+        if !cfg!(unix) {
+            return None;
+        }
+        let mut command = Command::new("sh");
+        command.args(["-c", "read _; kill -KILL \"-$1\"", "sh", &leader.to_string()]);
+        command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null());
+        // Signals that a terminal sends to this process must not end the watcher.
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        command.spawn().ok().map(Self)
+    }
+}
+
+impl Drop for Watcher {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+fn wait(child: &mut Child, limit: Duration, stop: &AtomicBool) -> Result<ExitStatus, Fault> {
+    let start = Instant::now();
+    let mut pause = Duration::from_micros(500);
+    loop {
+        if let Some(status) = child.try_wait().map_err(Fault::Start)? {
+            return Ok(status);
+        }
+        let left = limit.saturating_sub(start.elapsed());
+        let stopped = stop.load(Ordering::Relaxed);
+        if left.is_zero() || stopped {
+            end(child);
+            return Err(if stopped { Fault::Stopped } else { Fault::TimedOut });
+        }
+        std::thread::sleep(pause.min(left));
+        pause = (pause * 3 / 2).min(Duration::from_millis(5));
+    }
+}
+
+/// Ends a command and, where there are process groups, all that it started.
+fn end(child: &mut Child) {
+    #[cfg(unix)]
+    if let Some(group) = i32::try_from(child.id()).ok().and_then(rustix::process::Pid::from_raw) {
+        // The group may be gone already, which is as well.
+        let _ = rustix::process::kill_process_group(group, rustix::process::Signal::KILL);
+    }
+    let _ = child.kill();
+    let _ = child.wait();
+}
+
+/// The name of the library that a compiler writes.
+const LIBRARY: &str = if cfg!(windows) { "step.dll" } else { "step.so" };
+
+/// How a step is compiled by a C compiler.
+#[derive(Clone, Debug)]
+pub struct COptions {
+    /// The compiler's command; without one that of the environment variable CC, else the first of `cc`, `gcc` and
+    /// `clang` that answers.
+    pub compiler: Option<OsString>,
+    /// The time it may take.
+    pub time_limit: Duration,
+    /// The trajectories compiled for: either half takes about half the time.
+    pub trajectories: Trajectories,
+    /// Set it from another thread to end the compiler and all that it has started.
+    pub stop: Arc<AtomicBool>,
+}
+
+impl Default for COptions {
+    fn default() -> Self {
+        Self {
+            compiler: None,
+            time_limit: Duration::from_secs(120),
+            trajectories: Trajectories::Both,
+            stop: Arc::default(),
+        }
+    }
+}
