@@ -17,16 +17,10 @@ pub(crate) enum CliError {
     Option(String),
     /// A file that cannot be read.
     #[error("cannot read {}: {source}", .path.display())]
-    Read {
-        path: PathBuf,
-        source: std::io::Error,
-    },
+    Read { path: PathBuf, source: std::io::Error },
     /// A file that cannot be written.
     #[error("cannot write {}: {source}", .path.display())]
-    Write {
-        path: PathBuf,
-        source: std::io::Error,
-    },
+    Write { path: PathBuf, source: std::io::Error },
     /// Nobody reads the records any more, which is no failure.
     #[error("nobody reads the records any more")]
     NobodyReads,
@@ -41,10 +35,7 @@ pub(crate) enum CliError {
         "no trajectory reached the end: all {failed} rows failed{}",
         .list.as_ref().map(|list| format!("; {} says why", list.display())).unwrap_or_default()
     )]
-    Rows {
-        failed: u64,
-        list: Option<PathBuf>,
-    },
+    Rows { failed: u64, list: Option<PathBuf> },
     /// Nothing can be said of some rows; what was found has been printed.
     #[error("{0}")]
     NotJudged(String),

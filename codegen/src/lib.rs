@@ -1,22 +1,6 @@
 //! Derives the generating functions of Lie–Poisson systems in exact rational arithmetic, and writes integrators
 //! in Rust.
 //!
-//! ```
-//! use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
-//! use coadjoint_codegen::lie::{Chart, catalogue};
-//! use coadjoint_codegen::number::ratio;
-//! use coadjoint_codegen::poly::Polynomial;
-//!
-//! // The free rigid body with moments of inertia 1.5, 2 and 2.5.
-//! let so3 = catalogue::lookup("SO3")?;
-//! let square = |i, divisor| (vec![(i, 2)], ratio(1, divisor));
-//! let hamiltonian = Polynomial::from_factors(3, [square(0, 3), square(1, 4), square(2, 5)]);
-//! let series = derive(&so3, Chart::Exponential, &hamiltonian, 7, TermLimit::default())?;
-//! assert_eq!(series.order(1), &hamiltonian);
-//! assert!(series.order(2).is_empty()); // every even term vanishes
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
-//!
 //! The exact half, from arithmetic to the programs of a step, is `coadjoint-symbolic`, whose modules are here under the same
 //! names. A front end reads a system: [`parse`] from text or from the tokens of a Rust function, `system` from a file. It
 //! becomes a [`problem::Problem`], from which [`integrator`] builds programs and a table of coefficients, [`emit`]

@@ -84,7 +84,7 @@ impl Session {
         let System { integrator, step, energy, factors, momentum, units, .. } = &self.system;
         let problem = &integrator.problem;
         let n = problem.algebra.dim();
-        let programs = step.kernel().programs();
+        let programs = &step.kernel().programs;
         let list = [&programs.guess, &programs.correct, &programs.accept, &programs.transport];
         let ours = list.iter().map(|program| program.cost().total()).sum();
         let orders = (1..=problem.truncation).step_by(2);

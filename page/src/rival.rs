@@ -133,7 +133,7 @@ impl Field<'_> {
     }
 
     /// ξ = ∂H/∂μ.
-    fn velocity(&self, graph: &mut Graph, mu: &[Id]) -> Vec<Id> {
+    fn velocity(&self, graph: &Graph, mu: &[Id]) -> Vec<Id> {
         let slope = |slope: &Numeric| {
             let mut sum = graph.zero();
             for (value, factors) in slope.terms() {
@@ -154,17 +154,15 @@ impl Field<'_> {
     }
 
     /// ad\*_ξ μ.
-    fn force(&self, graph: &mut Graph, xi: &[Id], mu: &[Id]) -> Vec<Id> {
+    fn force(&self, graph: &Graph, xi: &[Id], mu: &[Id]) -> Vec<Id> {
         let mut force = vec![graph.zero(); self.dim()];
         for (i, j, k, value) in self.algebra.constants() {
-            let product = graph.mul(xi[i], mu[k]);
-            let value = graph.constant(value);
-            force[j] = graph.times_plus(product, value, force[j]);
+            force[j] = graph.times_plus(graph.mul(xi[i], mu[k]), graph.constant(value), force[j]);
         }
         force
     }
 
-    fn all(&self, graph: &mut Graph, state: &[Id]) -> Vec<Id> {
+    fn all(&self, graph: &Graph, state: &[Id]) -> Vec<Id> {
         let (mu, entries) = state.split_at(self.dim());
         let xi = self.velocity(graph, mu);
         let mut rates = self.force(graph, &xi, mu);
@@ -176,8 +174,7 @@ impl Field<'_> {
             for at in 0..size * size {
                 let value = matrix[(at / size, at % size)];
                 if value != 0.0 {
-                    let value = graph.constant(value);
-                    moved[at] = graph.times_plus(value, xi, moved[at]);
+                    moved[at] = graph.times_plus(graph.constant(value), xi, moved[at]);
                 }
             }
         }
@@ -198,34 +195,30 @@ impl Field<'_> {
     }
 
     fn step(&self) -> Program {
-        let mut graph = Graph::new();
+        let graph = Graph::new();
         let count = self.dim() + self.entries.len();
         let start: Vec<Id> = (0..count).map(|i| graph.input(i)).collect();
         let h = graph.input(count);
-        let share = |graph: &mut Graph, part: f64| {
-            let part = graph.constant(part);
-            graph.mul(h, part)
-        };
+        let share = |graph: &Graph, part: f64| graph.mul(h, graph.constant(part));
         let (half, sixth, third) =
-            (share(&mut graph, 0.5), share(&mut graph, 1.0 / 6.0), share(&mut graph, 1.0 / 3.0));
-        let along = |graph: &mut Graph, from: &[Id], by: Id, rates: &[Id]| -> Vec<Id> {
+            (share(&graph, 0.5), share(&graph, 1.0 / 6.0), share(&graph, 1.0 / 3.0));
+        let along = |graph: &Graph, from: &[Id], by: Id, rates: &[Id]| -> Vec<Id> {
             from.iter().zip(rates).map(|(&a, &rate)| graph.times_plus(rate, by, a)).collect()
         };
         let mut end = start.clone();
         let mut at = start.clone();
         for (weight, next) in [(sixth, half), (third, half), (third, h), (sixth, h)] {
-            let rates = self.all(&mut graph, &at);
-            end = along(&mut graph, &end, weight, &rates);
-            at = along(&mut graph, &start, next, &rates);
+            let rates = self.all(&graph, &at);
+            end = along(&graph, &end, weight, &rates);
+            at = along(&graph, &start, next, &rates);
         }
         graph.finish(count + 1, &end)
     }
 
     fn rate(&self) -> Program {
-        let mut graph = Graph::new();
+        let graph = Graph::new();
         let mu: Vec<Id> = (0..self.dim()).map(|i| graph.input(i)).collect();
-        let xi = self.velocity(&mut graph, &mu);
-        let force = self.force(&mut graph, &xi, &mu);
+        let force = self.force(&graph, &self.velocity(&graph, &mu), &mu);
         graph.finish(self.dim(), &force)
     }
 }

@@ -127,7 +127,7 @@ impl Run {
 
     /// The matrices of the last state but one and of the last, row by row, one after the other.
     pub fn matrices(&self, system: &System) -> Vec<f64> {
-        let program = &system.step.kernel().programs().matrix;
+        let program = &system.step.kernel().programs.matrix;
         [&self.before, &self.now].into_iter().flat_map(|state| program.run(&state.g, &[])).collect()
     }
 
@@ -194,7 +194,7 @@ impl Run {
 /// How many of the rival's steps cost as much as one of ours, or a little more.
 fn substeps(system: &System, start: &State) -> usize {
     let kernel = system.step.kernel();
-    let programs = kernel.programs();
+    let programs = &kernel.programs;
     let State { mut g, mut mu, .. } = start.clone();
     let (mut steps, mut corrections) = (0_u64, 0_u64);
     while steps < 16 {
@@ -244,7 +244,7 @@ impl Reason {
             return Self::BeyondSeries;
         }
         let Attempt { residual_bound, distance, accepted, .. } = kernel.attempt(slots, mu);
-        if !(residual_bound <= kernel.tolerance() && distance <= kernel.near()) {
+        if !(residual_bound <= kernel.tolerance && distance <= kernel.near) {
             return Self::NotSolved;
         }
         if accepted { Self::OffGroup } else { Self::BeyondChart }

@@ -88,7 +88,7 @@ impl System {
             .map_err(|error| vec![Mistake::of("truncation", error, "lower the truncation")])?;
         let refused = |error: &dyn std::fmt::Display| vec![Mistake::of_all(error, None)];
         let step = Step::build(&integrator).map_err(|error| refused(&error))?;
-        let programs = step.kernel().programs();
+        let programs = &step.kernel().programs;
         let operations = programs.correct.nodes().len() + programs.transport.nodes().len();
         if operations > MOST_OPERATIONS {
             let message = format!(

@@ -180,7 +180,7 @@ impl Steps {
         let mut slots = self.step.fold(h, &[]).ok()?;
         slots[self.step.radius_at()] = 1e200;
         let kernel = self.kernel();
-        let matrix = &kernel.programs().matrix;
+        let matrix = &kernel.programs.matrix;
         let size = matrix.outputs().len().isqrt();
         let unit = |i| if i % (size + 1) == 0 { 1.0 } else { 0.0 };
         let identity: Vec<f64> = (0..size * size).map(unit).collect();

@@ -7,10 +7,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use crate::elementary::Function;
-use crate::graph::Graph;
-use crate::node::{Id, Node};
-use crate::program::Program;
+use crate::graph::{Function, Graph, Id, Node, Program};
 
 /// A number that a program is differentiated in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -35,7 +32,7 @@ impl Graph {
 
     /// The derivative of the node `y` in its operands, as many as it has, each as a factor of what is on its side: 0
     /// where there is none.
-    fn slopes(&mut self, y: Id) -> Vec<(Id, Slope)> {
+    fn slopes(&self, y: Id) -> Vec<(Id, Slope)> {
         if let Some((function, a)) = self.called(y) {
             return vec![(a, Slope::Times(self.slope(function, a, y)))];
         }
@@ -52,8 +49,7 @@ impl Graph {
             }
             Node::Neg(a) => vec![(a, Slope::Less)],
             Node::Sqrt(a) => {
-                let half = self.constant(0.5);
-                vec![(a, Slope::TimesOver(half, y))]
+                vec![(a, Slope::TimesOver(self.constant(0.5), y))]
             }
             Node::Abs(a) => vec![(a, Slope::Sign(a))],
             Node::Scale(a, k) => vec![(a, Slope::Scaled(k))],
@@ -69,40 +65,27 @@ impl Graph {
     }
 
     /// The derivative of a function whose value at a is y.
-    fn slope(&mut self, function: Function, a: Id, y: Id) -> Id {
+    fn slope(&self, function: Function, a: Id, y: Id) -> Id {
         let one = self.constant(1.0);
         match function {
             Function::Exp => y,
             // Not a number where the logarithm is none.
-            Function::Ln => {
-                let a = self.positive(a);
-                self.div(one, a)
-            }
+            Function::Ln => self.div(one, self.positive(a)),
             Function::Sin => self.function(Function::Cos, a),
-            Function::Cos => {
-                let sine = self.function(Function::Sin, a);
-                self.neg(sine)
-            }
+            Function::Cos => self.neg(self.function(Function::Sin, a)),
             Function::Tan => self.times_plus(y, y, one),
-            Function::Atan => {
-                let square = self.times_plus(a, a, one);
-                self.div(one, square)
-            }
-            Function::Tanh => {
-                let less = self.neg(y);
-                self.times_plus(less, y, one)
-            }
+            Function::Atan => self.div(one, self.times_plus(a, a, one)),
+            Function::Tanh => self.times_plus(self.neg(y), y, one),
             Function::Power(m, n) => {
                 let exponent = self.constant(f64::from(m) / f64::from(n));
                 let lower = m.saturating_sub_unsigned(n);
-                let power = self.function(Function::Power(lower, n), a);
-                self.mul(exponent, power)
+                self.mul(exponent, self.function(Function::Power(lower, n), a))
             }
         }
     }
 
     /// v times a slope, and that added to `sum`.
-    fn along(&mut self, v: Id, slope: Slope, sum: Option<Id>) -> Id {
+    fn along(&self, v: Id, slope: Slope, sum: Option<Id>) -> Id {
         let zero = self.zero();
         let term = match slope {
             Slope::One => v,
@@ -112,13 +95,9 @@ impl Graph {
             }
             Slope::Over(divisor) => self.div(v, divisor),
             Slope::TimesOver(factor, divisor) => {
-                let quotient = self.div(v, divisor);
-                return self.times_plus(quotient, factor, sum.unwrap_or(zero));
+                return self.times_plus(self.div(v, divisor), factor, sum.unwrap_or(zero));
             }
-            Slope::Sign(of) => {
-                let negative = self.neg(v);
-                self.select(zero, of, v, negative)
-            }
+            Slope::Sign(of) => self.select(zero, of, v, self.neg(v)),
             Slope::Scaled(exponent) => self.scale(v, exponent),
             Slope::Where(a, b) => self.select(a, b, v, zero),
             Slope::Unless(a, b) => self.select(a, b, zero, v),
@@ -127,7 +106,7 @@ impl Graph {
     }
 
     /// Σⱼ wⱼ ∂yⱼ/∂xᵢ for each xᵢ, by reverse mode: `outputs` are the (yⱼ, wⱼ), `variables` the xᵢ.
-    pub fn pull_back(&mut self, outputs: &[(Id, Id)], variables: &[Id]) -> Vec<Id> {
+    pub fn pull_back(&self, outputs: &[(Id, Id)], variables: &[Id]) -> Vec<Id> {
         let dependent = self.dependent(variables.iter().copied());
         let mut sums: Vec<Option<Id>> = vec![None; dependent.len()];
         for &(output, weight) in outputs {
@@ -151,7 +130,7 @@ impl Graph {
     }
 
     /// Σᵢ ∂yⱼ/∂xᵢ vᵢ for each yⱼ, by forward mode: `variables` are the (xᵢ, vᵢ), `outputs` the yⱼ.
-    pub fn push_forward(&mut self, outputs: &[Id], variables: &[(Id, Id)]) -> Vec<Id> {
+    pub fn push_forward(&self, outputs: &[Id], variables: &[(Id, Id)]) -> Vec<Id> {
         let dependent = self.dependent(variables.iter().map(|&(variable, _)| variable));
         let mut tangents: Vec<Option<Id>> = vec![None; dependent.len()];
         for &(variable, direction) in variables {
@@ -175,7 +154,7 @@ impl Graph {
         outputs.iter().map(|output| tangents[output.index()].unwrap_or(zero)).collect()
     }
 
-    fn arguments(&mut self, of: &[Argument]) -> Vec<Id> {
+    fn arguments(&self, of: &[Argument]) -> Vec<Id> {
         let argument = |argument: &Argument| match *argument {
             Argument::Input(i) => self.input(i),
             Argument::Slot(i) => self.slot(i),
@@ -231,14 +210,12 @@ impl Program {
         &self,
         of: &[Argument],
         more_inputs: usize,
-        weights: impl FnOnce(&mut Graph, &[Id]) -> Vec<(Id, Id)>,
+        weights: impl FnOnce(&Graph, &[Id]) -> Vec<(Id, Id)>,
     ) -> Self {
-        let mut graph = Graph::new();
+        let graph = Graph::new();
         let inputs: Vec<Id> = (0..self.inputs()).map(|i| graph.input(i)).collect();
         let arguments = graph.arguments(of);
-        let outputs = graph.call(self, &inputs);
-        let outputs = weights(&mut graph, &outputs);
-        let results = graph.pull_back(&outputs, &arguments);
+        let results = graph.pull_back(&weights(&graph, &graph.call(self, &inputs)), &arguments);
         graph.finish(self.inputs() + more_inputs, &results)
     }
 
@@ -247,7 +224,7 @@ impl Program {
     /// v.
     #[must_use]
     pub fn push_forward(&self, of: &[Argument]) -> Self {
-        let mut graph = Graph::new();
+        let graph = Graph::new();
         let inputs: Vec<Id> = (0..self.inputs()).map(|i| graph.input(i)).collect();
         let arguments = graph.arguments(of);
         let outputs = graph.call(self, &inputs);

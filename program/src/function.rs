@@ -6,9 +6,7 @@
 
 use alloc::vec::Vec;
 
-use crate::elementary::Function;
-use crate::graph::Graph;
-use crate::node::Id;
+use crate::graph::{Function, Graph, Id};
 
 /// ln 2, its first 32 bits and the rest.
 const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
@@ -54,7 +52,7 @@ const TANH_LARGE: f64 = 0.7;
 
 impl Graph {
     /// A function of a.
-    pub fn function(&mut self, function: Function, a: Id) -> Id {
+    pub fn function(&self, function: Function, a: Id) -> Id {
         let result = match function {
             Function::Exp => self.exp(a),
             Function::Ln => self.ln(a),
@@ -70,17 +68,16 @@ impl Graph {
     }
 
     /// Σ coefficients\[k\]·xᵏ by Horner's scheme.
-    fn horner(&mut self, x: Id, coefficients: &[f64]) -> Id {
+    fn horner(&self, x: Id, coefficients: &[f64]) -> Id {
         let mut sum = self.zero();
         for &coefficient in coefficients.iter().rev() {
-            let constant = self.constant(coefficient);
-            sum = self.times_plus(sum, x, constant);
+            sum = self.times_plus(sum, x, self.constant(coefficient));
         }
         sum
     }
 
     /// r² and p such that exp r = 1 + r + r²·p for small r, by terms up to this degree.
-    fn exp_rest(&mut self, r: Id, degree: u32) -> (Id, Id) {
+    fn exp_rest(&self, r: Id, degree: u32) -> (Id, Id) {
         let mut factor = 1.0;
         let coefficients = (2..=degree).map(|k| {
             factor *= f64::from(k);
@@ -91,39 +88,32 @@ impl Graph {
     }
 
     /// exp x as a number near 1 and the exponent of a power of two beside it.
-    fn exp_parts(&mut self, x: Id) -> (Id, Id) {
+    fn exp_parts(&self, x: Id) -> (Id, Id) {
         let [per_ln_2, high, low, one] =
             [core::f64::consts::LOG2_E, -LN_2[0], -LN_2[1], 1.0].map(|value| self.constant(value));
-        let k = self.mul(x, per_ln_2);
-        let k = self.round(k);
-        let r = self.times_plus(k, high, x);
-        let r = self.times_plus(k, low, r);
+        let k = self.round(self.mul(x, per_ln_2));
+        let r = self.times_plus(k, low, self.times_plus(k, high, x));
         let (square, rest) = self.exp_rest(r, 13);
-        let rest = self.times_plus(square, rest, r);
-        (self.add(rest, one), k)
+        (self.add(self.times_plus(square, rest, r), one), k)
     }
 
     /// a · 2ᵏ for whole k as far as numbers reach.
-    fn scale_far(&mut self, a: Id, k: Id) -> Id {
-        let half = self.constant(0.5);
-        let first = self.mul(k, half);
-        let first = self.round(first);
+    fn scale_far(&self, a: Id, k: Id) -> Id {
+        let first = self.round(self.mul(k, self.constant(0.5)));
         let second = self.sub(k, first);
-        let a = self.scale(a, first);
-        self.scale(a, second)
+        self.scale(self.scale(a, first), second)
     }
 
-    fn exp(&mut self, x: Id) -> Id {
+    fn exp(&self, x: Id) -> Id {
         // Beyond these the result is 0 or infinite. What is no number passes both.
         let [low, high] = [-746.0, 710.0].map(|value| self.constant(value));
         let x = self.select(high, x, high, x);
-        let x = self.select(x, low, low, x);
-        let (value, k) = self.exp_parts(x);
+        let (value, k) = self.exp_parts(self.select(x, low, low, x));
         self.scale_far(value, k)
     }
 
     /// The natural logarithm of a positive number's fraction, between √½ and √2, and its exponent.
-    fn ln_parts(&mut self, x: Id) -> (LnOfFraction, Id) {
+    fn ln_parts(&self, x: Id) -> (LnOfFraction, Id) {
         // 2⁻¹⁰⁰⁰ and 2⁶⁴.
         let [tiny, raise] = [23, 1023 + 64].map(|exponent: u64| f64::from_bits(exponent << 52));
         let [tiny, raise, raised, root, two, half] =
@@ -133,59 +123,45 @@ impl Graph {
         let larger = self.mul(x, raise);
         let lower = self.select(x, tiny, raised, zero);
         let x = self.select(x, tiny, larger, x);
-        let e = self.mul(x, root);
-        let e = self.exponent(e);
-        let back = self.neg(e);
-        let fraction = self.scale_far(x, back);
+        let e = self.exponent(self.mul(x, root));
+        let fraction = self.scale_far(x, self.neg(e));
         let e = self.sub(e, lower);
         // ln(1 + f) = f − (f²/2 − s·(f²/2 + R)), s = f/(2 + f), R = Σ 2/(2k + 1) s²ᵏ.
-        let one = self.constant(1.0);
-        let f = self.sub(fraction, one);
-        let sum = self.add(f, two);
-        let s = self.div(f, sum);
+        let f = self.sub(fraction, self.constant(1.0));
+        let s = self.div(f, self.add(f, two));
         let z = self.mul(s, s);
         let series: Vec<f64> = (1..=11).map(|k| 2.0 / f64::from(2 * k + 1)).collect();
-        let rest = self.horner(z, &series);
-        let rest = self.mul(rest, z);
-        let half_square = self.mul(f, half);
-        let half_square = self.mul(half_square, f);
+        let rest = self.mul(self.horner(z, &series), z);
+        let half_square = self.mul(self.mul(f, half), f);
         let sum = self.add(half_square, rest);
         (LnOfFraction { f, half_square, product: (s, sum) }, e)
     }
 
-    fn ln(&mut self, x: Id) -> Id {
+    fn ln(&self, x: Id) -> Id {
         let [high, low, largest] = [LN_2[0], LN_2[1], f64::MAX].map(|value| self.constant(value));
         let (LnOfFraction { f, half_square, product: (s, sum) }, e) = self.ln_parts(x);
-        let low = self.mul(e, low);
-        let correction = self.times_plus(s, sum, low);
-        let less = self.sub(half_square, correction);
-        let less = self.sub(less, f);
-        let high = self.mul(e, high);
-        let value = self.sub(high, less);
+        let less = self.sub(self.sub(half_square, self.times_plus(s, sum, self.mul(e, low))), f);
+        let value = self.sub(self.mul(e, high), less);
         // Infinities and what is no number stay themselves.
         let value = self.select(x, largest, value, x);
         let zero = self.zero();
-        let wrong = self.select(x, zero, largest, zero);
-        self.unless(value, wrong)
+        self.unless(value, self.select(x, zero, largest, zero))
     }
 
     /// A positive number, or what is no number.
-    pub(crate) fn positive(&mut self, x: Id) -> Id {
+    pub(crate) fn positive(&self, x: Id) -> Id {
         let (zero, largest) = (self.zero(), self.constant(f64::MAX));
-        let wrong = self.select(x, zero, largest, zero);
-        self.unless(x, wrong)
+        self.unless(x, self.select(x, zero, largest, zero))
     }
 
     /// a where `wrong` is 0, and not a number where it is the largest number: ∞ − ∞.
-    fn unless(&mut self, a: Id, wrong: Id) -> Id {
-        let largest = self.constant(f64::MAX);
-        let wrong = self.mul(wrong, largest);
-        let none = self.sub(wrong, wrong);
-        self.add(a, none)
+    fn unless(&self, a: Id, wrong: Id) -> Id {
+        let wrong = self.mul(wrong, self.constant(f64::MAX));
+        self.add(a, self.sub(wrong, wrong))
     }
 
     /// a to the power m/n.
-    fn rational_power(&mut self, a: Id, m: i32, n: u32) -> Id {
+    fn rational_power(&self, a: Id, m: i32, n: u32) -> Id {
         let common = common_divisor(m.unsigned_abs(), n).max(1);
         let (m, n) = (m / common as i32, n / common);
         let (whole, rest) = (m.unsigned_abs() / n, m.unsigned_abs() % n);
@@ -195,17 +171,14 @@ impl Graph {
             (0, _, false) => power,
             (0, _, true) => self.div(one, power),
             (_, 2, negative) => {
-                let root = self.sqrt(a);
-                let power = self.mul(power, root);
+                let power = self.mul(power, self.sqrt(a));
                 if negative { self.div(one, power) } else { power }
             }
             (_, _, false) => {
-                let root = self.fractional_power(a, f64::from(rest), f64::from(n));
-                self.mul(power, root)
+                self.mul(power, self.fractional_power(a, f64::from(rest), f64::from(n)))
             }
             (_, _, true) => {
-                let root = self.fractional_power(a, -f64::from(rest), f64::from(n));
-                self.div(root, power)
+                self.div(self.fractional_power(a, -f64::from(rest), f64::from(n)), power)
             }
         };
         // Products and roots are differentiated as such.
@@ -217,56 +190,41 @@ impl Graph {
 
     /// a to the power m/n of size below 1: the exponential of m/n times the logarithm of a's fraction, the power
     /// of two apart.
-    fn fractional_power(&mut self, a: Id, m: f64, n: f64) -> Id {
+    fn fractional_power(&self, a: Id, m: f64, n: f64) -> Id {
         let (LnOfFraction { f, half_square, product: (s, sum) }, e) = self.ln_parts(a);
         let [m_of, per_n, ratio, ln_2, largest, less_n] =
             [m, 1.0 / n, m / n, core::f64::consts::LN_2 / n, f64::MAX, -n]
                 .map(|value| self.constant(value));
-        let product = self.mul(s, sum);
-        let less = self.sub(half_square, product);
-        let logarithm = self.sub(f, less);
+        let logarithm = self.sub(f, self.sub(half_square, self.mul(s, sum)));
         // e·m = n·k + rest, so that 2^(e·m/n) = 2ᵏ·exp(rest·ln 2/n).
         let e = self.mul(e, m_of);
-        let k = self.mul(e, per_n);
-        let k = self.round(k);
-        let rest = self.times_plus(k, less_n, e);
-        let exponent = self.mul(rest, ln_2);
-        let exponent = self.times_plus(logarithm, ratio, exponent);
-        let (value, more) = self.exp_parts(exponent);
-        let k = self.add(k, more);
-        let value = self.scale_far(value, k);
+        let k = self.round(self.mul(e, per_n));
+        let exponent = self.mul(self.times_plus(k, less_n, e), ln_2);
+        let (value, more) = self.exp_parts(self.times_plus(logarithm, ratio, exponent));
+        let value = self.scale_far(value, self.add(k, more));
         // Of 0 and ∞, of what has no root, and of what is no number.
         let root = self.sqrt(a);
         let one = self.constant(1.0);
         let special = if m < 0.0 { self.div(one, root) } else { root };
-        let zero = self.zero();
-        let value = self.select(a, zero, special, value);
-        self.select(a, largest, value, special)
+        self.select(a, largest, self.select(a, self.zero(), special, value), special)
     }
 
     /// The sine and the cosine of what is left of an angle beside whole quarter turns, each with what rounding took from
     /// it; and how many quarter turns these are, from this many on, between ∓2.
-    fn circle(&mut self, x: Id, from: f64) -> ([Id; 2], [Id; 2], Id) {
+    fn circle(&self, x: Id, from: f64) -> ([Id; 2], [Id; 2], Id) {
         let [per_turn, from, fourth, less_four] =
             [core::f64::consts::FRAC_2_PI, from, 0.25, -4.0].map(|value| self.constant(value));
         let parts = QUARTER_TURN.map(|value| self.constant(value));
-        let k = self.mul(x, per_turn);
-        let k = self.round(k);
+        let k = self.round(self.mul(x, per_turn));
         let back = self.neg(k);
         let first = self.times_plus(back, parts[0], x);
-        let second = self.mul(k, parts[1]);
-        let (difference, lost) = self.exact_difference(first, second);
-        let third = self.mul(k, parts[2]);
-        let (difference, more) = self.exact_difference(difference, third);
-        let lost = self.add(lost, more);
-        let lost = self.times_plus(back, parts[3], lost);
+        let (difference, lost) = self.exact_difference(first, self.mul(k, parts[1]));
+        let (difference, more) = self.exact_difference(difference, self.mul(k, parts[2]));
+        let lost = self.times_plus(back, parts[3], self.add(lost, more));
         let high = self.add(difference, lost);
-        let low = self.sub(difference, high);
-        let low = self.add(low, lost);
+        let low = self.add(self.sub(difference, high), lost);
         let turns = self.add(k, from);
-        let whole = self.mul(turns, fourth);
-        let whole = self.round(whole);
-        let turns = self.times_plus(whole, less_four, turns);
+        let turns = self.times_plus(self.round(self.mul(turns, fourth)), less_four, turns);
 
         let series = |first: u32| {
             let mut factor = 1.0;
@@ -289,80 +247,58 @@ impl Graph {
         let cube = self.mul(z, high);
         let cosine = self.sub(one, half_square);
         let linear = self.mul(low, cosine);
-        let rest = self.mul(cube, rest);
-        let rest = self.sub(rest, linear);
+        let rest = self.sub(self.mul(cube, rest), linear);
         let sine = self.sub(high, rest);
-        let sine_rest = self.sub(high, sine);
-        let sine_rest = self.sub(sine_rest, rest);
+        let sine_rest = self.sub(self.sub(high, sine), rest);
         // cos(high + low) = (1 − z/2) + (1 − (1 − z/2) − z/2 + z²·(1/24 − …) − high·low)
-        let lost = self.sub(one, cosine);
-        let lost = self.sub(lost, half_square);
+        let lost = self.sub(self.sub(one, cosine), half_square);
         let rest = self.horner(z, &series(4));
-        let fourth = self.mul(z, z);
-        let product = self.mul(high, low);
-        let lost = self.sub(lost, product);
-        let rest = self.times_plus(fourth, rest, lost);
+        let rest = self.times_plus(self.mul(z, z), rest, self.sub(lost, self.mul(high, low)));
         let whole = self.add(cosine, rest);
-        let cosine_rest = self.sub(cosine, whole);
-        let cosine_rest = self.add(cosine_rest, rest);
-        ([sine, sine_rest], [whole, cosine_rest], turns)
+        ([sine, sine_rest], [whole, self.add(self.sub(cosine, whole), rest)], turns)
     }
 
     /// a − b, and what rounding took from it.
-    fn exact_difference(&mut self, a: Id, b: Id) -> (Id, Id) {
+    fn exact_difference(&self, a: Id, b: Id) -> (Id, Id) {
         let difference = self.sub(a, b);
         let taken = self.sub(difference, a);
-        let rest = self.sub(difference, taken);
-        let of_a = self.sub(a, rest);
-        let of_b = self.add(b, taken);
-        (difference, self.sub(of_a, of_b))
+        (difference, self.sub(self.sub(a, self.sub(difference, taken)), self.add(b, taken)))
     }
 
     /// An angle in the domain, or what is no number.
-    fn angle(&mut self, x: Id) -> Id {
+    fn angle(&self, x: Id) -> Id {
         let [most, largest] = [LARGEST_ANGLE, f64::MAX].map(|value| self.constant(value));
-        let size = self.abs(x);
-        let zero = self.zero();
-        let wrong = self.select(size, most, zero, largest);
-        self.unless(x, wrong)
+        self.unless(x, self.select(self.abs(x), most, self.zero(), largest))
     }
 
     /// sin(x + from·π/2).
-    fn sine(&mut self, x: Id, from: f64) -> Id {
+    fn sine(&self, x: Id, from: f64) -> Id {
         let x = self.angle(x);
         let ([sine, _], [cosine, _], turns) = self.circle(x, from);
         let [half, half_down, most] = [0.5, -0.5, 1.5].map(|value| self.constant(value));
         let size = self.abs(turns);
         // At ∓1 turns the other one of the two.
-        let value = self.select(size, most, cosine, sine);
-        let value = self.select(size, half, sine, value);
+        let value = self.select(size, half, sine, self.select(size, most, cosine, sine));
         // Negative at −2, −1 and 2.
-        let negative = self.neg(value);
-        let value = self.select(turns, half_down, negative, value);
-        let negative = self.neg(sine);
-        self.select(most, turns, negative, value)
+        let value = self.select(turns, half_down, self.neg(value), value);
+        self.select(most, turns, self.neg(sine), value)
     }
 
-    fn tan(&mut self, x: Id) -> Id {
-        let x = self.angle(x);
-        let (sine, cosine, turns) = self.circle(x, 0.0);
+    fn tan(&self, x: Id) -> Id {
+        let (sine, cosine, turns) = self.circle(self.angle(x), 0.0);
         let [half, most] = [0.5, 1.5].map(|value| self.constant(value));
         let size = self.abs(turns);
         let back = cosine.map(|part| self.neg(part));
-        let mut chosen = |even: Id, odd: Id| {
-            let value = self.select(size, most, odd, even);
-            self.select(size, half, even, value)
-        };
+        let chosen =
+            |even: Id, odd: Id| self.select(size, half, even, self.select(size, most, odd, even));
         let numerator = [chosen(sine[0], back[0]), chosen(sine[1], back[1])];
         let denominator = [chosen(cosine[0], sine[0]), chosen(cosine[1], sine[1])];
         let quotient = self.div(numerator[0], denominator[0]);
         let rest = self.mul(quotient, denominator[1]);
-        let rest = self.sub(numerator[1], rest);
-        let rest = self.div(rest, denominator[0]);
-        self.add(quotient, rest)
+        self.add(quotient, self.div(self.sub(numerator[1], rest), denominator[0]))
     }
 
-    fn atan(&mut self, x: Id) -> Id {
+    fn atan(&self, x: Id) -> Id {
         let size = self.abs(x);
         let one = self.constant(1.0);
         let zero = self.zero();
@@ -387,17 +323,12 @@ impl Graph {
         }
         let t = self.div(numerator, denominator);
         let z = self.mul(t, t);
-        let series = self.horner(z, &ATAN);
-        let series = self.mul(series, z);
-        let less = self.mul(t, series);
-        let less = self.sub(less, angle_rest);
-        let less = self.sub(less, t);
-        let value = self.sub(angle, less);
-        let negative = self.neg(value);
-        self.select(zero, x, value, negative)
+        let series = self.mul(self.horner(z, &ATAN), z);
+        let value = self.sub(angle, self.sub(self.sub(self.mul(t, series), angle_rest), t));
+        self.select(zero, x, value, self.neg(value))
     }
 
-    fn tanh(&mut self, x: Id) -> Id {
+    fn tanh(&self, x: Id) -> Id {
         let [one, two, large] = [1.0, 2.0, TANH_LARGE].map(|value| self.constant(value));
         let zero = self.zero();
         let size = self.abs(x);
@@ -406,18 +337,13 @@ impl Graph {
         let (square, rest) = self.exp_rest(double, 23);
         let rest = self.mul(square, rest);
         let t = self.add(double, rest);
-        let product = self.mul(size, t);
-        let small = self.sub(product, rest);
+        let small = self.sub(self.mul(size, t), rest);
         let beside = self.add(t, two);
-        let exponential = self.exp(double);
-        let sum = self.add(exponential, one);
+        let sum = self.add(self.exp(double), one);
         let numerator = self.select(large, size, two, small);
-        let denominator = self.select(large, size, sum, beside);
-        let quotient = self.div(numerator, denominator);
-        let first = self.select(large, size, one, size);
-        let value = self.sub(first, quotient);
-        let negative = self.neg(value);
-        self.select(zero, x, value, negative)
+        let quotient = self.div(numerator, self.select(large, size, sum, beside));
+        let value = self.sub(self.select(large, size, one, size), quotient);
+        self.select(zero, x, value, self.neg(value))
     }
 }
 

@@ -3,25 +3,23 @@
 use alloc::collections::BTreeMap;
 use alloc::vec;
 use alloc::vec::Vec;
-
-use crate::elementary::Function;
-use crate::node::{Cost, Id, Node};
-use crate::program::Program;
+use core::cell::RefCell;
 
 /// Where nodes are found again.
 #[cfg(feature = "std")]
 type Known = std::collections::HashMap<Node, Id>;
 /// Without the standard library there are no numbers at random to hash with.
 #[cfg(not(feature = "std"))]
-type Known = alloc::collections::BTreeMap<Node, Id>;
+type Known = BTreeMap<Node, Id>;
 
-/// A growing graph. Ids are handed out in order of creation, so output never depends on hashing.
+/// A growing graph. Ids are handed out in order of creation, so output never depends on hashing. It grows behind shared
+/// references, so that formulas nest.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
-    nodes: Vec<Node>,
-    known: Known,
+    nodes: RefCell<Vec<Node>>,
+    known: RefCell<Known>,
     /// The nodes that are a function's value, of which node.
-    calls: BTreeMap<Id, (Function, Id)>,
+    calls: RefCell<BTreeMap<Id, (Function, Id)>>,
 }
 
 impl Graph {
@@ -31,33 +29,31 @@ impl Graph {
         Self::default()
     }
 
-    fn intern(&mut self, node: Node) -> Id {
-        if let Some(&id) = self.known.get(&node) {
-            return id;
-        }
-        // Graphs are bounded by the term limit of the series, far below 2³² nodes.
-        let id = Id(u32::try_from(self.nodes.len()).unwrap_or(u32::MAX));
-        self.nodes.push(node);
-        self.known.insert(node, id);
-        id
+    fn intern(&self, node: Node) -> Id {
+        *self.known.borrow_mut().entry(node).or_insert_with(|| {
+            let mut nodes = self.nodes.borrow_mut();
+            nodes.push(node);
+            // Graphs are bounded by the term limit of the series, far below 2³² nodes.
+            Id(u32::try_from(nodes.len() - 1).unwrap_or(u32::MAX))
+        })
     }
 
     /// Remembers that `result` is a function's value at a, for derivatives.
-    pub(crate) fn name(&mut self, function: Function, a: Id, result: Id) {
-        if self.node(result).operands().next().is_some() {
-            self.calls.insert(result, (function, a));
+    pub(crate) fn name(&self, function: Function, a: Id, result: Id) {
+        if self.node(result).is_operation() {
+            self.calls.borrow_mut().insert(result, (function, a));
         }
     }
 
     /// The function and its argument that this is the value of, if it is one's.
     pub(crate) fn called(&self, id: Id) -> Option<(Function, Id)> {
-        self.calls.get(&id).copied()
+        self.calls.borrow().get(&id).copied()
     }
 
     /// The operation that `id` stands for.
     #[must_use]
     pub fn node(&self, id: Id) -> Node {
-        self.nodes[id.index()]
+        self.nodes.borrow()[id.index()]
     }
 
     /// Whether this is the number 0, known without any input.
@@ -77,12 +73,12 @@ impl Graph {
     }
 
     /// The number 0.
-    pub fn zero(&mut self) -> Id {
+    pub fn zero(&self) -> Id {
         self.intern(Node::Zero)
     }
 
     /// A number.
-    pub fn constant(&mut self, value: f64) -> Id {
+    pub fn constant(&self, value: f64) -> Id {
         if value == 0.0 {
             return self.zero();
         }
@@ -90,22 +86,22 @@ impl Graph {
     }
 
     /// The rounding unit of the numbers that the program is evaluated in.
-    pub fn epsilon(&mut self) -> Id {
+    pub fn epsilon(&self) -> Id {
         self.intern(Node::Epsilon)
     }
 
     /// Input number `index`.
-    pub fn input(&mut self, index: usize) -> Id {
+    pub fn input(&self, index: usize) -> Id {
         self.intern(Node::Input(index as u32))
     }
 
     /// Folded coefficient number `index`.
-    pub fn slot(&mut self, index: usize) -> Id {
+    pub fn slot(&self, index: usize) -> Id {
         self.intern(Node::Slot(index as u32))
     }
 
     /// a · b, in canonical operand order; the number 0 absorbs, 1 and −1 make no product.
-    pub fn mul(&mut self, a: Id, b: Id) -> Id {
+    pub fn mul(&self, a: Id, b: Id) -> Id {
         if self.is_zero(a) || self.is_zero(b) {
             return self.zero();
         }
@@ -120,7 +116,7 @@ impl Graph {
     }
 
     /// a + b; adding to the number 0 gives the other operand.
-    pub fn add(&mut self, a: Id, b: Id) -> Id {
+    pub fn add(&self, a: Id, b: Id) -> Id {
         match (self.node(a), self.node(b)) {
             (Node::Zero, _) => b,
             (_, Node::Zero) => a,
@@ -131,7 +127,7 @@ impl Graph {
     }
 
     /// a − b.
-    pub fn sub(&mut self, a: Id, b: Id) -> Id {
+    pub fn sub(&self, a: Id, b: Id) -> Id {
         match (self.node(a), self.node(b)) {
             (_, Node::Zero) => a,
             (Node::Zero, _) => self.neg(b),
@@ -141,7 +137,7 @@ impl Graph {
     }
 
     /// a · b + c.
-    pub fn times_plus(&mut self, a: Id, b: Id, c: Id) -> Id {
+    pub fn times_plus(&self, a: Id, b: Id, c: Id) -> Id {
         if self.is_zero(a) || self.is_zero(b) {
             return c;
         }
@@ -159,7 +155,7 @@ impl Graph {
     }
 
     /// −a.
-    pub fn neg(&mut self, a: Id) -> Id {
+    pub fn neg(&self, a: Id) -> Id {
         match self.node(a) {
             Node::Zero => a,
             Node::Neg(a) => a,
@@ -169,7 +165,7 @@ impl Graph {
     }
 
     /// a / b.
-    pub fn div(&mut self, a: Id, b: Id) -> Id {
+    pub fn div(&self, a: Id, b: Id) -> Id {
         match self.is_zero(a) {
             true => a,
             false => self.intern(Node::Div(a, b)),
@@ -177,7 +173,7 @@ impl Graph {
     }
 
     /// |a|.
-    pub fn abs(&mut self, a: Id) -> Id {
+    pub fn abs(&self, a: Id) -> Id {
         match self.node(a) {
             Node::Zero | Node::Abs(_) => a,
             Node::Neg(a) => self.intern(Node::Abs(a)),
@@ -186,7 +182,7 @@ impl Graph {
     }
 
     /// √a.
-    pub fn sqrt(&mut self, a: Id) -> Id {
+    pub fn sqrt(&self, a: Id) -> Id {
         match self.is_zero(a) {
             true => a,
             false => self.intern(Node::Sqrt(a)),
@@ -194,7 +190,7 @@ impl Graph {
     }
 
     /// The integer nearest to a, the even one of two.
-    pub fn round(&mut self, a: Id) -> Id {
+    pub fn round(&self, a: Id) -> Id {
         match self.is_zero(a) {
             true => a,
             false => self.intern(Node::Round(a)),
@@ -202,7 +198,7 @@ impl Graph {
     }
 
     /// a · 2ᵏ, for whole k from −1022 to 1023.
-    pub fn scale(&mut self, a: Id, k: Id) -> Id {
+    pub fn scale(&self, a: Id, k: Id) -> Id {
         match self.is_zero(a) || self.is_zero(k) {
             true => a,
             false => self.intern(Node::Scale(a, k)),
@@ -210,12 +206,12 @@ impl Graph {
     }
 
     /// The exponent of a, as [`Node::Exponent`] has it.
-    pub fn exponent(&mut self, a: Id) -> Id {
+    pub fn exponent(&self, a: Id) -> Id {
         self.intern(Node::Exponent(a))
     }
 
     /// `then` if a ≤ b, else `otherwise`; that also where a or b is not a number.
-    pub fn select(&mut self, a: Id, b: Id, then: Id, otherwise: Id) -> Id {
+    pub fn select(&self, a: Id, b: Id, then: Id, otherwise: Id) -> Id {
         match then == otherwise {
             true => then,
             false => self.intern(Node::Select(a, b, then, otherwise)),
@@ -223,17 +219,17 @@ impl Graph {
     }
 
     /// The smaller of two numbers; b where a is not a number, and a number only if both are or a alone is not.
-    pub fn min(&mut self, a: Id, b: Id) -> Id {
+    pub fn min(&self, a: Id, b: Id) -> Id {
         self.select(a, b, a, b)
     }
 
     /// The larger of two numbers. Not a number where b is not; a's being none is lost.
-    pub fn max(&mut self, a: Id, b: Id) -> Id {
+    pub fn max(&self, a: Id, b: Id) -> Id {
         self.select(b, a, a, b)
     }
 
     /// base^exponent by repeated squaring, every intermediate power shared; exponent ≥ 1.
-    pub fn power(&mut self, base: Id, exponent: u32) -> Id {
+    pub fn power(&self, base: Id, exponent: u32) -> Id {
         match exponent {
             0 | 1 => base,
             n if n.is_multiple_of(2) => {
@@ -248,39 +244,31 @@ impl Graph {
     }
 
     /// The nodes of another program on these inputs, its slots being this graph's; the ids of its results.
-    pub fn call(&mut self, program: &Program, inputs: &[Id]) -> Vec<Id> {
+    pub fn call(&self, program: &Program, inputs: &[Id]) -> Vec<Id> {
         self.call_from(program, inputs, 0)
     }
 
     /// The same where the program's first slot is this one of the graph's.
-    pub fn call_from(&mut self, program: &Program, inputs: &[Id], first_slot: usize) -> Vec<Id> {
+    pub fn call_from(&self, program: &Program, inputs: &[Id], first_slot: usize) -> Vec<Id> {
         let mut ids: Vec<Id> = Vec::with_capacity(program.nodes().len());
         for node in program.nodes() {
-            let id = match *node {
+            ids.push(match node.map(|operand| ids[operand.index()]) {
                 Node::Input(i) => inputs.get(i as usize).copied().unwrap_or_else(|| self.zero()),
-                Node::Zero => self.zero(),
-                Node::Constant(bits) => self.constant(f64::from_bits(bits)),
-                Node::Epsilon => self.epsilon(),
                 Node::Slot(i) => self.slot(first_slot + i as usize),
-                Node::Add(a, b) => self.add(ids[a.index()], ids[b.index()]),
-                Node::Sub(a, b) => self.sub(ids[a.index()], ids[b.index()]),
-                Node::Mul(a, b) => self.mul(ids[a.index()], ids[b.index()]),
-                Node::TimesPlus(a, b, c) => {
-                    self.times_plus(ids[a.index()], ids[b.index()], ids[c.index()])
-                }
-                Node::Div(a, b) => self.div(ids[a.index()], ids[b.index()]),
-                Node::Neg(a) => self.neg(ids[a.index()]),
-                Node::Abs(a) => self.abs(ids[a.index()]),
-                Node::Sqrt(a) => self.sqrt(ids[a.index()]),
-                Node::Round(a) => self.round(ids[a.index()]),
-                Node::Scale(a, k) => self.scale(ids[a.index()], ids[k.index()]),
-                Node::Exponent(a) => self.exponent(ids[a.index()]),
-                Node::Select(a, b, c, d) => {
-                    let [a, b, c, d] = [a, b, c, d].map(|operand| ids[operand.index()]);
-                    self.select(a, b, c, d)
-                }
-            };
-            ids.push(id);
+                Node::Add(a, b) => self.add(a, b),
+                Node::Sub(a, b) => self.sub(a, b),
+                Node::Mul(a, b) => self.mul(a, b),
+                Node::TimesPlus(a, b, c) => self.times_plus(a, b, c),
+                Node::Div(a, b) => self.div(a, b),
+                Node::Neg(a) => self.neg(a),
+                Node::Abs(a) => self.abs(a),
+                Node::Sqrt(a) => self.sqrt(a),
+                Node::Round(a) => self.round(a),
+                Node::Scale(a, k) => self.scale(a, k),
+                Node::Select(a, b, c, d) => self.select(a, b, c, d),
+                Node::Constant(bits) => self.constant(f64::from_bits(bits)),
+                node @ (Node::Zero | Node::Epsilon | Node::Exponent(_)) => self.intern(node),
+            });
         }
         for &(result, function, a) in program.calls() {
             self.name(function, ids[a.index()], ids[result.index()]);
@@ -291,30 +279,30 @@ impl Graph {
     /// How many nodes there are: a mark for [`Graph::rewind`] and [`Graph::cost_since`].
     #[must_use]
     pub fn mark(&self) -> usize {
-        self.nodes.len()
+        self.nodes.borrow().len()
     }
 
     /// Forgets every node made after `mark`.
-    pub fn rewind(&mut self, mark: usize) {
-        for node in self.nodes.drain(mark..) {
-            self.known.remove(&node);
+    pub fn rewind(&self, mark: usize) {
+        for node in self.nodes.borrow_mut().drain(mark..) {
+            self.known.borrow_mut().remove(&node);
         }
-        self.calls.retain(|result, _| result.index() < mark);
+        self.calls.borrow_mut().retain(|result, _| result.index() < mark);
     }
 
     /// The operations of the nodes made after `mark`.
     #[must_use]
     pub fn cost_since(&self, mark: usize) -> Cost {
-        Cost::of(&self.nodes[mark..])
+        Cost::of(&self.nodes.borrow()[mark..])
     }
 
     /// Whether each node is needed for one of these.
     pub(crate) fn needed(&self, outputs: &[Id]) -> Vec<bool> {
-        let mut needed = vec![false; self.nodes.len()];
+        let mut needed = vec![false; self.nodes.borrow().len()];
         for output in outputs {
             needed[output.index()] = true;
         }
-        for (index, node) in self.nodes.iter().enumerate().rev() {
+        for (index, node) in self.nodes.borrow().iter().enumerate().rev() {
             if needed[index] {
                 for operand in node.operands() {
                     needed[operand.index()] = true;
@@ -326,24 +314,281 @@ impl Graph {
 
     /// The program that computes `outputs`, nodes nothing needs left out.
     #[must_use]
-    pub fn finish(self, inputs: usize, outputs: &[Id]) -> Program {
+    pub fn finish(&self, inputs: usize, outputs: &[Id]) -> Program {
         let needed = self.needed(outputs);
-        let mut renamed = vec![Id(0); self.nodes.len()];
+        let (own, calls) = (self.nodes.borrow(), self.calls.borrow());
+        let mut renamed = vec![Id(0); own.len()];
         let mut nodes = Vec::new();
-        for (index, node) in self.nodes.iter().enumerate() {
+        for (index, node) in own.iter().enumerate() {
             if needed[index] {
                 renamed[index] = Id(nodes.len() as u32);
                 nodes.push(node.map(|operand| renamed[operand.index()]));
             }
         }
         let outputs = outputs.iter().map(|output| renamed[output.index()]).collect();
-        let calls = self
-            .calls
-            .iter()
-            .filter(|(result, (_, a))| needed[result.index()] && needed[a.index()]);
-        let calls = calls.map(|(result, &(function, a))| {
+        let calls =
+            calls.iter().filter(|(result, (_, a))| needed[result.index()] && needed[a.index()]);
+        let renamed = calls.map(|(result, &(function, a))| {
             (renamed[result.index()], function, renamed[a.index()])
         });
-        Program::of_graph(inputs, nodes, outputs, calls.collect())
+        let calls = renamed.collect();
+        let slot = |node: &Node| match node {
+            Node::Slot(i) => *i as usize + 1,
+            _ => 0,
+        };
+        let slots = nodes.iter().map(slot).max().unwrap_or(0);
+        Program { inputs, slots, nodes, outputs, calls }
     }
+}
+
+/// A node of a [`Graph`](crate::Graph), an index into its arena. Operands have smaller ids than their users.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Id(pub(crate) u32);
+
+impl Id {
+    /// The index into [`Program::nodes`](crate::Program::nodes).
+    #[must_use]
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// One operation on numbers. Each is rounded once, as IEEE 754 says; nothing may be contracted or reordered.
+///
+/// The programs of a generating function have inputs, slots, sums, products and fused products only: signs and numbers
+/// live in their slots. A whole step has the others too.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Node {
+    /// The number 0, the value of an empty polynomial.
+    Zero,
+    /// Another number, by its bits.
+    Constant(u64),
+    /// The distance from 1 to the next larger number of the type that the program is evaluated in.
+    Epsilon,
+    /// Input number i.
+    Input(u32),
+    /// Folded coefficient number i.
+    Slot(u32),
+    /// a + b
+    Add(Id, Id),
+    /// a − b
+    Sub(Id, Id),
+    /// a · b
+    Mul(Id, Id),
+    /// a · b + c, rounded once where the target rounds as the processor's fused product does.
+    TimesPlus(Id, Id, Id),
+    /// a / b
+    Div(Id, Id),
+    /// −a
+    Neg(Id),
+    /// |a|
+    Abs(Id),
+    /// √a
+    Sqrt(Id),
+    /// The integer nearest to a, the even one of two.
+    Round(Id),
+    /// a · 2ᵏ, for whole k from −1022 to 1023, rounded once where the result is too small: the product with the number
+    /// whose exponent field is that of k. Other k give other numbers, the same on every target.
+    Scale(Id, Id),
+    /// The exponent of a: ⌊log₂ |a|⌋; for numbers too small to have a leading 1, and 0, one less than that of the
+    /// smallest with one (−1023), for infinities and what is no number one more than that of the largest (1024).
+    Exponent(Id),
+    /// c if a ≤ b, else d; d where a or b is not a number.
+    Select(Id, Id, Id, Id),
+}
+
+impl Node {
+    /// The operands, in order.
+    pub fn operands(&self) -> impl Iterator<Item = Id> + use<> {
+        let list = match *self {
+            Self::Zero | Self::Constant(_) | Self::Epsilon | Self::Input(_) | Self::Slot(_) => {
+                [None; 4]
+            }
+            Self::Neg(a) | Self::Abs(a) | Self::Sqrt(a) | Self::Round(a) | Self::Exponent(a) => {
+                [Some(a), None, None, None]
+            }
+            Self::Add(a, b)
+            | Self::Sub(a, b)
+            | Self::Mul(a, b)
+            | Self::Div(a, b)
+            | Self::Scale(a, b) => [Some(a), Some(b), None, None],
+            Self::TimesPlus(a, b, c) => [Some(a), Some(b), Some(c), None],
+            Self::Select(a, b, c, d) => [Some(a), Some(b), Some(c), Some(d)],
+        };
+        list.into_iter().flatten()
+    }
+
+    /// Whether it has operands. Inputs, coefficients and numbers are read where they are used.
+    #[must_use]
+    pub fn is_operation(&self) -> bool {
+        self.operands().next().is_some()
+    }
+
+    /// The same operation with operands renamed by `rename`.
+    #[must_use]
+    pub fn map(self, rename: impl Fn(Id) -> Id) -> Self {
+        match self {
+            Self::Add(a, b) => Self::Add(rename(a), rename(b)),
+            Self::Sub(a, b) => Self::Sub(rename(a), rename(b)),
+            Self::Mul(a, b) => Self::Mul(rename(a), rename(b)),
+            Self::Div(a, b) => Self::Div(rename(a), rename(b)),
+            Self::TimesPlus(a, b, c) => Self::TimesPlus(rename(a), rename(b), rename(c)),
+            Self::Neg(a) => Self::Neg(rename(a)),
+            Self::Abs(a) => Self::Abs(rename(a)),
+            Self::Sqrt(a) => Self::Sqrt(rename(a)),
+            Self::Round(a) => Self::Round(rename(a)),
+            Self::Scale(a, k) => Self::Scale(rename(a), rename(k)),
+            Self::Exponent(a) => Self::Exponent(rename(a)),
+            Self::Select(a, b, c, d) => Self::Select(rename(a), rename(b), rename(c), rename(d)),
+            leaf @ (Self::Zero
+            | Self::Constant(_)
+            | Self::Epsilon
+            | Self::Input(_)
+            | Self::Slot(_)) => leaf,
+        }
+    }
+}
+
+/// How many operations a program takes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Cost {
+    /// Products, those inside a product-and-sum included.
+    pub multiplications: usize,
+    /// Sums and differences, those inside a product-and-sum included.
+    pub additions: usize,
+    /// Quotients and roots.
+    pub divisions: usize,
+}
+
+impl Cost {
+    /// All operations; comparisons, signs and absolute values count nothing.
+    #[must_use]
+    pub fn total(self) -> usize {
+        self.multiplications + self.additions + self.divisions
+    }
+
+    /// The cost of these nodes.
+    #[must_use]
+    pub fn of(nodes: &[Node]) -> Self {
+        let mut cost = Self::default();
+        for node in nodes {
+            match node {
+                Node::Add(..) | Node::Sub(..) => cost.additions += 1,
+                Node::Mul(..) | Node::Scale(..) => cost.multiplications += 1,
+                Node::TimesPlus(..) => {
+                    cost.additions += 1;
+                    cost.multiplications += 1;
+                }
+                Node::Div(..) | Node::Sqrt(_) => cost.divisions += 1,
+                _ => {}
+            }
+        }
+        cost
+    }
+}
+
+/// A straight-line program: numbers and folded coefficients in, numbers out, no branches and no loops.
+///
+/// It cannot be malformed: operands come before their users, and inputs are within their number.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Program {
+    inputs: usize,
+    slots: usize,
+    nodes: Vec<Node>,
+    outputs: Vec<Id>,
+    /// The nodes that are a function's value, and at which node.
+    calls: Vec<(Id, Function, Id)>,
+}
+
+impl Program {
+    /// How many inputs the program reads.
+    #[must_use]
+    pub fn inputs(&self) -> usize {
+        self.inputs
+    }
+
+    /// One more than the number of the last folded coefficient it reads; zero if none.
+    #[must_use]
+    pub fn slots(&self) -> usize {
+        self.slots
+    }
+
+    /// All nodes; operands come before their users.
+    #[must_use]
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
+    /// The nodes whose values are the results, in order.
+    #[must_use]
+    pub fn outputs(&self) -> &[Id] {
+        &self.outputs
+    }
+
+    /// The nodes that are a function's value, as (value, function, argument), in order.
+    #[must_use]
+    pub(crate) fn calls(&self) -> &[(Id, Function, Id)] {
+        &self.calls
+    }
+
+    /// How many nodes are operations.
+    #[must_use]
+    pub fn operations(&self) -> usize {
+        self.nodes.iter().filter(|node| node.is_operation()).count()
+    }
+
+    /// The part of each node where the program is cut into parts of about as many operations, at most `longest`; ascending.
+    #[must_use]
+    pub fn parts(&self, longest: usize) -> Vec<usize> {
+        let operations = self.operations();
+        let length = operations.div_ceil(operations.div_ceil(longest).max(1)).max(1);
+        let mut seen: usize = 0;
+        let part = |node: &Node| {
+            seen += usize::from(node.is_operation());
+            seen.saturating_sub(1) / length
+        };
+        self.nodes.iter().map(part).collect()
+    }
+
+    /// The cost of one evaluation.
+    #[must_use]
+    pub fn cost(&self) -> Cost {
+        Cost::of(&self.nodes)
+    }
+
+    /// How often each node is used, as an operand or as a result.
+    #[must_use]
+    pub fn uses(&self) -> Vec<usize> {
+        let mut uses = vec![0; self.nodes.len()];
+        for node in &self.nodes {
+            for operand in node.operands() {
+                uses[operand.index()] += 1;
+            }
+        }
+        for output in &self.outputs {
+            uses[output.index()] += 1;
+        }
+        uses
+    }
+}
+
+/// A function of one number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Function {
+    /// The exponential.
+    Exp,
+    /// The natural logarithm; of positive numbers.
+    Ln,
+    /// The sine, of an angle in radians up to 10⁸.
+    Sin,
+    /// The cosine, of an angle in radians up to 10⁸.
+    Cos,
+    /// The tangent, of an angle in radians up to 10⁸.
+    Tan,
+    /// The inverse of the tangent.
+    Atan,
+    /// The hyperbolic tangent.
+    Tanh,
+    /// a to the power m/n, for n from 1; of numbers from 0 where n is not 1.
+    Power(i32, u32),
 }

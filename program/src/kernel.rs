@@ -27,9 +27,10 @@
 //! A refused step leaves the state as it was; whoever drives the kernel may then follow the solution by other means or
 //! say why there is none.
 
-use crate::error::ProgramError;
-use crate::precision::Precision;
-use crate::program::Program;
+use core::fmt;
+use core::ops::Deref;
+
+use crate::graph::Program;
 use crate::schedule::{Block, schedule};
 
 /// The programs of a step. n is the dimension, m how many numbers make a group element, k how many constants a solve has.
@@ -72,20 +73,23 @@ pub struct KernelParts {
     pub programs: Programs,
 }
 
-/// A step of a system on its group, for every target: programs that fit together.
+/// A step of a system on its group, for every target: [`KernelParts`] that fit together, which are read through it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kernel {
-    dim: usize,
-    element: usize,
+    parts: KernelParts,
     constants: usize,
     slots: usize,
-    tolerance: f64,
-    near: f64,
-    corrections: u32,
     precision: Precision,
-    programs: Programs,
     kicks: Option<Kicks>,
     schedule: Block,
+}
+
+impl Deref for Kernel {
+    type Target = KernelParts;
+
+    fn deref(&self) -> &KernelParts {
+        &self.parts
+    }
 }
 
 /// Kicks between the flows of a step.
@@ -102,8 +106,7 @@ impl Kernel {
     /// [`ProgramError::Shape`] where a program has not the inputs and outputs that n and m ask for,
     /// [`ProgramError::Limits`] where `tolerance` is not below 1 or `near` is negative.
     pub fn new(parts: KernelParts) -> Result<Self, ProgramError> {
-        let KernelParts { dim, element, tolerance, near, corrections, programs } = parts;
-        let (n, m) = (dim, element);
+        let KernelParts { dim: n, element: m, tolerance, near, corrections, ref programs } = parts;
         let constants = programs.guess.outputs().len().saturating_sub(n);
         let watched = programs.watch.outputs().len();
         let entries = programs.matrix.outputs().len();
@@ -129,21 +132,8 @@ impl Kernel {
         if !(tolerance < 1.0 && near >= 0.0) {
             return Err(ProgramError::Limits);
         }
-        let precision = Precision::Double;
         let schedule = schedule(corrections, programs.frame.is_some(), None);
-        Ok(Self {
-            dim,
-            element,
-            constants,
-            slots,
-            tolerance,
-            near,
-            corrections,
-            precision,
-            programs,
-            kicks: None,
-            schedule,
-        })
+        Ok(Self { parts, constants, slots, precision: Precision::Double, kicks: None, schedule })
     }
 
     /// The same with kicks between the flows of a step, of which there are this many: `kick` is g (m), μ (n) ↦ the
@@ -166,7 +156,7 @@ impl Kernel {
     #[must_use]
     pub fn in_precision(self, precision: Precision) -> Self {
         let tolerance = self.tolerance / self.precision.epsilon() * precision.epsilon();
-        Self { precision, tolerance, ..self }
+        Self { precision, parts: KernelParts { tolerance, ..self.parts }, ..self }
     }
 
     /// The numbers that the programs are made for. The interpreter and machine code evaluate them in 64 bits all the
@@ -174,18 +164,6 @@ impl Kernel {
     #[must_use]
     pub fn precision(&self) -> Precision {
         self.precision
-    }
-
-    /// n, the dimension of the group.
-    #[must_use]
-    pub fn dim(&self) -> usize {
-        self.dim
-    }
-
-    /// m, how many numbers make a group element.
-    #[must_use]
-    pub fn element(&self) -> usize {
-        self.element
     }
 
     /// k, how many constants a solve has.
@@ -218,34 +196,100 @@ impl Kernel {
         self.kicks.as_ref().map(|kicks| &kicks.kick)
     }
 
-    /// The largest residual bound of a solved step, relative to the largest coordinate of μ.
-    #[must_use]
-    pub fn tolerance(&self) -> f64 {
-        self.tolerance
-    }
-
-    /// How far the solution may be from its first guess, relative to the largest coordinate of μ.
-    #[must_use]
-    pub fn near(&self) -> f64 {
-        self.near
-    }
-
-    /// Corrections at most.
-    #[must_use]
-    pub fn corrections(&self) -> u32 {
-        self.corrections
-    }
-
-    /// The programs.
-    #[must_use]
-    pub fn programs(&self) -> &Programs {
-        &self.programs
-    }
-
     /// The loop that calls the programs.
     #[must_use]
     pub fn schedule(&self) -> &Block {
         &self.schedule
+    }
+}
+
+/// Why programs are no step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ProgramError {
+    /// A program of a step has other numbers of inputs and outputs than the step's dimensions ask for.
+    Shape {
+        /// Which program.
+        program: &'static str,
+        /// Inputs and outputs it must have.
+        expected: (usize, usize),
+        /// Inputs and outputs it has.
+        found: (usize, usize),
+    },
+    /// The tolerance of a step is not below 1, or the distance from its guess is negative: no guess would be corrected.
+    Limits,
+}
+
+impl fmt::Display for ProgramError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Shape { program, expected, found } => write!(
+                f,
+                "the program '{program}' has {} inputs and {} outputs, where the step has {} and {}",
+                found.0, found.1, expected.0, expected.1
+            ),
+            Self::Limits => f.write_str(
+                "the tolerance of a step has to be below 1, and the distance from its guess at least 0",
+            ),
+        }
+    }
+}
+
+impl core::error::Error for ProgramError {}
+
+/// The numbers that a kernel is made for: its tolerances are those of their rounding.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Precision {
+    /// 64 bits.
+    #[default]
+    Double,
+    /// 32 bits.
+    Single,
+}
+
+impl Precision {
+    /// The distance from 1 to the next larger number.
+    #[must_use]
+    pub fn epsilon(self) -> f64 {
+        match self {
+            Self::Double => f64::EPSILON,
+            Self::Single => f64::from(f32::EPSILON),
+        }
+    }
+
+    /// The largest number.
+    #[must_use]
+    pub fn largest(self) -> f64 {
+        match self {
+            Self::Double => f64::MAX,
+            Self::Single => f64::from(f32::MAX),
+        }
+    }
+
+    /// Bytes of a number.
+    #[must_use]
+    pub fn bytes(self) -> usize {
+        match self {
+            Self::Double => 8,
+            Self::Single => 4,
+        }
+    }
+
+    /// The number nearest to this one.
+    #[must_use]
+    pub fn round(self, value: f64) -> f64 {
+        match self {
+            Self::Double => value,
+            Self::Single => f64::from(value as f32),
+        }
+    }
+}
+
+impl fmt::Display for Precision {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Double => "double",
+            Self::Single => "single",
+        })
     }
 }
 
@@ -257,7 +301,7 @@ mod tests {
     #[test]
     fn limits_under_which_no_guess_is_corrected_are_refused() {
         let program = |inputs, outputs| {
-            let mut graph = Graph::new();
+            let graph = Graph::new();
             let zero = graph.zero();
             graph.finish(inputs, &alloc::vec![zero; outputs])
         };

@@ -23,14 +23,6 @@ compile_error!("coadjoint-program needs one of its features `std` (the default) 
 pub mod bits;
 #[cfg(feature = "programs")]
 mod derivative;
-#[cfg(feature = "programs")]
-mod dispatch;
-#[cfg(feature = "programs")]
-mod elementary;
-#[cfg(feature = "programs")]
-mod error;
-#[cfg(feature = "programs")]
-mod evaluate;
 pub mod fold;
 #[cfg(feature = "programs")]
 mod function;
@@ -42,17 +34,9 @@ mod interpret;
 mod kernel;
 pub mod limits;
 #[cfg(feature = "programs")]
-mod node;
-#[cfg(feature = "programs")]
 mod number;
 #[cfg(feature = "programs")]
-mod packed;
-#[cfg(feature = "programs")]
-mod precision;
-#[cfg(feature = "programs")]
 pub mod print;
-#[cfg(feature = "programs")]
-mod program;
 #[cfg(feature = "programs")]
 pub mod quoting;
 #[cfg(feature = "programs")]
@@ -64,21 +48,11 @@ mod stepper;
 #[cfg(feature = "programs")]
 pub use derivative::Argument;
 #[cfg(feature = "programs")]
-pub use elementary::Function;
-#[cfg(feature = "programs")]
-pub use error::ProgramError;
-#[cfg(feature = "programs")]
-pub use graph::Graph;
+pub use graph::{Cost, Function, Graph, Id, Node, Program};
 #[cfg(feature = "programs")]
 pub use interpret::Attempt;
 #[cfg(feature = "programs")]
-pub use kernel::{Kernel, KernelParts, Programs};
-#[cfg(feature = "programs")]
-pub use node::{Cost, Id, Node};
-#[cfg(feature = "programs")]
-pub use precision::Precision;
-#[cfg(feature = "programs")]
-pub use program::Program;
+pub use kernel::{Kernel, KernelParts, Precision, ProgramError, Programs};
 #[cfg(feature = "programs")]
 pub use schedule::BLOCK;
 #[cfg(feature = "programs")]

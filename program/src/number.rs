@@ -1,5 +1,7 @@
 //! The numbers that programs are evaluated in: scalars, and several at once.
 
+use crate::bits::{exponent, power_of_two};
+
 /// A number, or several in lanes, with the operations of [`Node`](crate::Node), each rounded once.
 pub(crate) trait Number: Copy {
     /// The same number in all lanes.
@@ -30,7 +32,6 @@ pub(crate) trait Number: Copy {
     fn select(self, b: Self, then: Self, otherwise: Self) -> Self;
 }
 
-use crate::bits::{exponent, power_of_two};
 #[cfg(not(feature = "std"))]
 use libm::{fma as fused, rint as nearest, sqrt as root};
 #[cfg(feature = "std")]
@@ -177,5 +178,68 @@ impl<const L: usize> Number for Lanes<L> {
     #[inline(always)]
     fn select(self, b: Self, then: Self, otherwise: Self) -> Self {
         Self::each(|l| if self.0[l] <= b.0[l] { then.0[l] } else { otherwise.0[l] })
+    }
+}
+
+/// Numbers that know how they lie in memory, and which of them are done.
+pub(crate) trait Packed<const L: usize>: Number {
+    fn load(list: &[f64], i: usize) -> Self;
+    fn store(self, list: &mut [f64], i: usize);
+    fn lane(self, lane: usize) -> f64;
+    /// In live lanes `new`, in others self.
+    fn update(self, live: [bool; L], new: Self) -> Self;
+}
+
+impl Packed<1> for f64 {
+    #[inline(always)]
+    fn load(list: &[f64], i: usize) -> Self {
+        list.get(i).copied().unwrap_or(0.0)
+    }
+    #[inline(always)]
+    fn store(self, list: &mut [f64], i: usize) {
+        if let Some(place) = list.get_mut(i) {
+            *place = self;
+        }
+    }
+    #[inline(always)]
+    fn lane(self, _: usize) -> f64 {
+        self
+    }
+    #[inline(always)]
+    fn update(self, live: [bool; 1], new: Self) -> Self {
+        if live[0] { new } else { self }
+    }
+}
+
+impl<const L: usize> Packed<L> for Lanes<L> {
+    #[inline(always)]
+    fn load(list: &[f64], i: usize) -> Self {
+        let mut result = [0.0; L];
+        for (lane, value) in result.iter_mut().enumerate() {
+            *value = list.get(i * L + lane).copied().unwrap_or(0.0);
+        }
+        Self(result)
+    }
+    #[inline(always)]
+    fn store(self, list: &mut [f64], i: usize) {
+        for (lane, value) in self.0.into_iter().enumerate() {
+            if let Some(place) = list.get_mut(i * L + lane) {
+                *place = value;
+            }
+        }
+    }
+    #[inline(always)]
+    fn lane(self, lane: usize) -> f64 {
+        self.0[lane]
+    }
+    #[inline(always)]
+    fn update(self, live: [bool; L], new: Self) -> Self {
+        let mut result = self.0;
+        for lane in 0..L {
+            if live[lane] {
+                result[lane] = new.0[lane];
+            }
+        }
+        Self(result)
     }
 }

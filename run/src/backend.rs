@@ -257,7 +257,7 @@ fn plan(kernel: &Kernel, steps: f64, trajectories: Trajectories) -> Vec<Backend>
 
 /// The operations of a step, if one correction is enough.
 fn operations(kernel: &Kernel) -> usize {
-    let programs = kernel.programs();
+    let programs = &kernel.programs;
     let list = [&programs.guess, &programs.correct, &programs.accept, &programs.transport];
     list.iter().map(|program| program.nodes().len()).sum()
 }

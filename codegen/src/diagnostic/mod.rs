@@ -5,20 +5,19 @@
 #[cfg(feature = "system")]
 mod encoding;
 mod mistake;
-#[cfg(feature = "system")]
-mod quote;
-mod render;
-mod span;
+
+use std::cell::RefCell;
+use std::fmt::{Display, Write};
+use std::ops::Range;
+
+use quote::{ToTokens, quote_spanned};
 
 pub use coadjoint_symbolic::nearest::nearest;
 #[cfg(feature = "system")]
+pub(crate) use encoding::unclosed_quote;
+#[cfg(feature = "system")]
 pub use encoding::{check_table, read_text};
 pub(crate) use mistake::Mistake;
-#[cfg(feature = "system")]
-pub(crate) use quote::unclosed_quote;
-pub use span::Span;
-
-use std::cell::RefCell;
 
 /// Nobody reads more mistakes than this.
 const MOST: usize = 100;
@@ -62,7 +61,7 @@ pub struct Diagnostics {
 impl Diagnostics {
     /// No mistakes yet.
     #[must_use]
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self::default()
     }
 
@@ -135,5 +134,186 @@ impl Diagnostics {
             all.combine(error);
             all
         })
+    }
+}
+
+/// Lines longer than this are not shown.
+const WIDEST: usize = 200;
+
+impl Diagnostics {
+    /// The mistakes as text, ordered by place: `file:line:column: error: …`, the line itself with
+    /// a marker, and `help: …`.
+    #[must_use]
+    pub fn render(&self, file: &str, text: &str) -> String {
+        let mut ordered = self.list();
+        ordered.sort_by_key(|d| match d.span {
+            Span::Text { start, .. } => start,
+            _ => 0,
+        });
+        let mut out = String::new();
+        for diagnostic in &ordered {
+            // Writing into a string cannot fail.
+            let _ = one(&mut out, diagnostic, file, text);
+        }
+        out
+    }
+}
+
+fn one(out: &mut String, diagnostic: &Diagnostic, file: &str, text: &str) -> std::fmt::Result {
+    let mistake = &diagnostic.mistake;
+    if let Span::Text { start, end } = diagnostic.span {
+        let place = Place::find(text, start, end);
+        writeln!(out, "{file}:{}:{}: error: {mistake}", place.line, place.column)?;
+        if place.source.chars().count() <= WIDEST && !place.source.trim().is_empty() {
+            let number = place.line.to_string();
+            let margin = " ".repeat(number.len());
+            let marker = format!("{}{}", " ".repeat(place.column - 1), "^".repeat(place.width));
+            writeln!(out, " {margin} |\n {number} | {}\n {margin} | {marker}", place.source)?;
+        }
+    } else {
+        writeln!(out, "{file}: error: {mistake}")?;
+    }
+    if let Some(help) = mistake.help() {
+        writeln!(out, "  help: {help}")?;
+    }
+    Ok(())
+}
+
+/// A range of bytes as line, column and width in characters, counted from 1.
+struct Place<'a> {
+    line: usize,
+    column: usize,
+    width: usize,
+    source: &'a str,
+}
+
+impl<'a> Place<'a> {
+    fn find(text: &'a str, start: usize, end: usize) -> Self {
+        let start = floor_boundary(text, start);
+        let end = floor_boundary(text, end.max(start));
+        let line_start = text[..start].rfind('\n').map_or(0, |i| i + 1);
+        let line_end = text[start..].find('\n').map_or(text.len(), |i| start + i);
+        let width = text[start..end.min(line_end).max(start)].chars().count().max(1);
+        Self {
+            line: text[..start].matches('\n').count() + 1,
+            column: text[line_start..start].chars().count() + 1,
+            width,
+            source: text[line_start..line_end].trim_end_matches('\r'),
+        }
+    }
+}
+
+fn floor_boundary(text: &str, at: usize) -> usize {
+    let mut at = at.min(text.len());
+    while !text.is_char_boundary(at) {
+        at -= 1;
+    }
+    at
+}
+
+/// A place in what the user wrote.
+#[derive(Clone, Copy, Debug, Default)]
+pub enum Span {
+    /// No place in particular: the input as a whole.
+    #[default]
+    Whole,
+    /// Bytes `start..end` of a text.
+    Text {
+        /// The first byte.
+        start: usize,
+        /// One past the last byte.
+        end: usize,
+    },
+    /// Rust tokens. Stable Rust cannot join their spans, so both ends are kept.
+    Tokens {
+        /// The first token.
+        first: proc_macro2::Span,
+        /// The last token.
+        last: proc_macro2::Span,
+    },
+}
+
+impl Span {
+    /// A range of bytes.
+    pub(crate) fn text(range: Range<usize>) -> Self {
+        Self::Text { start: range.start, end: range.end }
+    }
+
+    /// A single token.
+    pub(crate) fn from_tokens(span: proc_macro2::Span) -> Self {
+        Self::Tokens { first: span, last: span }
+    }
+
+    /// All tokens of a piece of syntax.
+    pub(crate) fn of(syntax: &impl ToTokens) -> Self {
+        let mut tokens = syntax.to_token_stream().into_iter();
+        let Some(first) = tokens.next().map(|token| token.span()) else {
+            return Self::Whole;
+        };
+        Self::Tokens { first, last: tokens.last().map_or(first, |token| token.span()) }
+    }
+
+    /// From the start of this span to the end of `other`.
+    pub(crate) fn to(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Text { start, .. }, Self::Text { end, .. }) => Self::Text { start, end },
+            (Self::Tokens { first, .. }, Self::Tokens { last, .. }) => Self::Tokens { first, last },
+            (Self::Whole, span) | (span, _) => span,
+        }
+    }
+
+    /// A span of text, moved `by` bytes to the right.
+    pub(crate) fn shifted(self, by: usize) -> Self {
+        match self {
+            Self::Text { start, end } => Self::Text { start: start + by, end: end + by },
+            other => other,
+        }
+    }
+
+    /// Whether both are certainly the same place; tokens cannot be compared, so never for them.
+    pub(super) fn same_place(self, other: Self) -> bool {
+        match (self, other) {
+            (Self::Whole, Self::Whole) => true,
+            (Self::Text { start: a, end: b }, Self::Text { start: c, end: d }) => a == c && b == d,
+            _ => false,
+        }
+    }
+
+    pub(crate) fn is_text(self) -> bool {
+        matches!(self, Self::Text { .. })
+    }
+
+    pub(super) fn syn_error(self, message: impl Display) -> syn::Error {
+        match self {
+            Self::Tokens { first, last } => {
+                // An error over a token stream covers it from its first to its last token.
+                let (first, last) = (quote_spanned!(first=> _), quote_spanned!(last=> _));
+                syn::Error::new_spanned(quote::quote!(#first #last), message)
+            }
+            _ => syn::Error::new(proc_macro2::Span::call_site(), message),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_counted_in_characters_from_one() {
+        let text = "a\nΠx + ω\n";
+        let start = text.find('ω').unwrap();
+        let place = Place::find(text, start, start + 'ω'.len_utf8());
+        assert_eq!((place.line, place.column, place.width), (2, 6, 1));
+        assert_eq!(place.source, "Πx + ω");
+    }
+
+    #[test]
+    fn the_order_is_that_of_the_text_and_the_end_is_a_place() {
+        let text = "x + y";
+        let diagnostics = Diagnostics::new();
+        diagnostics.report(Span::text(5..5), Mistake::Unfinished);
+        diagnostics.report(Span::text(0..1), Mistake::NoDependence);
+        insta::assert_snapshot!(diagnostics.render("h.toml", text));
     }
 }

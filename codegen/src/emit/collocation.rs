@@ -4,14 +4,11 @@ use coadjoint_program::quoting::rust_comment;
 use proc_macro2::{Group, Literal, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 
-use super::allow;
-use super::constructor::{Arguments, arguments};
 use super::hygiene::fresh;
-use super::item::Items;
-use super::options::Options;
-use super::parameter;
 use super::program::{Body, Field, Scope, body};
-use super::types::Types;
+use crate::emit::item::{Arguments, Items, arguments};
+use crate::emit::types::Types;
+use crate::emit::{Options, allow, parameter};
 use crate::graph::Program;
 use crate::lie::Chart;
 use crate::smooth::Smooth;

@@ -1,14 +1,13 @@
 //! A whole module as formatted text: for build scripts, the command line, and checking in.
 
 use coadjoint_program::quoting::rust_comment;
+use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::collocation::collocation;
-use super::item::{Items, items};
-use super::layout::text;
-use super::legend;
-use super::opening::wrapped;
-use super::options::Options;
+use crate::emit::Options;
+use crate::emit::collocation::collocation;
+use crate::emit::header::{legend, wrapped};
+use crate::emit::item::{Items, items};
 use crate::integrator::{Integrator, Kick};
 use crate::smooth::Smooth;
 
@@ -20,7 +19,7 @@ const WIDTH: usize = 97;
 #[must_use]
 pub fn file(integrator: &Integrator, options: &Options) -> String {
     let mut result = module(items(integrator, options));
-    let legend = legend::lines(&integrator.coefficients);
+    let legend = legend(&integrator.coefficients);
     if !legend.is_empty() {
         let about = "The coefficients of S = Σ C(m) m that programs read, C(m) being that of the monomial m:";
         result.push('\n');
@@ -67,4 +66,98 @@ fn comment(lines: impl IntoIterator<Item = String>) -> String {
         false => format!("// {line}\n"),
     };
     lines.into_iter().map(comment).collect()
+}
+
+/// How long a line of a table may be.
+const LONGEST_ROW: usize = 100;
+
+/// The items as formatted text.
+#[must_use]
+pub(crate) fn text(tokens: TokenStream) -> String {
+    match syn::parse2(tokens.clone()) {
+        Ok(items) => spaced(&filled(&comments(&prettyplease::unparse(&items)))),
+        // Emitted tokens are items by construction; if not, unformatted text still compiles or
+        // shows the compiler what is wrong.
+        Err(_) => tokens.to_string(),
+    }
+}
+
+/// Doc comments of `let` statements as plain comments. (Tokens hold no plain comments.)
+fn comments(text: &str) -> String {
+    let lines: Vec<&str> = text.lines().collect();
+    let mut result = String::with_capacity(text.len());
+    for (number, line) in lines.iter().enumerate() {
+        let mut after = lines[number..].iter().map(|line| line.trim_start());
+        let documented = after.find(|line| !line.starts_with("///"));
+        let is_let = documented.is_some_and(|line| line.starts_with("let "));
+        match line.trim_start().strip_prefix("///") {
+            Some(text) if is_let => {
+                let indent = line.len() - line.trim_start().len();
+                result.push_str(&line[..indent]);
+                result.push_str("//");
+                result.push_str(text);
+            }
+            _ => result.push_str(line),
+        }
+        result.push('\n');
+    }
+    result
+}
+
+/// An empty line after every item that ends in a brace, but for the last of its block.
+fn spaced(text: &str) -> String {
+    const STARTS: [&str; 8] = ["///", "#[", "impl", "fn ", "pub ", "static ", "type ", "const "];
+    let mut result = String::with_capacity(text.len());
+    let mut after_item = false;
+    for line in text.lines() {
+        let line_start = line.trim_start();
+        if after_item && STARTS.iter().any(|start| line_start.starts_with(start)) {
+            result.push('\n');
+        }
+        after_item = matches!(line_start, "}" | "};");
+        result.push_str(line);
+        result.push('\n');
+    }
+    result
+}
+
+/// Entries of tables, which stand one to a line, as many to a line as it holds.
+fn filled(text: &str) -> String {
+    let mut result = String::with_capacity(text.len());
+    let mut row = String::new();
+    for line in text.lines() {
+        let indent = line.len() - line.trim_start().len();
+        let row_indent = row.len() - row.trim_start().len();
+        let entry = is_entry(line);
+        if entry
+            && !row.is_empty()
+            && indent == row_indent
+            && row.len() + 1 + line[indent..].len() <= LONGEST_ROW
+        {
+            row.push(' ');
+            row.push_str(&line[indent..]);
+            continue;
+        }
+        if !row.is_empty() {
+            result.push_str(&row);
+            result.push('\n');
+            row.clear();
+        }
+        if entry {
+            row.push_str(line);
+        } else {
+            result.push_str(line);
+            result.push('\n');
+        }
+    }
+    result.push_str(&row);
+    result
+}
+
+/// Whether a line is one entry of a table: a tuple or a slice of numbers, and a comma.
+fn is_entry(line: &str) -> bool {
+    let line = line.trim();
+    (line.starts_with('(') || line.starts_with("&["))
+        && line.ends_with("),") | line.ends_with("],")
+        && line.chars().all(|c| c.is_ascii_digit() || "()[]&,.-+eE ".contains(c))
 }

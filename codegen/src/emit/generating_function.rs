@@ -3,9 +3,9 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::options::Options;
 use super::program::{Body, Field, Scope, body};
-use super::types::Types;
+use crate::emit::Options;
+use crate::emit::types::Types;
 use crate::graph::Program;
 use crate::integrator::{FoldTable, Integrator, Predictor};
 use crate::problem::Solver;

@@ -5,7 +5,7 @@ use num_traits::ToPrimitive;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::number::exact;
+use crate::emit::program::exact;
 use crate::lie::{Chart, LieAlgebra, catalogue, watched_casimirs};
 
 /// Groups the runtime has closed forms for, under the catalogue's name.

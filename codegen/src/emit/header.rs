@@ -1,11 +1,12 @@
 //! The documentation of a generated integrator.
 
 use coadjoint_program::quoting::rust_comment;
+use coadjoint_program::{Cost, Kernel, Program};
 
-use super::opening;
-use super::options::{Options, identifier};
-use super::programs::step_operations;
-use crate::integrator::Integrator;
+use crate::emit::programs::step_operations;
+use crate::emit::{Options, identifier};
+use crate::integrator::{Coefficients, Integrator, Kicks};
+use crate::lie::Chart;
 use crate::step::Step;
 
 /// Lines for a doc comment: source, group, chart, truncation, order, terms, operations of a step where it is printed.
@@ -23,7 +24,7 @@ pub(crate) fn lines(integrator: &Integrator, step: Option<&Step>) -> Vec<String>
     let operations = match step {
         Some(step) => {
             let all = step_operations(step);
-            let again = step.kernel().programs().correct.cost().total();
+            let again = step.kernel().programs.correct.cost().total();
             format!(" A step takes {all} operations, and {again} more for each further correction.")
         }
         None => {
@@ -69,7 +70,7 @@ pub(crate) fn opening(
         ),
         String::new(),
     ];
-    list.extend(opening::system(integrator, rust_comment));
+    list.extend(system(integrator, rust_comment));
     list.extend(
         [
             "How to use it:",
@@ -88,7 +89,7 @@ pub(crate) fn opening(
         .map(str::to_owned),
     );
     if let Some(step) = step {
-        list.extend(opening::costs(step.kernel()));
+        list.extend(costs(step.kernel()));
         list.push(String::new());
     }
     list.push(
@@ -98,4 +99,156 @@ pub(crate) fn opening(
             .to_owned(),
     );
     list
+}
+
+/// Beyond as many coefficients no one looks them up.
+const MOST_LINES: usize = 4000;
+
+/// A line for each slot that holds a coefficient of S: `c[3] = 2 C(p₁ p₂²), of S₃ + S₅`.
+#[must_use]
+pub(crate) fn legend(coefficients: &Coefficients) -> Vec<String> {
+    let mut lines = Vec::new();
+    for (slot, &(base, scale)) in coefficients.slots().iter().enumerate() {
+        let Some(factors) = coefficients.monomials().get(base) else { continue };
+        let monomial: Vec<String> = factors
+            .iter()
+            .map(|&(coordinate, exponent)| {
+                let power =
+                    if exponent == 1 { String::new() } else { superscript(exponent as usize) };
+                format!("p{}{power}", subscript(coordinate as usize + 1))
+            })
+            .collect();
+        let mut orders: Vec<u32> =
+            coefficients.bases()[base].iter().map(|term| term.step_power).collect();
+        orders.dedup();
+        let orders: Vec<String> =
+            orders.iter().map(|&k| format!("S{}", subscript(k as usize))).collect();
+        let scale = if scale == 1 { String::new() } else { format!("{scale} ") };
+        lines.push(format!(
+            "c[{slot}] = {scale}C({}), of {}",
+            monomial.join(" "),
+            orders.join(" + ")
+        ));
+    }
+    if lines.len() > MOST_LINES {
+        lines.clear();
+    }
+    lines
+}
+
+/// A number in subscript digits.
+#[must_use]
+pub(crate) fn subscript(number: usize) -> String {
+    let digit = |c: char| c.to_digit(10).and_then(|d| char::from_u32(0x2080 + d)).unwrap_or(c);
+    number.to_string().chars().map(digit).collect()
+}
+
+/// A number in superscript digits.
+#[must_use]
+pub(crate) fn superscript(number: usize) -> String {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let digit = |c: char| c.to_digit(10).map_or(c, |d| DIGITS[d as usize]);
+    number.to_string().chars().map(digit).collect()
+}
+
+/// The lines of a paragraph, at most `width` columns each; a line that begins with a space stays as it is.
+pub(crate) fn wrapped(paragraph: &str, width: usize) -> Vec<String> {
+    if paragraph.starts_with(' ') {
+        return vec![paragraph.to_owned()];
+    }
+    let mut lines = vec![String::new()];
+    for word in paragraph.split(' ') {
+        let line = lines.last().map_or(0, String::len);
+        if line > 0 && line + 1 + word.len() > width {
+            lines.push(String::new());
+        }
+        if let Some(line) = lines.last_mut() {
+            if !line.is_empty() {
+                line.push(' ');
+            }
+            line.push_str(word);
+        }
+    }
+    lines
+}
+
+/// Paragraphs about the system and a step of it; `quoted` makes a text fit for a comment.
+pub(crate) fn system(integrator: &Integrator, quoted: fn(&str) -> String) -> Vec<String> {
+    let problem = &integrator.problem;
+    let chart = match problem.chart {
+        Chart::Exponential => "exponential",
+        Chart::Cayley => "Cayley",
+    };
+    let mut list = vec![
+        format!("Hamiltonian: {}", quoted(&problem.source)),
+        format!(
+            "Group: {}. Chart: {}. Truncation K = {}, order of accuracy {}.",
+            quoted(problem.algebra.name()),
+            chart,
+            problem.truncation,
+            integrator.order()
+        ),
+    ];
+    let mut map = MAP.to_owned();
+    if let Some(Kicks { kick, splitting, .. }) = &integrator.kicks {
+        list.push(format!("Potential: {}", quoted(&kick.potential.source)));
+        let (name, flows, order) = (splitting.name(), splitting.flows().len(), splitting.order());
+        list.push(format!(
+            "Splitting: {name}, {flows} flows between kicks, order of accuracy {order}."
+        ));
+        map.push_str(KICKED);
+    }
+    list.extend([String::new(), map, String::new()]);
+    list
+}
+
+/// The paragraph about a step.
+const MAP: &str = "The map. With the body momentum mu and the group element g, the equations of motion are dmu/dt = \
+         ad*_(dH/dmu) mu and dg/dt = g dH/dmu (left trivialisation: g takes body coordinates to space). A step of size h \
+         is a symplectic map near their flow; it makes an error of order h^(K+2). The spatial momentum Ad*_g mu and every \
+         Casimir are conserved to rounding, step after step, and the energy stays near its first value for all times.";
+
+/// The same where kicks are between flows.
+const KICKED: &str = " This describes the flows. Between them the torque -g^-1 dV(g) of the potential kicks mu; of the spatial \
+         momentum and the Casimirs, only those remain conserved that the potential leaves invariant, and the order of accuracy \
+         is the lesser of both.";
+
+/// The cost of a step with one correction, and with as many as there may be.
+pub(crate) fn costs(kernel: &Kernel) -> [String; 2] {
+    let programs = &kernel.programs;
+    let [guess, correct, accept, transport, sound] = [
+        &programs.guess,
+        &programs.correct,
+        &programs.accept,
+        &programs.transport,
+        &programs.sound,
+    ]
+    .map(Program::cost);
+    let frame = programs.frame.as_ref().map_or(Cost::default(), Program::cost);
+    let corrections = kernel.corrections;
+    let flows = kernel.flows().unwrap_or(1) as usize;
+    let kicks = kernel.kick().map_or((0, Cost::default()), |kick| (flows + 1, kick.cost()));
+    let step = |corrections: u32| {
+        let times = corrections as usize * flows;
+        [(flows, guess), (times, correct), (flows, accept), (flows, transport), kicks]
+    };
+    let usual = sum(&step(1));
+    let most = sum(&[&step(corrections)[..], &[(1, sound), (1, frame)]].concat());
+    [
+        format!("Cost of a step with one correction, as most have: {usual}."),
+        format!("Cost at most ({corrections} corrections, and a check of the state): {most}."),
+    ]
+}
+
+/// The cost of programs that are evaluated a number of times.
+fn sum(programs: &[(usize, Cost)]) -> String {
+    let of = |count: fn(&Cost) -> usize| -> usize {
+        programs.iter().map(|(times, cost)| times * count(cost)).sum()
+    };
+    format!(
+        "{} multiplications, {} additions, {} divisions and roots",
+        of(|cost| cost.multiplications),
+        of(|cost| cost.additions),
+        of(|cost| cost.divisions)
+    )
 }

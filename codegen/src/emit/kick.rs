@@ -4,12 +4,11 @@ use coadjoint_program::quoting::rust_comment;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::constructor::{Arguments, arguments};
 use super::generating_function::{scalar_function, vector_function};
-use super::options::Options;
 use super::table::fold_item;
-use super::types::Types;
-use super::{allow, parameter};
+use crate::emit::item::{Arguments, arguments};
+use crate::emit::types::Types;
+use crate::emit::{Options, allow, parameter};
 use crate::integrator::{FoldTable, Kick};
 use crate::lie::Chart;
 

@@ -6,7 +6,6 @@
 
 pub mod c;
 mod collocation;
-mod constructor;
 mod file;
 mod generating_function;
 mod group;
@@ -14,31 +13,24 @@ mod header;
 mod hygiene;
 mod item;
 mod kick;
-mod layout;
-mod legend;
-mod limit;
-mod number;
-mod opening;
-mod options;
 mod parameter;
 mod program;
 mod programs;
 mod steps;
-mod subscript;
 mod table;
 mod types;
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use crate::integrator::Integrator;
 
 pub use collocation::collocation;
 pub use file::{collocation_file, file, potential_items};
 pub use group::RUNTIME_TABLES;
-pub use hygiene::{fresh, hygienic, identifiers};
-pub use item::{Items, items, tokens};
+pub use hygiene::{hygienic, identifiers};
+pub use item::{Items, items};
 pub use kick::kick;
-pub use limit::{MOST_TERMS, TooManyTerms, check_size};
-pub use options::{Options, camel_case, identifier};
-
-use proc_macro2::TokenStream;
-use quote::quote;
 
 /// Lints that emitted code turns off, since it follows no style.
 fn allow() -> TokenStream {
@@ -49,4 +41,123 @@ fn allow() -> TokenStream {
             unused_variables
         )]
     }
+}
+
+/// How the Rust is to look from outside.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// The path of the runtime crate, `::coadjoint` unless renamed.
+    pub krate: TokenStream,
+    /// The visibility of the struct.
+    pub visibility: TokenStream,
+    /// The struct's name.
+    pub name: Ident,
+    /// Attributes for the struct: the user's doc comments.
+    pub attributes: TokenStream,
+    /// The suffix of the names that programs bind: an underscore where a constant of the user's might have one of these
+    /// names.
+    pub suffix: &'static str,
+}
+
+impl Options {
+    /// The name of something that a program binds.
+    pub(super) fn bound(&self, name: &str) -> Ident {
+        quote::format_ident!("{name}{}", self.suffix)
+    }
+
+    /// Public, `::coadjoint`, named after the problem in camel case.
+    #[must_use]
+    pub fn for_problem(name: &str) -> Self {
+        Self {
+            krate: quote!(::coadjoint),
+            visibility: quote!(pub),
+            name: identifier(&camel_case(name)),
+            attributes: TokenStream::new(),
+            suffix: "",
+        }
+    }
+}
+
+/// The name as an identifier of Rust, with an underscore in place of what none has, and at the end of a keyword or of `T`,
+/// which stands for the numbers.
+#[must_use]
+pub fn identifier(name: &str) -> Ident {
+    let valid = |word: &str| syn::parse_str::<Ident>(word).is_ok();
+    let allowed = |c: char| c.is_ascii_alphanumeric() || valid(&format!("a{c}"));
+    let mut word: String = name.chars().map(|c| if allowed(c) { c } else { '_' }).collect();
+    if !valid(&word) || ["T", "gen"].contains(&word.as_str()) {
+        word.push('_');
+    }
+    if !valid(&word) {
+        word.insert(0, 'n');
+    }
+    format_ident!("{word}")
+}
+
+/// `rigid_body` and `rigid-body` as `RigidBody`.
+#[must_use]
+pub fn camel_case(name: &str) -> String {
+    let mut result = String::new();
+    for word in name.split(|c: char| !c.is_alphanumeric()) {
+        let mut letters = word.chars();
+        if let Some(first) = letters.next() {
+            result.extend(first.to_uppercase());
+            result.push_str(letters.as_str());
+        }
+    }
+    match result.chars().next() {
+        Some(first) if first.is_alphabetic() => result,
+        _ => format!("System{result}"),
+    }
+}
+
+/// The most terms of S that are emitted as Rust: about 280 spins of a Heisenberg ring at K = 3. The
+/// module of 256 spins (17 920 terms, 14.5 MB) took rustc a good minute of processor time in release
+/// and 1 GB; that of 128 spins 45 s and 0.6 GB.
+pub const MOST_TERMS: usize = 20_000;
+/// The most terms that the coefficients of S have as polynomials in the parameters. They are data: one table, read when an
+/// integrator is constructed.
+pub(crate) const MOST_DATA: usize = 200_000;
+
+/// A generating function with too many terms to emit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "too large to emit: S has {terms} terms, more than the limit of {limit}; {}lower the truncation, \
+     or run it in the interpreter with `coadjoint simulate`",
+    literals(*.with_literals)
+)]
+pub struct TooManyTerms {
+    /// The terms of S₁ + … + S_K, or those of their coefficients.
+    pub terms: usize,
+    /// The terms that are left with numbers in place of the parameters, where these make it too large.
+    pub with_literals: Option<usize>,
+    /// [`MOST_TERMS`], or the limit of what is data.
+    pub limit: usize,
+}
+
+fn literals(terms: Option<usize>) -> String {
+    terms.map_or_else(String::new, |terms| {
+        format!(
+            "with numbers in place of the parameters it has at most {terms}: write literals; or "
+        )
+    })
+}
+
+/// Whether an integrator is small enough for [`file`](super::file) and [`items`](super::items):
+/// larger ones are written all the same, but take the compiler very long.
+///
+/// # Errors
+/// [`TooManyTerms`].
+pub fn check_size(integrator: &Integrator) -> Result<(), TooManyTerms> {
+    let terms = integrator.terms();
+    // Of symbols the code knows nothing: it has one term to a monomial in the momenta.
+    let parameters = !integrator.problem.symbols.is_empty();
+    let code = if parameters { integrator.coefficients.series() } else { terms };
+    if code > MOST_TERMS {
+        return Err(TooManyTerms { terms: code, with_literals: None, limit: MOST_TERMS });
+    }
+    if terms > MOST_DATA {
+        return Err(TooManyTerms { terms, with_literals: Some(code), limit: MOST_DATA });
+    }
+    Ok(())
 }

@@ -3,7 +3,7 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::number::exact;
+use super::program::exact;
 use crate::expr::{Function, ParameterExpr};
 
 /// The value of `expr` as an expression of type `T`; `parameters[i]` is the expression of scalar

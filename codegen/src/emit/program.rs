@@ -5,17 +5,19 @@
 
 use std::collections::BTreeSet;
 
+use num_traits::ToPrimitive;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::graph::{Id, Node, Program};
+use crate::number::Rational;
 
 /// Programs with more operations than this are cut. Shorter ones the compiler takes in its stride, and inlines into a step
 /// for lanes, which makes use of wider registers.
 const LARGE: usize = 1500;
 
 /// The most operations of one function of a program that is cut.
-const MOST_OPERATIONS: usize = 1000;
+const LONGEST_FUNCTION: usize = 1000;
 
 /// Code of at most this number of operations is inlined for lanes, and so has the wide instructions of its caller.
 const INLINED_IN_LANES: usize = 6000;
@@ -88,7 +90,10 @@ pub(crate) struct Body {
 #[must_use]
 pub(crate) fn body(program: &Program, scope: &Scope<'_>) -> Body {
     let nodes = program.nodes();
-    let parts = parts(nodes);
+    let parts = match program.operations() {
+        0..=LARGE => vec![0; nodes.len()],
+        _ => program.parts(LONGEST_FUNCTION),
+    };
     let mut writer = Writer { program, scope, read: Vec::new(), statements: TokenStream::new() };
     if parts.last().is_none_or(|&last| last == 0) {
         (0..nodes.len()).for_each(|index| writer.write(index));
@@ -189,69 +194,33 @@ impl Writer<'_> {
     /// Writes the next node: an operation as a `let` statement; others are read in place.
     fn write(&mut self, index: usize) {
         let node = &self.program.nodes()[index];
-        let operand = |id: Id| &self.read[id.index()];
+        let operands: Vec<_> = node.operands().map(|id| &self.read[id.index()]).collect();
         let c = self.scope.bound("c");
-        let value = match *node {
-            Node::Zero => self.scope.constant(0.0),
-            Node::Constant(bits) => self.scope.constant(f64::from_bits(bits)),
-            Node::Epsilon => quote!(#c.epsilon()),
-            Node::Slot(i) => {
+        let value = match (*node, &operands[..]) {
+            (Node::Constant(bits), _) => self.scope.constant(f64::from_bits(bits)),
+            (Node::Epsilon, _) => quote!(#c.epsilon()),
+            (Node::Slot(i), _) => {
                 let i = Literal::u32_unsuffixed(i);
                 quote!(#c.at(#i))
             }
-            Node::Input(i) => self.scope.input(i as usize),
-            Node::Add(a, b) => {
-                let (x, y) = (operand(a), operand(b));
-                quote!(#x + #y)
-            }
-            Node::Sub(a, b) => {
-                let (x, y) = (operand(a), operand(b));
-                quote!(#x - #y)
-            }
-            Node::Mul(a, b) => {
-                let (x, y) = (operand(a), operand(b));
-                quote!(#x * #y)
-            }
-            Node::TimesPlus(a, b, c) => {
-                let (x, y, z) = (operand(a), operand(b), operand(c));
-                quote!(#x.times_plus(#y, #z))
-            }
-            Node::Div(a, b) => {
-                let (x, y) = (operand(a), operand(b));
-                quote!(#x / #y)
-            }
-            Node::Neg(a) => {
-                let x = operand(a);
-                quote!(-#x)
-            }
-            Node::Abs(a) => {
-                let x = operand(a);
-                quote!(#x.simd_abs())
-            }
-            Node::Sqrt(a) => {
-                let x = operand(a);
-                quote!(#x.simd_sqrt())
-            }
-            Node::Round(a) => {
-                let x = operand(a);
-                quote!(#x.simd_round())
-            }
-            Node::Scale(a, k) => {
-                let (x, k) = (operand(a), operand(k));
-                quote!(T::scale(#x, #k))
-            }
-            Node::Exponent(a) => {
-                let x = operand(a);
-                quote!(T::exponent(#x))
-            }
-            Node::Select(a, b, c, d) => {
-                // A call, no method: a lint looks for the type of what a method of one argument is called on, through
-                // all statements before it, and would not end.
-                let (w, x, y, z) = (operand(a), operand(b), operand(c), operand(d));
-                quote!(T::select(#y, T::simd_le(#w, #x), #z))
-            }
+            (Node::Input(i), _) => self.scope.input(i as usize),
+            (Node::Add(..), [x, y]) => quote!(#x + #y),
+            (Node::Sub(..), [x, y]) => quote!(#x - #y),
+            (Node::Mul(..), [x, y]) => quote!(#x * #y),
+            (Node::TimesPlus(..), [x, y, z]) => quote!(#x.times_plus(#y, #z)),
+            (Node::Div(..), [x, y]) => quote!(#x / #y),
+            (Node::Neg(_), [x]) => quote!(-#x),
+            (Node::Abs(_), [x]) => quote!(#x.simd_abs()),
+            (Node::Sqrt(_), [x]) => quote!(#x.simd_sqrt()),
+            (Node::Round(_), [x]) => quote!(#x.simd_round()),
+            (Node::Scale(..), [x, k]) => quote!(T::scale(#x, #k)),
+            (Node::Exponent(_), [x]) => quote!(T::exponent(#x)),
+            // A call, no method: a lint looks for the type of what a method of one argument is called on, through
+            // all statements before it, and would not end.
+            (Node::Select(..), [w, x, y, z]) => quote!(T::select(#y, T::simd_le(#w, #x), #z)),
+            _ => self.scope.constant(0.0),
         };
-        if node.operands().next().is_none() {
+        if operands.is_empty() {
             self.read.push(value);
             return;
         }
@@ -265,31 +234,6 @@ impl Writer<'_> {
     }
 }
 
-/// How many operations a program has.
-#[must_use]
-pub(crate) fn operations(program: &Program) -> usize {
-    program.nodes().iter().filter(|node| is_operation(node)).count()
-}
-
-fn is_operation(node: &Node) -> bool {
-    node.operands().next().is_some()
-}
-
-/// The part of every node: as many operations in each, in their order.
-fn parts(nodes: &[Node]) -> Vec<usize> {
-    let operations = nodes.iter().filter(|node| is_operation(node)).count();
-    let length = match operations {
-        0..=LARGE => operations.max(1),
-        _ => operations.div_ceil(operations.div_ceil(MOST_OPERATIONS)),
-    };
-    let mut seen = 0usize;
-    let part = nodes.iter().map(|node| {
-        seen += usize::from(is_operation(node));
-        seen.saturating_sub(1) / length
-    });
-    part.collect()
-}
-
 /// The operations whose values are read in another part or by the caller, in order.
 fn handed_on(program: &Program, parts: &[usize]) -> BTreeSet<usize> {
     let nodes = program.nodes();
@@ -297,5 +241,22 @@ fn handed_on(program: &Program, parts: &[usize]) -> BTreeSet<usize> {
         node.operands().map(|id| id.index()).filter(move |&operand| parts[operand] != *part)
     });
     let outputs = program.outputs().iter().map(|id| id.index());
-    read_elsewhere.chain(outputs).filter(|&index| is_operation(&nodes[index])).collect()
+    read_elsewhere.chain(outputs).filter(|&index| nodes[index].is_operation()).collect()
+}
+
+/// The nearest `f64` of an exact number.
+#[must_use]
+pub(crate) fn exact(value: &Rational) -> TokenStream {
+    float(value.to_f64().unwrap_or(f64::NAN))
+}
+
+/// A literal; numbers beyond the range of `f64` by name, for folding to refuse.
+#[must_use]
+pub(crate) fn float(value: f64) -> TokenStream {
+    if value.is_finite() {
+        let literal = Literal::f64_unsuffixed(value);
+        quote!(#literal)
+    } else {
+        quote!(f64::NAN)
+    }
 }

@@ -5,8 +5,8 @@ use coadjoint_program::schedule::{Kind, Part, Variable};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::options::Options;
-use super::program::{Body, Field, Scope, body, operations};
+use super::Options;
+use super::program::{Body, Field, Scope, body};
 use super::steps::steps;
 use crate::graph::Program;
 use crate::step::Step;
@@ -18,7 +18,7 @@ pub(crate) const MOST_OPERATIONS: usize = 20_000;
 #[must_use]
 pub(crate) fn step_operations(step: &Step) -> usize {
     let programs = Part::ALL.iter().filter_map(|(part, _)| part.program(step.kernel()));
-    programs.map(operations).sum()
+    programs.map(Program::operations).sum()
 }
 
 /// The programs and the loop as functions, and `impl Integrator`, which runs them.

@@ -8,9 +8,8 @@ use coadjoint_program::schedule::{Block, Kept, Kind, Part, Statement, Test, Vari
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::number::float;
-use super::options::Options;
-use super::program::apart;
+use crate::emit::Options;
+use crate::emit::program::{apart, float};
 
 /// The functions `open` and `steps` of a kernel that has `operations` operations.
 pub(crate) fn steps(kernel: &Kernel, options: &Options, operations: usize) -> TokenStream {
@@ -21,10 +20,10 @@ pub(crate) fn steps(kernel: &Kernel, options: &Options, operations: usize) -> To
     let [c, steps, driven, live] = ["c", "steps", "driven", "live"].map(|name| options.bound(name));
     let [bound, distance] =
         [Variable::ResidualBound, Variable::Distance].map(|variable| writer.name(variable));
-    let roundings = float(kernel.tolerance() / kernel.precision().epsilon());
-    let near = float(kernel.near());
+    let roundings = float(kernel.tolerance / kernel.precision().epsilon());
+    let near = float(kernel.near);
     let done = writer.name(Variable::Done);
-    let [element, dim] = [kernel.element(), kernel.dim()].map(Literal::usize_unsuffixed);
+    let [element, dim] = [kernel.element, kernel.dim].map(Literal::usize_unsuffixed);
     let state = quote!(([T; #element], [T; #dim]));
     quote! {
         /// Whether an equation is corrected again: not solved to rounding, and near the first guess.

@@ -3,7 +3,7 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::number::float;
+use super::program::float;
 use crate::integrator::{FoldTable, Integrator};
 
 /// The static `FOLD`, a `coadjoint::plumbing::Fold` with these lists.

@@ -8,9 +8,9 @@ use std::str::Chars;
 use num_traits::ToPrimitive;
 
 use super::names::{Name, Names};
-use super::token::bracketed;
 use crate::diagnostic::Mistake;
 use crate::number::{Rational, integer};
+use crate::parse::token::bracketed;
 
 /// The most terms one sum may have.
 pub(super) const MOST_TERMS: i64 = 10_000;

@@ -7,13 +7,13 @@
 
 use std::ops::Range;
 
-use super::names::{Name, Names, is_word};
-use super::sum::{self, Scope};
-use super::token::{Token, Tokens};
 use crate::cancel;
 use crate::diagnostic::{Diagnostics, Mistake, Span, nearest};
 use crate::expr::{Arena, ExprId, Function, Node};
 use crate::number::integer;
+use crate::parse::names::{Name, Names, is_word};
+use crate::parse::sum::{self, Scope};
+use crate::parse::token::{Token, Tokens};
 
 /// The most operations an expression with sums may have.
 const MOST_OPERATIONS: usize = 1_000_000;

@@ -61,12 +61,12 @@ pub(super) fn lower(
     }
     let root = pass.values.pop().flatten()?;
     let root = pass.number(&root);
-    let Pass { mut graph, table, slots, watched, texts, .. } = pass;
+    let Pass { graph, table, slots, watched, texts, .. } = pass;
     let n = coordinates.len();
     let inputs: Vec<Id> = (0..n).map(|i| graph.input(i)).collect();
     let one = graph.constant(1.0);
     let gradient = graph.pull_back(&[(root, one)], &inputs);
-    let finish = |outputs: &[Id]| graph.clone().finish(n + 1 + signals.len(), outputs);
+    let finish = |outputs: &[Id]| graph.finish(n + 1 + signals.len(), outputs);
     let pairs: Vec<Id> = watched.iter().flat_map(|&(_, argument, test)| [argument, test]).collect();
     let mut numbered: Vec<_> = slots.into_iter().collect();
     numbered.sort_by_key(|(_, slot)| *slot);

@@ -72,7 +72,7 @@ fn compare(built: &Built, output: &str) {
     assert_eq!(bits(&numbers(output, "g", 0)), bits(&g), "{name}: g");
     assert_eq!(bits(&numbers(output, "mu", 0)), bits(&mu), "{name}: mu");
     assert_eq!(bits(&numbers(output, "energy", 1)), bits(&watch(&g, &mu)[..1]), "{name}");
-    let matrix = kernel.programs().matrix.run(&g, &[]);
+    let matrix = kernel.programs.matrix.run(&g, &[]);
     assert_eq!(bits(&numbers(output, "matrix", 0)), bits(&matrix), "{name}: matrix");
     // The spatial momentum is conserved, and at the identity it is the body's.
     let (before, after) = (numbers(output, "spatial", 0), numbers(output, "spatial", 1));

@@ -176,7 +176,7 @@ pub fn work(options: &Options) -> Fallible<Report> {
     for (chart, name) in [(Chart::Exponential, "exp"), (Chart::Cayley, "Cayley")] {
         for truncation in [3, 5, 7, 9] {
             let steps = Steps::new(RIGID_BODY, chart, truncation)?;
-            let programs = steps.kernel().programs();
+            let programs = &steps.kernel().programs;
             let cost = |program: &Program| program.cost().total() as f64;
             let step = cost(&programs.guess) + cost(&programs.accept) + cost(&programs.transport);
             for &count in options.pick(&WORK_COUNTS[..], &WORK_COUNTS[..9]) {

@@ -6,11 +6,10 @@ use alloc::string::{String, ToString};
 
 use super::c::{C, Dialect};
 use super::function::function;
-use super::signature::signatures;
-use super::steps::{LoopStyle, steps};
-use crate::kernel::Kernel;
-use crate::node::{Id, Node};
-use crate::precision::Precision;
+use crate::graph::{Id, Node};
+use crate::kernel::{Kernel, Precision};
+use crate::print::c::signatures;
+use crate::print::steps::{LoopStyle, steps};
 use crate::quoting::c_comment;
 use crate::schedule::BLOCK;
 
@@ -100,10 +99,10 @@ fn comment(kernel: &Kernel, about: &str) -> String {
     for line in about.lines() {
         text.push_str(&format!(" * {}\n", c_comment(line)));
     }
-    let programs = kernel.programs();
+    let programs = &kernel.programs;
     let of = |list: &[&crate::Program]| list.iter().map(|one| one.cost().total()).sum::<usize>();
     let fixed = of(&[&programs.guess, &programs.accept, &programs.transport]);
-    let (n, m, correction) = (kernel.dim(), kernel.element(), of(&[&programs.correct]));
+    let (n, m, correction) = (kernel.dim, kernel.element, of(&[&programs.correct]));
     text.push_str(&format!(
         " *\n\
          \x20* coadjoint_steps(g, mu, done, status, rows, target): a thread a trajectory, numbers of {} precision.\n\
@@ -169,7 +168,7 @@ impl Device {
 
     /// The sizes that the loop uses, as macros; arrays have one number at least.
     fn sizes(&self, kernel: &Kernel) -> String {
-        let (n, m) = (kernel.dim(), kernel.element());
+        let (n, m) = (kernel.dim, kernel.element);
         let literal = |value| self.literal(value);
         let array = |length: usize| length.max(1);
         format!(
@@ -181,8 +180,8 @@ impl Device {
             literal(1.0),
             array(n),
             array(m),
-            literal(kernel.tolerance()),
-            literal(kernel.near()),
+            literal(kernel.tolerance),
+            literal(kernel.near),
         )
     }
 

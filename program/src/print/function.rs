@@ -8,16 +8,15 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::c::Dialect;
-use super::signature::Signature;
-use crate::node::Node;
+use crate::graph::Node;
+use crate::print::c::Signature;
 
 /// The function of a signature, where it has more than `longest` operations as pieces that it calls. What a piece leaves
 /// for later ones is in an array `w`.
 #[must_use]
 pub fn function(dialect: &impl Dialect, signature: &Signature<'_>, longest: usize) -> String {
     let nodes = signature.program.nodes();
-    let operations = nodes.iter().filter(|node| is_operation(node)).count();
-    let count = operations.div_ceil(longest).max(1);
+    let count = signature.program.operations().div_ceil(longest).max(1);
     let mut body = Body { dialect, signature, names: Vec::with_capacity(nodes.len()) };
     if count == 1 {
         let mut text = dialect.c().head(signature);
@@ -25,7 +24,7 @@ pub fn function(dialect: &impl Dialect, signature: &Signature<'_>, longest: usiz
         body.outputs(|_| true, &mut text);
         return text + "}\n";
     }
-    let piece = pieces(nodes, operations.div_ceil(count));
+    let piece = signature.program.parts(longest);
     let (places, size) = places(nodes, &piece, count);
     let (parameters, arguments) = dialect.c().workspace(signature);
     let (mut text, mut calls) = (String::new(), String::new());
@@ -54,10 +53,6 @@ pub fn function(dialect: &impl Dialect, signature: &Signature<'_>, longest: usiz
     text.push_str(&dialect.c().head(signature));
     text.push_str(&format!("    {} w[{}];\n{calls}}}\n", dialect.c().number, size.max(1)));
     text
-}
-
-fn is_operation(node: &Node) -> bool {
-    node.operands().next().is_some()
 }
 
 /// The statements of a function. Inputs, coefficients and numbers stand where they are used.
@@ -114,16 +109,6 @@ impl<D: Dialect> Body<'_, D> {
     }
 }
 
-/// The number of the piece that each node is in, ascending.
-fn pieces(nodes: &[Node], longest: usize) -> Vec<usize> {
-    let mut operations: usize = 0;
-    let piece = |node: &Node| {
-        operations += usize::from(is_operation(node));
-        operations.saturating_sub(1) / longest
-    };
-    nodes.iter().map(piece).collect()
-}
-
 /// For each operation that a later piece reads its place in `w`, and the length of `w`. A place is free again in the
 /// piece after the last that reads it.
 fn places(nodes: &[Node], piece: &[usize], count: usize) -> (BTreeMap<usize, usize>, usize) {
@@ -143,7 +128,7 @@ fn places(nodes: &[Node], piece: &[usize], count: usize) -> (BTreeMap<usize, usi
             free.append(&mut ends[current]);
             current += 1;
         }
-        if is_operation(node) && last[at] > piece[at] {
+        if node.is_operation() && last[at] > piece[at] {
             let place = free.pop().unwrap_or_else(|| {
                 size += 1;
                 size - 1

@@ -10,13 +10,11 @@ mod c;
 mod device;
 mod function;
 mod native;
-mod signature;
 mod steps;
 mod vectors;
 
-pub use c::{C, Dialect};
+pub use c::{C, Dialect, Field, Signature, signatures};
 pub use device::{DeviceLanguage, KERNEL_NAME, device_unit};
 pub use function::function;
 pub use native::{ABI, native_unit};
-pub use signature::{Field, Signature, signatures};
 pub use steps::{LoopStyle, steps};

@@ -5,10 +5,10 @@ use alloc::string::String;
 
 use super::c::C;
 use super::function::function;
-use super::signature::signatures;
-use super::steps::{LoopStyle, steps};
 use super::vectors::{PREAMBLE, Vectors};
 use crate::kernel::Kernel;
+use crate::print::c::signatures;
+use crate::print::steps::{LoopStyle, steps};
 use crate::stepper::{Trajectories, WIDTH};
 
 /// The version of what [`native_unit`] exports. It changes with the loop, the functions' parameters and the meaning of
@@ -77,8 +77,8 @@ pub fn native_unit(kernel: &Kernel, trajectories: Trajectories) -> String {
 
 /// The sizes as macros, those of arrays at least 1, and as an exported array.
 fn sizes(kernel: &Kernel) -> String {
-    let (n, m) = (kernel.dim(), kernel.element());
-    let (tolerance, near) = (kernel.tolerance(), kernel.near());
+    let (n, m) = (kernel.dim, kernel.element);
+    let (tolerance, near) = (kernel.tolerance, kernel.near);
     let literal = |value| C { suffix: String::new(), ..C::default() }.literal(value);
     let array = |length: usize| length.max(1);
     format!(

@@ -4,9 +4,9 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use super::c::Dialect;
+use crate::graph::{Id, Node};
 use crate::kernel::Kernel;
-use crate::node::{Id, Node};
+use crate::print::c::Dialect;
 use crate::schedule::{Block, Kept, Kind, Part, Statement, Test, Variable};
 
 /// How a language writes the loop. The function around it has g, μ, `steps` and whatever `live` reads.

@@ -4,7 +4,7 @@ use alloc::format;
 use alloc::string::String;
 
 use super::c::{C, Dialect};
-use crate::node::Node;
+use crate::graph::Node;
 
 /// C on numbers of the type `V`, a GNU vector; coefficients are spread over the lanes where they are used.
 pub(super) struct Vectors(pub C);

@@ -4,8 +4,8 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::tree::{Part, Variable};
+use crate::graph::Program;
 use crate::kernel::Kernel;
-use crate::program::Program;
 
 /// The kind of a variable's contents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,8 +23,8 @@ impl Variable {
     #[must_use]
     pub fn kind(self, kernel: &Kernel) -> Kind {
         match self {
-            Self::Element => Kind::Array(kernel.element()),
-            Self::Momentum | Self::Guess | Self::Increment => Kind::Array(kernel.dim()),
+            Self::Element => Kind::Array(kernel.element),
+            Self::Momentum | Self::Guess | Self::Increment => Kind::Array(kernel.dim),
             Self::Constants => Kind::Array(kernel.constants()),
             Self::ResidualBound | Self::Distance | Self::Moved | Self::Right => Kind::Number,
             Self::Done | Self::Count | Self::Tried | Self::Flow => Kind::Count,
@@ -36,7 +36,7 @@ impl Part {
     /// The program in this kernel, if there is one.
     #[must_use]
     pub fn program(self, kernel: &Kernel) -> Option<&Program> {
-        let programs = kernel.programs();
+        let programs = &kernel.programs;
         match self {
             Self::Guess => Some(&programs.guess),
             Self::Correct => Some(&programs.correct),

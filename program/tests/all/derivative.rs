@@ -27,7 +27,7 @@ fn arguments() -> Vec<Argument> {
 
 /// A program of all nodes and functions whose values stay of moderate size.
 fn random(chance: &mut Chance) -> Program {
-    let mut graph = Graph::new();
+    let graph = Graph::new();
     let mut ids: Vec<Id> = (0..INPUTS).map(|i| graph.input(i)).collect();
     ids.extend((0..SLOTS).map(|i| graph.slot(i)));
     let [one, third, half] = [1.0, 1.0 / 3.0, 0.5].map(|value| graph.constant(value));
@@ -46,16 +46,10 @@ fn random(chance: &mut Chance) -> Program {
             7 => graph.sqrt(positive),
             8 => graph.select(a, b, c, d),
             9 => {
-                let k = graph.round(b);
-                let k = graph.mul(k, third);
-                let k = graph.round(k);
-                let a = graph.function(Function::Tanh, a);
-                graph.scale(a, k)
+                let k = graph.round(graph.mul(graph.round(b), third));
+                graph.scale(graph.function(Function::Tanh, a), k)
             }
-            10 => {
-                let exponent = graph.exponent(positive);
-                graph.times_plus(exponent, b, a)
-            }
+            10 => graph.times_plus(graph.exponent(positive), b, a),
             _ => {
                 let function = FUNCTIONS[chance.below(FUNCTIONS.len())];
                 let bounded = graph.function(Function::Atan, a);
@@ -131,13 +125,11 @@ fn passes_agree_with_dual_numbers() {
 /// ∇(q^(3/2)) at 0 is 0, not 0/0; what does not depend on an argument has the derivative 0 whatever it is.
 #[test]
 fn derivatives_are_numbers_where_there_is_one() {
-    let mut graph = Graph::new();
+    let graph = Graph::new();
     let (x, y, zero) = (graph.input(0), graph.input(1), graph.zero());
     let power = graph.function(Function::Power(3, 2), x);
     let one = graph.constant(1.0);
-    let pole = graph.div(one, y);
-    let kept = graph.select(y, zero, power, pole);
-    let program = graph.finish(2, &[kept]);
+    let program = graph.finish(2, &[graph.select(y, zero, power, graph.div(one, y))]);
     assert_eq!(program.gradient(&[Argument::Input(0)]).run(&[0.0, 0.0], &[]), [0.0]);
     assert_eq!(program.gradient(&[Argument::Input(0)]).run(&[4.0, 0.0], &[]), [3.0]);
 }
@@ -145,14 +137,12 @@ fn derivatives_are_numbers_where_there_is_one() {
 #[test]
 fn outside_the_domain_the_derivative_is_not_a_number_either() {
     for function in [Function::Ln, Function::Power(1, 2), Function::Power(5, 3)] {
-        let mut graph = Graph::new();
-        let x = graph.input(0);
-        let y = graph.function(function, x);
+        let graph = Graph::new();
+        let y = graph.function(function, graph.input(0));
         let slope = graph.finish(1, &[y]).gradient(&[Argument::Input(0)]);
         assert!(slope.run(&[-2.0], &[])[0].is_nan(), "{function:?}");
     }
-    let mut graph = Graph::new();
-    let x = graph.input(0);
-    let y = graph.function(Function::Sin, x);
+    let graph = Graph::new();
+    let y = graph.function(Function::Sin, graph.input(0));
     assert!(graph.finish(1, &[y]).gradient(&[Argument::Input(0)]).run(&[2e8], &[])[0].is_nan());
 }

@@ -136,7 +136,7 @@ fn off(found: f64, (expected, k): (Wide, i32)) -> f64 {
 }
 
 fn program(function: Function) -> Program {
-    let mut graph = Graph::new();
+    let graph = Graph::new();
     let x = graph.input(0);
     let y = graph.function(function, x);
     graph.finish(1, &[y])

@@ -20,7 +20,7 @@ fn programs(
     let failed = |why: &dyn std::fmt::Display| RunError::Option(format!("{option}: {why}"));
     let step = Step::build_in(integrator, precision);
     let step = step.map_err(|error| failed(&error))?;
-    let programs = step.kernel().programs();
+    let programs = &step.kernel().programs;
     let operations = programs.correct.nodes().len() + programs.transport.nodes().len();
     if operations > MOST_OPERATIONS {
         return Err(failed(&format_args!(

@@ -139,7 +139,7 @@ impl Compiled {
             },
         };
         let step = &programs.step;
-        let parts = step.kernel().programs();
+        let parts = &step.kernel().programs;
         let operations = parts.correct.nodes().len() + parts.transport.nodes().len();
         let large = operations > MOST_OPERATIONS;
         if large && !matches!(backend, Backend::Auto | Backend::Interpreter) {
@@ -277,7 +277,7 @@ impl Compiled {
 
     /// The matrix of an element, row by row.
     pub fn matrix_of(&self, g: &[f64]) -> Vec<f64> {
-        self.kernel().programs().matrix.run(g, &[])
+        self.kernel().programs.matrix.run(g, &[])
     }
 
     /// [`WIDTH`] trajectories side by side, as [`Stepper::advance_lanes`](coadjoint_program::Stepper::advance_lanes).

@@ -7,12 +7,103 @@ mod chart;
 mod error;
 mod online;
 mod predict;
-mod recurrence;
+
+use crate::hamilton_jacobi::chart::{Inverse, Side};
+use crate::hamilton_jacobi::online::{Composition, Work, identity, reciprocal};
+use crate::lie::{Chart, LieAlgebra};
+use crate::poly::Polynomial;
 
 pub use error::{DeriveError, TermLimit};
 pub(crate) use predict::PredictorRows;
 pub use predict::predictor;
-pub use recurrence::{GeneratingSeries, derive};
 
 #[cfg(test)]
 mod tests;
+
+/// The truncated series S = S_1 t + … + S_K t^K of a generating function, with exact coefficients.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct GeneratingSeries {
+    dimension: usize,
+    chart: Chart,
+    orders: Vec<Polynomial>,
+}
+
+impl GeneratingSeries {
+    /// The dimension of the algebra; the first `dim` variables of every S_k are the momenta p.
+    #[must_use]
+    pub fn dim(&self) -> usize {
+        self.dimension
+    }
+
+    /// The chart in which S generates the flow.
+    #[must_use]
+    pub fn chart(&self) -> Chart {
+        self.chart
+    }
+
+    /// The truncation K.
+    #[must_use]
+    pub fn truncation(&self) -> usize {
+        self.orders.len() - 1
+    }
+
+    /// S_k as a polynomial in p and the symbols, for k from 1 to K; zero for any other k.
+    #[must_use]
+    pub fn order(&self, k: usize) -> &Polynomial {
+        self.orders.get(k).unwrap_or(&self.orders[0])
+    }
+}
+
+/// Derives S_1, …, S_K for a Hamiltonian whose first `dim` variables are the momenta and whose
+/// other variables are opaque symbols.
+///
+/// S is odd in t, so the even orders are not computed.
+///
+/// # Errors
+/// If the chart does not exist, the Hamiltonian has too few variables, or a limit is exceeded.
+pub fn derive(
+    algebra: &LieAlgebra,
+    chart: Chart,
+    hamiltonian: &Polynomial,
+    truncation: usize,
+    limit: TermLimit,
+) -> Result<GeneratingSeries, DeriveError> {
+    derive_orders(algebra, chart, hamiltonian, truncation, limit, true)
+}
+
+pub(super) fn derive_orders(
+    algebra: &LieAlgebra,
+    chart: Chart,
+    hamiltonian: &Polynomial,
+    truncation: usize,
+    limit: TermLimit,
+    odd_only: bool,
+) -> Result<GeneratingSeries, DeriveError> {
+    let dimension = algebra.dim();
+    let variables = hamiltonian.variables();
+    if variables < dimension {
+        return Err(DeriveError::Variables { variables, dimension });
+    }
+    let mut work = Work::new(variables, limit);
+    let mut body_momentum = Inverse::new(algebra, chart, Side::Dual)?;
+    let mut energy = Composition::new(dimension, std::slice::from_ref(hamiltonian))?;
+    let zero = Polynomial::zero(variables);
+    let p = identity(dimension, variables);
+    let mut x = vec![vec![zero.clone()]; dimension];
+    let mut momentum = vec![Vec::new(); dimension];
+    let mut orders = vec![zero.clone()];
+    for k in 1..=truncation {
+        work.order = k;
+        let next = body_momentum.extend(&mut work, (&x, &p), k - 1)?;
+        momentum.iter_mut().zip(next).for_each(|(series, next)| series.push(next));
+        energy.extend(&mut work, &momentum, k - 1)?;
+        if k % 2 == 0 && odd_only {
+            orders.push(zero.clone());
+        } else {
+            orders.push(energy.coefficient(0, k - 1).scale(&reciprocal(k)));
+        }
+        let next = orders[k].gradient(dimension);
+        x.iter_mut().zip(next).for_each(|(series, next)| series.push(next));
+    }
+    Ok(GeneratingSeries { dimension, chart, orders })
+}

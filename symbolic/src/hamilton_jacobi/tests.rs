@@ -2,8 +2,7 @@
 
 use super::chart::{Inverse, Side};
 use super::online::{Composition, Series, Work};
-use super::recurrence::derive_orders;
-use super::{TermLimit, derive, predictor};
+use crate::hamilton_jacobi::{TermLimit, derive, derive_orders, predictor};
 use crate::lie::{Chart, LieAlgebra, catalogue};
 use crate::number::{integer, ratio};
 use crate::poly::Polynomial;

@@ -11,8 +11,8 @@ use std::collections::HashMap;
 use num_traits::One;
 
 use super::coefficients::{BaseTerm, Coefficients, Contribution};
-use super::terms;
 use crate::graph::{Graph, Id, Program};
+use crate::integrator::lower;
 use crate::number::{Rational, ratio};
 use crate::poly::Polynomial;
 use crate::problem::Problem;
@@ -69,7 +69,7 @@ struct Flow<'a> {
 
 impl<'a> Flow<'a> {
     fn new(coefficients: &'a mut Coefficients, problem: &'a Problem) -> Self {
-        let mut graph = Graph::new();
+        let graph = Graph::new();
         let inputs = (0..problem.algebra.dim()).map(|i| graph.input(i)).collect();
         let (products, numbers) = (HashMap::new(), HashMap::new());
         Self { coefficients, problem, graph, momenta: vec![inputs], products, numbers }
@@ -112,7 +112,7 @@ impl<'a> Flow<'a> {
 
     /// The terms of h^power · polynomial.
     fn collect(&mut self, power: u32, polynomial: &Polynomial) -> Vec<BaseTerm> {
-        terms::collect(self.coefficients, self.problem.algebra.dim(), [(power, polynomial)])
+        lower::collect(self.coefficients, self.problem.algebra.dim(), [(power, polynomial)])
     }
 
     /// The coefficient of sᵏ in a polynomial of the momenta.

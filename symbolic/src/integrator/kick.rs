@@ -2,8 +2,9 @@
 
 use coadjoint_program::splitting::Splitting;
 
+use super::Integrator;
 use super::coefficients::Coefficients;
-use super::{Integrator, lower, terms};
+use super::lower::{collect, value_program, vector_program};
 use crate::graph::Program;
 use crate::potential::Potential;
 
@@ -29,14 +30,14 @@ impl Kick {
     pub fn build(potential: Potential) -> Self {
         let entries = potential.size() * potential.size();
         let mut coefficients = Coefficients::default();
-        let energy = terms::collect(&mut coefficients, entries, [(0, &potential.energy)]);
-        let energy = lower::value_program(&mut coefficients, entries, &energy);
+        let energy = collect(&mut coefficients, entries, [(0, &potential.energy)]);
+        let energy = value_program(&mut coefficients, entries, &energy);
         let components: Vec<_> = potential
             .torque()
             .iter()
-            .map(|component| terms::collect(&mut coefficients, entries, [(0, component)]))
+            .map(|component| collect(&mut coefficients, entries, [(0, component)]))
             .collect();
-        let torque = lower::vector_program(&mut coefficients, entries, &components);
+        let torque = vector_program(&mut coefficients, entries, &components);
         Self { potential, coefficients, energy, torque }
     }
 }

@@ -1,9 +1,10 @@
 //! Lowering: the programs a step runs.
 
-use super::coefficients::BaseTerm;
-use super::coefficients::Coefficients;
-use super::terms::{by_coordinate, value, weighted};
-use crate::graph::{Graph, Id, Program, lower};
+use std::collections::BTreeMap;
+
+use crate::graph::{Graph, Id, Program, SlotPolynomial, SlotTerm, lower};
+use crate::integrator::coefficients::{BaseTerm, Coefficients, Contribution};
+use crate::poly::{Factors, Polynomial, split_at};
 
 /// S(p).
 pub(crate) fn value_program(
@@ -12,9 +13,8 @@ pub(crate) fn value_program(
     terms: &[BaseTerm],
 ) -> Program {
     let polynomial = value(coefficients, terms);
-    let mut graph = Graph::new();
-    let output = lower(&mut graph, &polynomial);
-    graph.finish(dim, &[output])
+    let graph = Graph::new();
+    graph.finish(dim, &[lower(&graph, &polynomial)])
 }
 
 /// Several polynomials of the same inputs: the predictor's components.
@@ -23,12 +23,12 @@ pub(crate) fn vector_program(
     dim: usize,
     components: &[Vec<BaseTerm>],
 ) -> Program {
-    let mut graph = Graph::new();
+    let graph = Graph::new();
     let outputs: Vec<Id> = components
         .iter()
         .map(|terms| {
             let polynomial = value(coefficients, terms);
-            lower(&mut graph, &polynomial)
+            lower(&graph, &polynomial)
         })
         .collect();
     graph.finish(dim, &outputs)
@@ -45,11 +45,11 @@ impl<'a> Gradient<'a> {
     /// That of these terms.
     pub(crate) fn new(coefficients: &mut Coefficients, dim: usize, terms: &'a [BaseTerm]) -> Self {
         let with = by_coordinate(terms, dim);
-        let mut graph = Graph::new();
+        let graph = Graph::new();
         let entries = with
             .iter()
             .enumerate()
-            .map(|(i, terms)| gradient_entry(coefficients, &mut graph, terms, i))
+            .map(|(i, terms)| gradient_entry(coefficients, &graph, terms, i))
             .collect();
         Self { with, graph, entries }
     }
@@ -64,7 +64,7 @@ impl<'a> Gradient<'a> {
     /// k ≤ `truncation`.
     pub(crate) fn with_hessian(&self, coefficients: &mut Coefficients, truncation: u32) -> Program {
         let Self { with, entries, .. } = self;
-        let mut graph = self.graph.clone();
+        let graph = self.graph.clone();
         let dim = entries.len();
         let mut outputs: Vec<Id> = entries.iter().map(|entry| entry.gradient).collect();
         for (i, entry) in entries.iter().enumerate() {
@@ -75,13 +75,12 @@ impl<'a> Gradient<'a> {
                 let m = term.exponent(i);
                 m * m.saturating_sub(2)
             });
-            let bend = lower(&mut graph, &bend);
-            outputs.push(graph.add(bend, entry.slope));
+            outputs.push(graph.add(lower(&graph, &bend), entry.slope));
             for j in i + 1..dim {
                 let mixed = weighted(coefficients, kept(), &[(i, 1), (j, 1)], |term| {
                     term.exponent(i) * term.exponent(j)
                 });
-                outputs.push(lower(&mut graph, &mixed));
+                outputs.push(lower(&graph, &mixed));
             }
         }
         graph.finish(dim, &outputs)
@@ -97,7 +96,7 @@ struct GradientEntry {
 
 fn gradient_entry(
     coefficients: &mut Coefficients,
-    graph: &mut Graph,
+    graph: &Graph,
     terms: &[&BaseTerm],
     i: usize,
 ) -> GradientEntry {
@@ -163,4 +162,81 @@ fn sphere_maximum(m: &[u32]) -> f64 {
     let degree = f64::from(m.iter().sum::<u32>());
     let power = |&e: &u32| (f64::from(e) / degree).powf(0.5 * f64::from(e));
     m.iter().filter(|&&e| e > 0).map(power).product()
+}
+
+/// Collects Σ h^power · polynomial into terms over the first `dim` variables, the other variables
+/// (opaque symbols) going into base coefficients.
+pub(crate) fn collect<'a>(
+    coefficients: &mut Coefficients,
+    dim: usize,
+    orders: impl IntoIterator<Item = (u32, &'a Polynomial)>,
+) -> Vec<BaseTerm> {
+    let mut grouped: BTreeMap<Factors, Vec<Contribution>> = BTreeMap::new();
+    for (step_power, polynomial) in orders {
+        let symbols = polynomial.variables().saturating_sub(dim);
+        for (factors, factor) in polynomial.factors() {
+            let (momenta, powers) = split_at(&factors, dim);
+            let mut symbol_powers = vec![0; symbols];
+            for &(variable, power) in powers {
+                symbol_powers[variable as usize - dim] = power;
+            }
+            let contribution = Contribution { factor, step_power, symbol_powers };
+            grouped.entry(Factors(momenta.into())).or_default().push(contribution);
+        }
+    }
+    grouped
+        .into_iter()
+        .map(|(factors, contributions)| {
+            let order = contributions.iter().map(|c| c.step_power).min().unwrap_or(0);
+            let base = coefficients.add_base(contributions);
+            BaseTerm { factors: factors.0.into(), base, order }
+        })
+        .collect()
+}
+
+/// For each coordinate the terms in which it occurs.
+pub(crate) fn by_coordinate(terms: &[BaseTerm], dim: usize) -> Vec<Vec<&BaseTerm>> {
+    let mut result = vec![Vec::new(); dim];
+    for term in terms {
+        for &(coordinate, _) in &term.factors {
+            result[coordinate as usize].push(term);
+        }
+    }
+    result
+}
+
+/// The polynomial itself, over slots.
+pub(crate) fn value(coefficients: &mut Coefficients, terms: &[BaseTerm]) -> SlotPolynomial {
+    terms
+        .iter()
+        .map(|term| SlotTerm {
+            factors: term.factors.clone(),
+            slot: coefficients.slot(term.base, 1),
+        })
+        .collect()
+}
+
+/// The terms of Σ weight(m) C_m p^{m − shift}: derivatives, and the parts of derivatives that are
+/// shared. Terms of weight 0 vanish; `weight` must be 0 wherever an exponent is below its shift.
+pub(crate) fn weighted<'a>(
+    coefficients: &mut Coefficients,
+    terms: impl IntoIterator<Item = &'a BaseTerm>,
+    shift: &[(usize, u32)],
+    weight: impl Fn(&BaseTerm) -> u32,
+) -> SlotPolynomial {
+    let mut result = SlotPolynomial::new();
+    for term in terms {
+        let scale = weight(term);
+        if scale == 0 {
+            continue;
+        }
+        let mut factors = term.factors.clone();
+        for (coordinate, exponent) in &mut factors {
+            let by = shift.iter().filter(|(i, _)| *i == *coordinate as usize).map(|(_, by)| by);
+            *exponent = exponent.saturating_sub(by.sum());
+        }
+        factors.retain(|&(_, exponent)| exponent > 0);
+        result.push(SlotTerm { factors, slot: coefficients.slot(term.base, scale) });
+    }
+    result
 }

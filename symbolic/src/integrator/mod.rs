@@ -6,7 +6,6 @@ mod fold;
 mod kick;
 mod lower;
 mod plan;
-mod terms;
 
 pub use coefficients::{Coefficients, Contribution};
 pub use fold::FoldTable;
@@ -66,9 +65,9 @@ pub struct Integrator {
     /// √(maxᵢ Σⱼ |ZᵢⱼZⱼᵢ|). Found by experiments (`docs/measurements/acceptance.md`). None where S₁ is the whole series, and
     /// for learned maps.
     pub largest_rate: Option<f64>,
-    /// What [`Self::fold_table`] has made.
+    /// The result of [`Self::fold_table`], kept.
     table: OnceLock<FoldTable>,
-    /// What [`Self::factors`] has found.
+    /// The result of [`Self::factors`], kept.
     factors: OnceLock<Vec<u32>>,
 }
 
@@ -112,9 +111,9 @@ impl Integrator {
         let dim = problem.algebra.dim();
         let mut coefficients = Coefficients::default();
         let orders = (1..=problem.truncation).map(|k| (k as u32, series.order(k)));
-        let s = terms::collect(&mut coefficients, dim, orders);
+        let s = lower::collect(&mut coefficients, dim, orders);
         coefficients.end_series(&s);
-        let h = terms::collect(&mut coefficients, dim, [(0, &problem.hamiltonian)]);
+        let h = lower::collect(&mut coefficients, dim, [(0, &problem.hamiltonian)]);
 
         let table = &mut coefficients;
         let truncation = problem.truncation as u32;
@@ -146,7 +145,7 @@ impl Integrator {
                 let components: Vec<_> = (0..dim)
                     .map(|i| {
                         let orders = polynomials.iter().enumerate().map(|(m, p)| (m as u32, &p[i]));
-                        terms::collect(table, dim, orders)
+                        lower::collect(table, dim, orders)
                     })
                     .collect();
                 lower::vector_program(table, dim, &components)
@@ -168,7 +167,7 @@ impl Integrator {
             .map(|part| {
                 let rates = part.gradient(dim);
                 let components: Vec<_> =
-                    rates.iter().map(|rate| terms::collect(table, dim, [(1, rate)])).collect();
+                    rates.iter().map(|rate| lower::collect(table, dim, [(1, rate)])).collect();
                 lower::vector_program(table, dim, &components)
             })
             .collect();
@@ -200,13 +199,13 @@ impl Integrator {
 
     /// The program an iteration of the solver runs: gradient and Hessian, or the gradient alone.
     #[must_use]
-    pub fn iteration(&self) -> &Program {
+    pub(crate) fn iteration(&self) -> &Program {
         self.newton.as_ref().or(self.hessian.as_ref()).unwrap_or(&self.gradient)
     }
 
     /// How many coefficients the bound of [`Integrator::defect`] has: its degree plus one.
     #[must_use]
-    pub fn defect_len(&self) -> usize {
+    pub(crate) fn defect_len(&self) -> usize {
         self.defect.iter().map(|term| term.degree as usize + 1).max().unwrap_or(0)
     }
 

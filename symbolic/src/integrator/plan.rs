@@ -4,8 +4,8 @@ use std::collections::HashSet;
 
 use super::coefficients::{BaseTerm, Coefficients};
 use super::flow;
-use super::terms::collect;
 use crate::hamilton_jacobi::{DeriveError, GeneratingSeries, PredictorRows, TermLimit};
+use crate::integrator::lower::collect;
 use crate::lie::Chart;
 use crate::poly::{Factors, Polynomial, split_at};
 use crate::problem::{Problem, Solver};
@@ -73,7 +73,7 @@ impl Plan {
     ///
     /// # Errors
     /// [`DeriveError`] if not even the constant predictor can be derived.
-    pub fn choose(
+    pub(crate) fn choose(
         problem: &Problem,
         terms: &[BaseTerm],
         limit: TermLimit,
@@ -91,7 +91,7 @@ impl Plan {
     ///
     /// # Errors
     /// As [`Plan::choose`].
-    pub fn operations(
+    pub(crate) fn operations(
         problem: &Problem,
         series: &GeneratingSeries,
         limit: TermLimit,

@@ -121,7 +121,7 @@ impl RationalMatrix {
 
     /// The commutator `self·other − other·self`.
     #[must_use]
-    pub fn commutator(&self, other: &Self) -> Self {
+    pub(crate) fn commutator(&self, other: &Self) -> Self {
         self.times(other).plus(&other.times(self), &crate::number::integer(-1))
     }
 }

@@ -1,7 +1,7 @@
 //! Lists of rationals over one common denominator.
 
 use super::Rational;
-use super::divisor::{bits, gcd};
+use crate::number::words::{bits, gcd};
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};

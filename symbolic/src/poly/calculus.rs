@@ -1,10 +1,9 @@
 //! Sums, products, powers and derivatives.
 
 use super::monomial::{Factors, Packing};
-use super::plan::Product;
 use super::polynomial::{Keys, Polynomial};
-use super::product::sum_of_products;
 use crate::number::{Coefficients, Rational, integer};
+use crate::poly::product::{Product, sum_of_products};
 use num_traits::{One, Zero};
 use std::ops::{Add, Mul, Neg, Sub};
 

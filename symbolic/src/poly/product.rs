@@ -1,12 +1,13 @@
 //! Sums of products, the operation everything else is made of.
 
-use super::accumulate::accumulate;
-use super::monomial::{Factors, Key};
-use super::plan::{LargePlan, Product, SmallPlan};
-use super::polynomial::{Keys, Polynomial};
-use crate::number::{Coefficients, Sum, Words};
 use num_bigint::BigInt;
-use num_traits::Zero;
+use num_integer::Integer;
+use num_traits::{One, ToPrimitive, Zero};
+
+use crate::cancel;
+use crate::number::{Coefficients, Rational, Sum, Words, bits, lcm};
+use crate::poly::monomial::{Factors, Key};
+use crate::poly::polynomial::{Keys, Polynomial};
 
 /// Why a sum was not computed.
 #[derive(Clone, Copy, Debug)]
@@ -121,4 +122,257 @@ fn wide<K: Key, const N: usize>(
         .collect();
     let (keys, sums) = accumulate::<K, Words<N>>(keys, &lists, limit)?;
     Ok((keys, sums.into_iter().map(Sum::to_integer).collect()))
+}
+
+/// The arithmetic of one kind of integer.
+pub(super) trait Number: Sized {
+    type Sum;
+    fn times(&self, other: &Self) -> Self;
+    fn add_product(sum: &mut Self::Sum, left: &Self, right: &Self);
+    fn vanishes(sum: &Self::Sum) -> bool;
+    fn nothing() -> Self::Sum;
+}
+
+impl Number for i128 {
+    type Sum = Self;
+    // The plan bounds every sum, so wrapping operations never wrap.
+    #[inline(always)]
+    fn times(&self, other: &Self) -> Self {
+        self.wrapping_mul(*other)
+    }
+    #[inline(always)]
+    fn add_product(sum: &mut Self, left: &Self, right: &Self) {
+        *sum = sum.wrapping_add(left.wrapping_mul(*right));
+    }
+    #[inline(always)]
+    fn vanishes(sum: &Self) -> bool {
+        *sum == 0
+    }
+    #[inline(always)]
+    fn nothing() -> Self {
+        0
+    }
+}
+
+impl<const N: usize> Number for Words<N> {
+    type Sum = Sum<N>;
+    fn times(&self, other: &Self) -> Self {
+        self.times(other)
+    }
+    #[inline(always)]
+    fn add_product(sum: &mut Sum<N>, left: &Self, right: &Self) {
+        sum.add_product(left, right);
+    }
+    fn vanishes(sum: &Sum<N>) -> bool {
+        sum.vanishes()
+    }
+    fn nothing() -> Sum<N> {
+        Sum::nothing()
+    }
+}
+
+impl Number for BigInt {
+    type Sum = Self;
+    fn times(&self, other: &Self) -> Self {
+        self * other
+    }
+    fn add_product(sum: &mut Self, left: &Self, right: &Self) {
+        *sum += left * right;
+    }
+    fn vanishes(sum: &Self) -> bool {
+        sum.is_zero()
+    }
+    fn nothing() -> Self {
+        Self::zero()
+    }
+}
+
+/// The nonzero terms of Σ factor · left · right, sorted. Loops count by hand and index slices
+/// because iterators are function calls in an unoptimised build.
+pub(super) fn accumulate<K: Key, N: Number>(
+    keys: &[(&[K], &[K])],
+    numbers: &[(N, &[N], &[N])],
+    limit: usize,
+) -> Result<(Vec<K>, Vec<N::Sum>), usize> {
+    let expected = keys.iter().map(|(a, b)| a.len() + b.len()).max().unwrap_or(0);
+    let mut table = Table::new(expected);
+    let mut sums: Vec<N::Sum> = Vec::with_capacity(expected);
+    let mut index = 0;
+    while index < keys.len() {
+        let (left_keys, right_keys) = keys[index];
+        let (factor, left, right) = &numbers[index];
+        let mut i = 0;
+        while i < left_keys.len() {
+            cancel::check();
+            let scaled = factor.times(&left[i]);
+            let mut j = 0;
+            while j < right_keys.len() {
+                let place = table.place(left_keys[i].product(&right_keys[j]));
+                if place == sums.len() {
+                    sums.push(N::nothing());
+                }
+                N::add_product(&mut sums.as_mut_slice()[place], &scaled, &right[j]);
+                j += 1;
+            }
+            // Checked once a row: cancellation may still bring the count down, but memory is
+            // what the limit protects.
+            if sums.len() > limit {
+                return Err(sums.len());
+            }
+            i += 1;
+        }
+        index += 1;
+    }
+    Ok(sort::<K, N>(table.keys, sums))
+}
+
+/// Drops zeros and sorts keys descending.
+fn sort<K: Key, N: Number>(keys: Vec<K>, sums: Vec<N::Sum>) -> (Vec<K>, Vec<N::Sum>) {
+    let mut terms: Vec<(K, N::Sum)> = Vec::with_capacity(keys.len());
+    for (key, sum) in keys.into_iter().zip(sums) {
+        if !N::vanishes(&sum) {
+            terms.push((key, sum));
+        }
+    }
+    terms.sort_unstable_by(|a, b| b.0.cmp(&a.0));
+    terms.into_iter().unzip()
+}
+
+/// A summand factor · left · right.
+pub(crate) struct Product<'a> {
+    pub(crate) factor: Rational,
+    pub(crate) left: &'a Polynomial,
+    pub(crate) right: &'a Polynomial,
+}
+
+/// The common denominator and the integer factor of each product, if machine integers suffice.
+pub(super) struct SmallPlan {
+    pub(super) denominator: i128,
+    pub(super) factors: Vec<i128>,
+}
+
+impl SmallPlan {
+    pub(super) fn new(products: &[&Product<'_>]) -> Option<Self> {
+        let mut denominator = 1_i128;
+        let mut parts = Vec::with_capacity(products.len());
+        for product in products {
+            let (
+                Coefficients::Small { denominator: a, .. },
+                Coefficients::Small { denominator: b, .. },
+            ) = (&product.left.values, &product.right.values)
+            else {
+                return None;
+            };
+            let part = a.checked_mul(*b)?.checked_mul(product.factor.denom().to_i128()?)?;
+            denominator = lcm(denominator, part)?;
+            parts.push(part);
+        }
+        let mut factors = Vec::with_capacity(products.len());
+        let mut largest = 0_u128;
+        for (product, part) in products.iter().zip(parts) {
+            let factor = (denominator / part).checked_mul(product.factor.numer().to_i128()?)?;
+            let (Coefficients::Small { bits: a, .. }, Coefficients::Small { bits: b, .. }) =
+                (&product.left.values, &product.right.values)
+            else {
+                return None;
+            };
+            let size = bits(factor) + a + b;
+            if size > 126 {
+                return None;
+            }
+            // A monomial receives at most one contribution from each term of the shorter factor.
+            let contributions = product.left.len().min(product.right.len()) as u128;
+            largest = largest.checked_add(contributions.checked_mul(1 << size)?)?;
+            factors.push(factor);
+        }
+        (largest <= i128::MAX as u128).then_some(Self { denominator, factors })
+    }
+}
+
+/// As [`SmallPlan`], with big integers, and the bits of the largest possible sum.
+pub(super) struct LargePlan {
+    pub(super) denominator: BigInt,
+    pub(super) factors: Vec<BigInt>,
+    pub(super) bits: u64,
+}
+
+impl LargePlan {
+    pub(super) fn new(products: &[&Product<'_>]) -> Self {
+        let mut denominator = BigInt::one();
+        let mut parts = Vec::with_capacity(products.len());
+        for product in products {
+            let part = product.left.values.denominator()
+                * product.right.values.denominator()
+                * product.factor.denom();
+            if !(&denominator % &part).is_zero() {
+                denominator = denominator.lcm(&part);
+            }
+            parts.push(part);
+        }
+        let mut factors = Vec::with_capacity(products.len());
+        let (mut bits, mut contributions) = (0, 0);
+        for (product, part) in products.iter().zip(parts) {
+            let factor = product.factor.numer() * (&denominator / part);
+            let size = factor.bits() + product.left.values.bits() + product.right.values.bits();
+            bits = size.max(bits);
+            contributions += product.left.len().min(product.right.len()) as u64;
+            factors.push(factor);
+        }
+        bits += u64::from(u64::BITS - contributions.leading_zeros());
+        Self { denominator, factors, bits }
+    }
+}
+
+const EMPTY: u32 = u32::MAX;
+
+/// Monomials in order of insertion, found by hashing.
+pub(crate) struct Table<K> {
+    pub(crate) keys: Vec<K>,
+    slots: Vec<u32>,
+    shift: u32,
+}
+
+impl<K: Key> Table<K> {
+    /// A table with room for about `expected` monomials.
+    pub(crate) fn new(expected: usize) -> Self {
+        let bits = usize::BITS - expected.clamp(8, 1 << 20).leading_zeros() + 1;
+        Self { keys: Vec::new(), slots: vec![EMPTY; 1 << bits], shift: 64 - bits }
+    }
+
+    /// The place of a monomial, which is the length of the list if it is new.
+    #[inline(always)]
+    pub(crate) fn place(&mut self, key: K) -> usize {
+        let mask = self.slots.len() - 1;
+        let slots = self.slots.as_mut_slice();
+        let mut slot = (key.hash() >> self.shift) as usize;
+        loop {
+            let place = slots[slot];
+            if place == EMPTY {
+                break;
+            }
+            if self.keys.as_slice()[place as usize] == key {
+                return place as usize;
+            }
+            slot = (slot + 1) & mask;
+        }
+        slots[slot] = self.keys.len() as u32;
+        self.keys.push(key);
+        if self.keys.len() * 2 > slots.len() {
+            self.grow();
+        }
+        self.keys.len() - 1
+    }
+
+    fn grow(&mut self) {
+        self.shift -= 1;
+        let size = self.slots.len() * 2;
+        self.slots = vec![EMPTY; size];
+        for (place, key) in self.keys.iter().enumerate() {
+            let mut slot = (key.hash() >> self.shift) as usize;
+            while self.slots[slot] != EMPTY {
+                slot = (slot + 1) & (size - 1);
+            }
+            self.slots[slot] = place as u32;
+        }
+    }
 }

@@ -9,7 +9,7 @@ const MOST: usize = 64;
 ///
 /// In pairs and pairs of pairs (G. Estrin, 1960), since a chain of fused products is as slow as it is long.
 pub(crate) fn series(
-    graph: &mut Graph,
+    graph: &Graph,
     t: Id,
     reach: f64,
     accuracy: f64,
@@ -64,50 +64,50 @@ pub(crate) struct Angle {
 
 impl Angle {
     /// cos(θ/2)
-    pub(crate) fn half_cosine(self, graph: &mut Graph) -> Id {
+    pub(crate) fn half_cosine(self, graph: &Graph) -> Id {
         self.exact(graph, |k| 0.25_f64.powi(k as i32) * alternating(k, 2 * k))
     }
 
     /// sin(θ/2)/θ
-    pub(crate) fn half_sine(self, graph: &mut Graph) -> Id {
+    pub(crate) fn half_sine(self, graph: &Graph) -> Id {
         self.exact(graph, |k| 0.5 * 0.25_f64.powi(k as i32) * alternating(k, 2 * k + 1))
     }
 
     /// b = (1 − cos θ)/θ²
-    pub(crate) fn b(self, graph: &mut Graph) -> Id {
+    pub(crate) fn b(self, graph: &Graph) -> Id {
         self.exact(graph, |k| alternating(k, 2 * k + 2))
     }
 
     /// c = (θ − sin θ)/θ³
-    pub(crate) fn c(self, graph: &mut Graph) -> Id {
+    pub(crate) fn c(self, graph: &Graph) -> Id {
         self.exact(graph, |k| alternating(k, 2 * k + 3))
     }
 
     /// 2 db/dt, by which b changes with θ²/2, to what `accuracy` asks for.
-    pub(crate) fn b_slope(self, graph: &mut Graph, accuracy: Accuracy) -> Id {
+    pub(crate) fn b_slope(self, graph: &Graph, accuracy: Accuracy) -> Id {
         let coefficient = |k: usize| (2 * (k + 1)) as f64 * alternating(k + 1, 2 * k + 4);
         series(graph, self.t, self.reach, accuracy.left_out(), coefficient)
     }
 
     /// 2 dc/dt, to what `accuracy` asks for.
-    pub(crate) fn c_slope(self, graph: &mut Graph, accuracy: Accuracy) -> Id {
+    pub(crate) fn c_slope(self, graph: &Graph, accuracy: Accuracy) -> Id {
         let coefficient = |k: usize| (2 * (k + 1)) as f64 * alternating(k + 1, 2 * k + 5);
         series(graph, self.t, self.reach, accuracy.left_out(), coefficient)
     }
 
     /// 4 d²b/dt², for Newton's method.
-    pub(crate) fn b_curvature(self, graph: &mut Graph) -> Id {
+    pub(crate) fn b_curvature(self, graph: &Graph) -> Id {
         let coefficient = |k: usize| (4 * (k + 1) * (k + 2)) as f64 * alternating(k, 2 * k + 6);
         series(graph, self.t, self.reach, NEWTON, coefficient)
     }
 
     /// 4 d²c/dt², for Newton's method.
-    pub(crate) fn c_curvature(self, graph: &mut Graph) -> Id {
+    pub(crate) fn c_curvature(self, graph: &Graph) -> Id {
         let coefficient = |k: usize| (4 * (k + 1) * (k + 2)) as f64 * alternating(k, 2 * k + 7);
         series(graph, self.t, self.reach, NEWTON, coefficient)
     }
 
-    fn exact(self, graph: &mut Graph, coefficient: impl Fn(usize) -> f64) -> Id {
+    fn exact(self, graph: &Graph, coefficient: impl Fn(usize) -> f64) -> Id {
         series(graph, self.t, self.reach, ROUNDING, coefficient)
     }
 }
@@ -146,7 +146,7 @@ pub(crate) struct WideAngle {
 
 impl WideAngle {
     /// The functions at t.
-    pub(crate) fn new(graph: &mut Graph, t: Id) -> Self {
+    pub(crate) fn new(graph: &Graph, t: Id) -> Self {
         // 2π in two pieces, so that a fused product takes whole turns off without rounding.
         const TURN: f64 = std::f64::consts::TAU;
         const REST: f64 = 2.449_293_598_294_706_4e-16;
@@ -155,34 +155,21 @@ impl WideAngle {
         let (half, one, two) = (graph.constant(0.5), graph.constant(1.0), graph.constant(2.0));
         let angle = graph.sqrt(t);
         let halved = graph.mul(half, angle);
-        let per_turn = graph.constant(1.0 / TURN);
-        let turns = graph.mul(halved, per_turn);
-        let turns = graph.round(turns);
-        let turns = graph.neg(turns);
+        let turns = graph.neg(graph.round(graph.mul(halved, graph.constant(1.0 / TURN))));
         let (turn, rest) = (graph.constant(TURN), graph.constant(REST));
-        let reduced = graph.times_plus(turns, turn, halved);
-        let reduced = graph.times_plus(turns, rest, reduced);
+        let reduced = graph.times_plus(turns, rest, graph.times_plus(turns, turn, halved));
         // With 2r in place of θ: |2r| ≤ 2π.
-        let four = graph.constant(4.0);
-        let square = graph.mul(reduced, reduced);
-        let square = graph.mul(four, square);
+        let square = graph.mul(graph.constant(4.0), graph.mul(reduced, reduced));
         let near = Angle { t: square, reach: 4.0 * 9.88 };
         let half_cosine = near.half_cosine(graph);
-        let sine = near.half_sine(graph);
-        let sine = graph.mul(sine, reduced);
-        let sine = graph.mul(two, sine);
+        let sine = graph.mul(two, graph.mul(near.half_sine(graph), reduced));
         let small = graph.constant(SMALL);
         let short = Angle { t, reach: SMALL };
         let [short_sine, short_c] = [short.half_sine(graph), short.c(graph)];
-        let long_sine = graph.div(sine, angle);
-        let half_sine = graph.select(t, small, short_sine, long_sine);
-        let b = graph.mul(half_sine, half_sine);
-        let b = graph.mul(two, b);
-        let whole = graph.mul(half_sine, half_cosine);
-        let whole = graph.mul(two, whole);
-        let long_c = graph.sub(one, whole);
-        let long_c = graph.div(long_c, t);
-        let c = graph.select(t, small, short_c, long_c);
+        let half_sine = graph.select(t, small, short_sine, graph.div(sine, angle));
+        let b = graph.mul(two, graph.mul(half_sine, half_sine));
+        let whole = graph.mul(two, graph.mul(half_sine, half_cosine));
+        let c = graph.select(t, small, short_c, graph.div(graph.sub(one, whole), t));
         Self { half_cosine, half_sine, b, c }
     }
 }

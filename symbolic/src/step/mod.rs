@@ -10,8 +10,6 @@ mod drift;
 mod entire;
 mod error;
 mod motion;
-mod part;
-mod plane;
 mod product;
 mod programs;
 mod rotation;
@@ -30,18 +28,17 @@ use crate::expr::ParameterExpr;
 use crate::graph::{Graph, Id, Program};
 use crate::integrator::{FoldTable, Integrator};
 use crate::lie::{Chart, LieAlgebra, catalogue};
+use crate::step::rotation::Rotation;
+use crate::step::solving::Scheme;
+use crate::step::tables::Tables;
+use crate::step::translations::Translations;
+use motion::{Motion, Plane};
+use product::{Part, Product};
+
 pub use drift::{Conserved, Drift, Energy, Invariants, Scales, Start, nudge};
 pub use error::{MOST_OF_TABLES, StepError};
-use motion::Motion;
-use part::Part;
-use plane::Plane;
-use product::Product;
-use rotation::Rotation;
-use solving::Scheme;
 #[cfg(feature = "spatial")]
 pub use spatial::Spatial;
-use tables::Tables;
-use translations::Translations;
 
 /// A step as programs, with what is needed to fold its coefficients and to read group elements.
 #[derive(Debug)]
@@ -154,9 +151,9 @@ impl Step {
     #[must_use]
     pub fn spatial(&self) -> Program {
         let (n, m) = (self.group.dim(), self.group.element());
-        let mut graph = Graph::new();
+        let graph = Graph::new();
         let ids: Vec<Id> = (0..m + m + n).map(|i| graph.input(i)).collect();
-        let spatial = self.group.spatial(&mut graph, &ids[..m], &ids[m..m + m], &ids[m + m..]);
+        let spatial = self.group.spatial(&graph, &ids[..m], &ids[m..m + m], &ids[m + m..]);
         graph.finish(m + m + n, &spatial)
     }
 

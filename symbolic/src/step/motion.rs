@@ -3,7 +3,7 @@
 use crate::graph::{Graph, Id};
 use crate::lie::Chart;
 use crate::step::entire::{Accuracy, Angle, WideAngle};
-use crate::step::part::{Moved, Part};
+use crate::step::product::{Moved, Part};
 use crate::step::rotation::{
     Dexp, QUARTER_TURN, Rotation, compose, dexp_transpose, dexp_with_derivative, quaternion_of,
     rotate_back, rotation_matrix, turned,
@@ -24,21 +24,17 @@ fn join(a: &V3, b: &V3) -> Vec<Id> {
 }
 
 /// (1 + ω̂/2)⁻¹ y (1 + |ω|²/4) = y + ½ y×ω + ¼ (ω·y) ω
-fn resolve(graph: &mut Graph, omega: &V3, y: &V3) -> V3 {
+fn resolve(graph: &Graph, omega: &V3, y: &V3) -> V3 {
     let (half, quarter) = (graph.constant(0.5), graph.constant(0.25));
     let turned = cross(graph, y, omega);
-    let along = dot(graph, omega, y);
-    let along = graph.mul(quarter, along);
-    let near = plus(graph, y, half, &turned);
-    plus(graph, &near, along, omega)
+    let along = graph.mul(quarter, dot(graph, omega, y));
+    plus(graph, &plus(graph, y, half, &turned), along, omega)
 }
 
 /// 1/(1 + |ω|²/4)
-fn cayley_factor(graph: &mut Graph, omega: &V3) -> Id {
+fn cayley_factor(graph: &Graph, omega: &V3) -> Id {
     let (one, quarter) = (graph.constant(1.0), graph.constant(0.25));
-    let square = dot(graph, omega, omega);
-    let below = graph.times_plus(square, quarter, one);
-    graph.div(one, below)
+    graph.div(one, graph.times_plus(dot(graph, omega, omega), quarter, one))
 }
 
 /// The parts of (d^R cay)ᵀ (Π, Γ) = (P, Q): Q = (1 + ω̂/2)⁻¹ Γ, r = ¼ Q×ω − ½ Q, s = Π + v×r,
@@ -52,66 +48,45 @@ struct CayleyParts {
 }
 
 impl CayleyParts {
-    fn new(graph: &mut Graph, x: &[Id], mu: &[Id]) -> Self {
+    fn new(graph: &Graph, x: &[Id], mu: &[Id]) -> Self {
         let (omega, v, pi, gamma) = (three(x, 0), three(x, 3), three(mu, 0), three(mu, 3));
         let (half, quarter) = (graph.constant(0.5), graph.constant(0.25));
         let f = cayley_factor(graph, &omega);
-        let q = resolve(graph, &omega, &gamma);
-        let q = scaled(graph, f, &q);
+        let q = scaled(graph, f, &resolve(graph, &omega, &gamma));
         let r = Self::bend(graph, &q, &omega, half, quarter);
-        let lever = cross(graph, &v, &r);
-        let s = sum(graph, &pi, &lever);
-        let once = cross(graph, &s, &omega);
-        let p = plus(graph, &s, half, &once);
-        let p = scaled(graph, f, &p);
+        let s = sum(graph, &pi, &cross(graph, &v, &r));
+        let p = scaled(graph, f, &plus(graph, &s, half, &cross(graph, &s, &omega)));
         Self { f, q, r, s, p }
     }
 
     /// ¼ q×ω − ½ q
-    fn bend(graph: &mut Graph, q: &V3, omega: &V3, half: Id, quarter: Id) -> V3 {
-        let once = cross(graph, q, omega);
-        let once = scaled(graph, quarter, &once);
-        let back = graph.neg(half);
-        plus(graph, &once, back, q)
+    fn bend(graph: &Graph, q: &V3, omega: &V3, half: Id, quarter: Id) -> V3 {
+        plus(graph, &scaled(graph, quarter, &cross(graph, q, omega)), graph.neg(half), q)
     }
 
     /// The derivative of (P, Q).
-    fn derivative(&self, graph: &mut Graph, x: &[Id], mu: &[Id]) -> Matrix {
+    fn derivative(&self, graph: &Graph, x: &[Id], mu: &[Id]) -> Matrix {
         let (omega, v, gamma) = (three(x, 0), three(x, 3), three(mu, 3));
         let (zero, one) = (graph.zero(), graph.constant(1.0));
         let (half, quarter) = (graph.constant(0.5), graph.constant(0.25));
-        let along = dot(graph, &omega, &gamma);
-        let along = graph.mul(quarter, along);
+        let along = graph.mul(quarter, dot(graph, &omega, &gamma));
         let mut derivative = Matrix::zeros(graph, 6, 6);
         for j in 0..3 {
             let mut e = [zero; 3];
             e[j] = one;
             // Along ω: f changes by −½ f² ω_j.
-            let stretch = graph.mul(self.f, omega[j]);
-            let stretch = graph.mul(stretch, half);
-            let stretch = graph.neg(stretch);
-            let bent = cross(graph, &gamma, &e);
-            let bent = scaled(graph, half, &bent);
-            let bent = plus(graph, &bent, along, &e);
-            let weight = graph.mul(quarter, gamma[j]);
-            let bent = plus(graph, &bent, weight, &omega);
-            let dq = scaled(graph, stretch, &self.q);
-            let dq = plus(graph, &dq, self.f, &bent);
+            let stretch = graph.neg(graph.mul(graph.mul(self.f, omega[j]), half));
+            let bent = plus(graph, &scaled(graph, half, &cross(graph, &gamma, &e)), along, &e);
+            let bent = plus(graph, &bent, graph.mul(quarter, gamma[j]), &omega);
+            let dq = plus(graph, &scaled(graph, stretch, &self.q), self.f, &bent);
             let dr = Self::bend(graph, &dq, &omega, half, quarter);
-            let turned = cross(graph, &self.q, &e);
-            let dr = plus(graph, &dr, quarter, &turned);
-            let ds = cross(graph, &v, &dr);
+            let ds = cross(graph, &v, &plus(graph, &dr, quarter, &cross(graph, &self.q, &e)));
             let turned = cross(graph, &ds, &omega);
-            let other = cross(graph, &self.s, &e);
-            let turned = sum(graph, &turned, &other);
-            let change = plus(graph, &ds, half, &turned);
-            let dp = scaled(graph, stretch, &self.p);
-            let dp = plus(graph, &dp, self.f, &change);
+            let change = plus(graph, &ds, half, &sum(graph, &turned, &cross(graph, &self.s, &e)));
+            let dp = plus(graph, &scaled(graph, stretch, &self.p), self.f, &change);
             // Along v only s changes.
             let ds = cross(graph, &e, &self.r);
-            let turned = cross(graph, &ds, &omega);
-            let dp_v = plus(graph, &ds, half, &turned);
-            let dp_v = scaled(graph, self.f, &dp_v);
+            let dp_v = scaled(graph, self.f, &plus(graph, &ds, half, &cross(graph, &ds, &omega)));
             for i in 0..3 {
                 derivative.set(i, j, dp[i]);
                 derivative.set(i + 3, j, dq[i]);
@@ -128,7 +103,7 @@ impl CayleyParts {
 /// With f = Γ + b g + c g×ω, g = Γ×ω, and b, c functions of t = |ω|²; collected by how the second direction u enters:
 /// through ω·u, through v·u, in a cross product, and as itself.
 fn bend(
-    graph: &mut Graph,
+    graph: &Graph,
     to: &Matrix,
     k: &Dexp,
     curvature: (Id, Id),
@@ -139,44 +114,31 @@ fn bend(
     let g = cross(graph, gamma, omega);
     let gg = cross(graph, &g, omega);
     let gv = cross(graph, gamma, v);
-    let m = cross(graph, &gv, omega);
-    let other = cross(graph, &g, v);
-    let m = sum(graph, &m, &other);
+    let m = sum(graph, &cross(graph, &gv, omega), &cross(graph, &g, v));
     let s = dot(graph, omega, v);
     let by_v = scaled(graph, k.b_slope, &g);
-    let by_v = plus(graph, &by_v, k.c_slope, &gg);
-    let back = graph.neg(k.c);
-    let by_v = plus(graph, &by_v, back, gamma);
-    let curved = scaled(graph, curvature.0, &g);
-    let curved = plus(graph, &curved, curvature.1, &gg);
+    let by_v = plus(graph, &plus(graph, &by_v, k.c_slope, &gg), graph.neg(k.c), gamma);
+    let curved = plus(graph, &scaled(graph, curvature.0, &g), curvature.1, &gg);
     let by_omega = scaled(graph, k.b_slope, &gv);
-    let by_omega = plus(graph, &by_omega, k.c_slope, &m);
-    let by_omega = plus(graph, &by_omega, s, &curved);
+    let by_omega = plus(graph, &plus(graph, &by_omega, k.c_slope, &m), s, &curved);
     let weight = graph.mul(s, k.c_slope);
-    let back = graph.neg(weight);
-    let by_omega = plus(graph, &by_omega, back, gamma);
+    let by_omega = plus(graph, &by_omega, graph.neg(weight), gamma);
     let turn = scaled(graph, k.b_slope, gamma);
-    let turn = plus(graph, &turn, k.c_slope, &g);
-    let turn = scaled(graph, s, &turn);
-    let turn = plus(graph, &turn, k.c, &gv);
+    let turn = plus(graph, &scaled(graph, s, &plus(graph, &turn, k.c_slope, &g)), k.c, &gv);
     let across = dot(graph, gamma, omega);
     let diagonal = dot(graph, gamma, v);
-    let diagonal = graph.mul(k.c, diagonal);
-    let diagonal = graph.times_plus(weight, across, diagonal);
-    let rest = turned(graph, &turn, diagonal);
+    let rest = turned(graph, &turn, graph.times_plus(weight, across, graph.mul(k.c, diagonal)));
     Matrix::new(3, 3, |i, j| {
         let sum = graph.add(to.at(i, j), rest.at(i, j));
-        let sum = graph.times_plus(by_omega[i], omega[j], sum);
-        graph.times_plus(by_v[i], v[j], sum)
+        graph.times_plus(by_v[i], v[j], graph.times_plus(by_omega[i], omega[j], sum))
     })
 }
 
 /// R(q) v
-fn rotate(graph: &mut Graph, q: &[Id], v: &V3) -> V3 {
+fn rotate(graph: &Graph, q: &[Id], v: &V3) -> V3 {
     let u = three(q, 1);
     let back = minus(graph, &u);
-    let one = graph.constant(1.0);
-    rotate_back(graph, (q[0], one), &back, v)
+    rotate_back(graph, (q[0], graph.constant(1.0)), &back, v)
 }
 
 impl Motion {
@@ -184,19 +146,17 @@ impl Motion {
         Rotation { chart: self.chart, double_cover: false }
     }
 
-    fn angle(omega: &V3, graph: &mut Graph) -> Angle {
+    fn angle(omega: &V3, graph: &Graph) -> Angle {
         Angle { t: dot(graph, omega, omega), reach: QUARTER_TURN }
     }
 
     /// (g, μ) moved by the increment with quaternion q = (w, s·ω) and translation t.
-    fn moved(graph: &mut Graph, (g, mu): (&[Id], &[Id]), q: (Id, Id), omega: &V3, t: &V3) -> Moved {
+    fn moved(graph: &Graph, (g, mu): (&[Id], &[Id]), q: (Id, Id), omega: &V3, t: &V3) -> Moved {
         let (pi, gamma) = (three(mu, 0), three(mu, 3));
         let lever = cross(graph, t, &gamma);
-        let lifted = difference(graph, &pi, &lever);
-        let angular = rotate_back(graph, q, omega, &lifted);
+        let angular = rotate_back(graph, q, omega, &difference(graph, &pi, &lever));
         let linear = rotate_back(graph, q, omega, &gamma);
-        let carried = rotate(graph, g, t);
-        let place = sum(graph, &carried, &three(g, 4));
+        let place = sum(graph, &rotate(graph, g, t), &three(g, 4));
         let mut element = compose(graph, g, q, omega);
         element.extend(place);
         Moved { g: element, mu: join(&angular, &linear) }
@@ -212,7 +172,7 @@ impl Part for Motion {
         7
     }
 
-    fn pull_back(&self, graph: &mut Graph, x: &[Id], mu: &[Id]) -> Vec<Id> {
+    fn pull_back(&self, graph: &Graph, x: &[Id], mu: &[Id]) -> Vec<Id> {
         if self.chart == Chart::Cayley {
             let parts = CayleyParts::new(graph, x, mu);
             return join(&parts.p, &parts.q);
@@ -223,19 +183,12 @@ impl Part for Motion {
         let k = Dexp::new(graph, angle, Accuracy::Rounding);
         let angular = dexp_transpose(graph, k.b, k.c, &omega, &pi);
         let (linear, slope) = dexp_with_derivative(graph, &k, &omega, &gamma);
-        let lever = slope.apply(graph, &v);
-        let angular = sum(graph, &angular, &three(&lever, 0));
-        join(&angular, &linear)
+        join(&sum(graph, &angular, &three(&slope.apply(graph, &v), 0)), &linear)
     }
 
     /// (d^R exp)ᵀ (Π, Γ) = (f_Π + D_Γ v, f_Γ) with so(3)'s f_Π = (d^R exp_ω)ᵀ Π and its derivative D: the upper block of
     /// an entire function of a block triangular matrix.
-    fn pull_back_with_derivative(
-        &self,
-        graph: &mut Graph,
-        x: &[Id],
-        mu: &[Id],
-    ) -> (Vec<Id>, Matrix) {
+    fn pull_back_with_derivative(&self, graph: &Graph, x: &[Id], mu: &[Id]) -> (Vec<Id>, Matrix) {
         if self.chart == Chart::Cayley {
             let parts = CayleyParts::new(graph, x, mu);
             let derivative = parts.derivative(graph, x, mu);
@@ -247,8 +200,7 @@ impl Part for Motion {
         let curvature = (angle.b_curvature(graph), angle.c_curvature(graph));
         let (angular, angular_slope) = dexp_with_derivative(graph, &k, &omega, &pi);
         let (linear, slope) = dexp_with_derivative(graph, &k, &omega, &gamma);
-        let lever = slope.apply(graph, &v);
-        let angular = sum(graph, &angular, &three(&lever, 0));
+        let angular = sum(graph, &angular, &three(&slope.apply(graph, &v), 0));
         let corner = bend(graph, &angular_slope, &k, curvature, &omega, &gamma, &v);
         let zero = graph.zero();
         let derivative = Matrix::new(6, 6, |i, j| match (i < 3, j < 3) {
@@ -260,7 +212,7 @@ impl Part for Motion {
         (join(&angular, &linear), derivative)
     }
 
-    fn transport(&self, graph: &mut Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved {
+    fn transport(&self, graph: &Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved {
         let (omega, v) = (three(x, 0), three(x, 3));
         let q = self.rotation().increment(graph, &omega);
         let t = match self.chart {
@@ -269,51 +221,41 @@ impl Part for Motion {
                 let (b, c) = (angle.b(graph), angle.c(graph));
                 let once = cross(graph, &omega, &v);
                 let twice = cross(graph, &omega, &once);
-                let near = plus(graph, &v, b, &once);
-                plus(graph, &near, c, &twice)
+                plus(graph, &plus(graph, &v, b, &once), c, &twice)
             }
             Chart::Cayley => {
                 // cay(ω, v) has the translation (1 − ω̂/2)⁻¹ v.
                 let f = cayley_factor(graph, &omega);
-                let back = minus(graph, &omega);
-                let t = resolve(graph, &back, &v);
-                scaled(graph, f, &t)
+                scaled(graph, f, &resolve(graph, &minus(graph, &omega), &v))
             }
         };
         Self::moved(graph, (g, mu), q, &omega, &t)
     }
 
-    fn move_frame(&self, graph: &mut Graph, g: &[Id], y: &[Id], mu: &[Id]) -> Option<Moved> {
+    fn move_frame(&self, graph: &Graph, g: &[Id], y: &[Id], mu: &[Id]) -> Option<Moved> {
         let (omega, v) = (three(y, 0), three(y, 3));
-        let t = dot(graph, &omega, &omega);
-        let angle = WideAngle::new(graph, t);
+        let angle = WideAngle::new(graph, dot(graph, &omega, &omega));
         let once = cross(graph, &omega, &v);
         let twice = cross(graph, &omega, &once);
-        let place = plus(graph, &v, angle.b, &once);
-        let place = plus(graph, &place, angle.c, &twice);
+        let place = plus(graph, &plus(graph, &v, angle.b, &once), angle.c, &twice);
         let q = (angle.half_cosine, angle.half_sine);
         Some(Self::moved(graph, (g, mu), q, &omega, &place))
     }
 
-    fn spatial(&self, graph: &mut Graph, g: &[Id], _: &[Id], mu: &[Id]) -> Vec<Id> {
+    fn spatial(&self, graph: &Graph, g: &[Id], _: &[Id], mu: &[Id]) -> Vec<Id> {
         let (pi, gamma) = (rotate(graph, g, &three(mu, 0)), rotate(graph, g, &three(mu, 3)));
-        let arm = cross(graph, &three(g, 4), &gamma);
-        join(&sum(graph, &pi, &arm), &gamma)
+        join(&sum(graph, &pi, &cross(graph, &three(g, 4), &gamma)), &gamma)
     }
 
-    fn extent(&self, graph: &mut Graph, x: &[Id]) -> Id {
-        let turn = self.rotation().extent(graph, &x[..3]);
-        let rest = finite(graph, &x[3..]);
-        graph.add(turn, rest)
+    fn extent(&self, graph: &Graph, x: &[Id]) -> Id {
+        graph.add(self.rotation().extent(graph, &x[..3]), finite(graph, &x[3..]))
     }
 
-    fn defect(&self, graph: &mut Graph, g: &[Id]) -> Id {
-        let turn = self.rotation().defect(graph, &g[..4]);
-        let rest = finite(graph, &g[4..]);
-        graph.add(turn, rest)
+    fn defect(&self, graph: &Graph, g: &[Id]) -> Id {
+        graph.add(self.rotation().defect(graph, &g[..4]), finite(graph, &g[4..]))
     }
 
-    fn matrix(&self, graph: &mut Graph, g: &[Id]) -> Matrix {
+    fn matrix(&self, graph: &Graph, g: &[Id]) -> Matrix {
         let turn = rotation_matrix(graph, g);
         let (zero, one) = (graph.zero(), graph.constant(1.0));
         Matrix::new(4, 4, |i, j| match (i < 3, j < 3) {
@@ -334,5 +276,111 @@ impl Part for Motion {
         let place = |i: usize| matrix.get(i * 4 + 3).copied().unwrap_or(0.0);
         element.extend((0..3).map(place));
         element
+    }
+}
+
+/// The motions of the plane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Plane {
+    /// The chart.
+    pub chart: Chart,
+}
+
+/// The coordinates of se(2) in se(3).
+const PLACES: [usize; 3] = [2, 3, 4];
+
+/// The numbers of an element among those of a motion of space.
+const NUMBERS: [usize; 4] = [0, 3, 4, 5];
+
+fn lift<const N: usize>(graph: &Graph, list: &[Id], places: &[usize], zeros: [(); N]) -> Vec<Id> {
+    let mut lifted = vec![graph.zero(); zeros.len()];
+    for (&place, &entry) in places.iter().zip(list) {
+        lifted[place] = entry;
+    }
+    lifted
+}
+
+fn drop(list: &[Id], places: &[usize]) -> Vec<Id> {
+    places.iter().map(|&place| list[place]).collect()
+}
+
+impl Plane {
+    fn space(self) -> Motion {
+        Motion { chart: self.chart }
+    }
+}
+
+fn flat(moved: &Moved) -> Moved {
+    Moved { g: drop(&moved.g, &NUMBERS), mu: drop(&moved.mu, &PLACES) }
+}
+
+impl Part for Plane {
+    fn dim(&self) -> usize {
+        3
+    }
+
+    fn element(&self) -> usize {
+        4
+    }
+
+    fn pull_back(&self, graph: &Graph, x: &[Id], mu: &[Id]) -> Vec<Id> {
+        let (x, mu) = (lift(graph, x, &PLACES, [(); 6]), lift(graph, mu, &PLACES, [(); 6]));
+        drop(&self.space().pull_back(graph, &x, &mu), &PLACES)
+    }
+
+    fn pull_back_with_derivative(&self, graph: &Graph, x: &[Id], mu: &[Id]) -> (Vec<Id>, Matrix) {
+        let (x, mu) = (lift(graph, x, &PLACES, [(); 6]), lift(graph, mu, &PLACES, [(); 6]));
+        let (p, slope) = self.space().pull_back_with_derivative(graph, &x, &mu);
+        (drop(&p, &PLACES), Matrix::new(3, 3, |i, j| slope.at(PLACES[i], PLACES[j])))
+    }
+
+    fn transport(&self, graph: &Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved {
+        let (x, mu) = (lift(graph, x, &PLACES, [(); 6]), lift(graph, mu, &PLACES, [(); 6]));
+        let g = lift(graph, g, &NUMBERS, [(); 7]);
+        flat(&self.space().transport(graph, &g, &x, &mu))
+    }
+
+    fn move_frame(&self, graph: &Graph, g: &[Id], y: &[Id], mu: &[Id]) -> Option<Moved> {
+        let (y, mu) = (lift(graph, y, &PLACES, [(); 6]), lift(graph, mu, &PLACES, [(); 6]));
+        let g = lift(graph, g, &NUMBERS, [(); 7]);
+        self.space().move_frame(graph, &g, &y, &mu).map(|moved| flat(&moved))
+    }
+
+    fn spatial(&self, graph: &Graph, g: &[Id], back: &[Id], mu: &[Id]) -> Vec<Id> {
+        let (g, mu) = (lift(graph, g, &NUMBERS, [(); 7]), lift(graph, mu, &PLACES, [(); 6]));
+        drop(&self.space().spatial(graph, &g, back, &mu), &PLACES)
+    }
+
+    fn extent(&self, graph: &Graph, x: &[Id]) -> Id {
+        let x = lift(graph, x, &PLACES, [(); 6]);
+        self.space().extent(graph, &x)
+    }
+
+    fn defect(&self, graph: &Graph, g: &[Id]) -> Id {
+        let g = lift(graph, g, &NUMBERS, [(); 7]);
+        self.space().defect(graph, &g)
+    }
+
+    fn matrix(&self, graph: &Graph, g: &[Id]) -> Matrix {
+        let g = lift(graph, g, &NUMBERS, [(); 7]);
+        let whole = self.space().matrix(graph, &g);
+        const KEPT: [usize; 3] = [0, 1, 3];
+        Matrix::new(3, 3, |i, j| whole.at(KEPT[i], KEPT[j]))
+    }
+
+    fn about(&self) -> String {
+        "the cosine and the sine of half the angle from body to space, then the translation".into()
+    }
+
+    fn element_of(&self, matrix: &[f64]) -> Vec<f64> {
+        let m = |i: usize, j: usize| matrix.get(i * 3 + j).copied().unwrap_or(0.0);
+        let space = [
+            [m(0, 0), m(0, 1), 0.0, m(0, 2)],
+            [m(1, 0), m(1, 1), 0.0, m(1, 2)],
+            [0.0, 0.0, 1.0, 0.0],
+            [0.0, 0.0, 0.0, 1.0],
+        ];
+        let element = self.space().element_of(space.as_flattened());
+        NUMBERS.iter().map(|&place| element[place]).collect()
     }
 }

@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use crate::graph::{Graph, Id};
-use crate::step::part::{Moved, Part};
 use crate::step::vector::{Matrix, largest};
 
 /// A direct product: coordinates and elements of its factors one after the other.
@@ -39,9 +38,9 @@ impl Product {
 
     /// The rows of a factor's matrices.
     fn size(part: &dyn Part) -> usize {
-        let mut graph = Graph::new();
+        let graph = Graph::new();
         let g: Vec<Id> = (0..part.element()).map(|i| graph.input(i)).collect();
-        part.matrix(&mut graph, &g).rows()
+        part.matrix(&graph, &g).rows()
     }
 }
 
@@ -54,19 +53,14 @@ impl Part for Product {
         self.0.iter().map(|part| part.element()).sum()
     }
 
-    fn pull_back(&self, graph: &mut Graph, x: &[Id], mu: &[Id]) -> Vec<Id> {
+    fn pull_back(&self, graph: &Graph, x: &[Id], mu: &[Id]) -> Vec<Id> {
         self.factors()
             .into_iter()
             .flat_map(|Factor { part, own, .. }| part.pull_back(graph, &x[own.clone()], &mu[own]))
             .collect()
     }
 
-    fn pull_back_with_derivative(
-        &self,
-        graph: &mut Graph,
-        x: &[Id],
-        mu: &[Id],
-    ) -> (Vec<Id>, Matrix) {
+    fn pull_back_with_derivative(&self, graph: &Graph, x: &[Id], mu: &[Id]) -> (Vec<Id>, Matrix) {
         let n = self.dim();
         let mut derivative = Matrix::zeros(graph, n, n);
         let mut value = Vec::with_capacity(n);
@@ -83,7 +77,7 @@ impl Part for Product {
         (value, derivative)
     }
 
-    fn transport(&self, graph: &mut Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved {
+    fn transport(&self, graph: &Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved {
         let mut moved = Moved { g: Vec::new(), mu: Vec::new() };
         for Factor { part, own, element } in self.factors() {
             let own_moved = part.transport(graph, &g[element], &x[own.clone()], &mu[own]);
@@ -93,7 +87,7 @@ impl Part for Product {
         moved
     }
 
-    fn move_frame(&self, graph: &mut Graph, g: &[Id], y: &[Id], mu: &[Id]) -> Option<Moved> {
+    fn move_frame(&self, graph: &Graph, g: &[Id], y: &[Id], mu: &[Id]) -> Option<Moved> {
         let mut moved = Moved { g: Vec::new(), mu: Vec::new() };
         for Factor { part, own, element } in self.factors() {
             let (g, y, mu) = (&g[element], &y[own.clone()], &mu[own]);
@@ -107,7 +101,7 @@ impl Part for Product {
         Some(moved)
     }
 
-    fn spatial(&self, graph: &mut Graph, g: &[Id], back: &[Id], mu: &[Id]) -> Vec<Id> {
+    fn spatial(&self, graph: &Graph, g: &[Id], back: &[Id], mu: &[Id]) -> Vec<Id> {
         let factors = self.factors().into_iter();
         factors
             .flat_map(|Factor { part, own, element }| {
@@ -129,7 +123,7 @@ impl Part for Product {
         self.0.iter().map(|part| part.estimated()).fold(1.0, f64::min)
     }
 
-    fn extent(&self, graph: &mut Graph, x: &[Id]) -> Id {
+    fn extent(&self, graph: &Graph, x: &[Id]) -> Id {
         let extents: Vec<Id> = self
             .factors()
             .into_iter()
@@ -142,23 +136,20 @@ impl Part for Product {
         }
         let largest = largest(graph, &extents);
         let one = graph.constant(1.0);
-        let huge = graph.constant(f64::MAX);
-        let valid = graph.select(sum, huge, zero, one);
+        let valid = graph.select(sum, graph.constant(f64::MAX), zero, one);
         // More than one where any is not a number.
-        let beyond = graph.add(valid, valid);
-        graph.add(largest, beyond)
+        graph.add(largest, graph.add(valid, valid))
     }
 
-    fn defect(&self, graph: &mut Graph, g: &[Id]) -> Id {
+    fn defect(&self, graph: &Graph, g: &[Id]) -> Id {
         let mut sum = graph.zero();
         for Factor { part, element, .. } in self.factors() {
-            let own = part.defect(graph, &g[element]);
-            sum = graph.add(sum, own);
+            sum = graph.add(sum, part.defect(graph, &g[element]));
         }
         sum
     }
 
-    fn matrix(&self, graph: &mut Graph, g: &[Id]) -> Matrix {
+    fn matrix(&self, graph: &Graph, g: &[Id]) -> Matrix {
         let blocks: Vec<Matrix> = self
             .factors()
             .into_iter()
@@ -199,4 +190,71 @@ impl Part for Product {
         }
         element
     }
+}
+
+/// [`Part::estimated`] where nothing better is known, and where S is no series with a radius: beyond, estimates were found
+/// ten times too small.
+pub(crate) const ESTIMATED: f64 = 1.0 / 3.0;
+
+/// A factor of a group, with the chart of a step: what programs of a step are built of.
+///
+/// Coordinates x and μ have n entries, a group element m numbers. Conventions are those of the runtime's `LieGroup`.
+pub(crate) trait Part: std::fmt::Debug + Send + Sync {
+    /// n, the dimension.
+    fn dim(&self) -> usize;
+
+    /// m, how many numbers make a group element.
+    fn element(&self) -> usize;
+
+    /// (d^R τ_x)ᵀ μ
+    fn pull_back(&self, graph: &Graph, x: &[Id], mu: &[Id]) -> Vec<Id>;
+
+    /// (d^R τ_x)ᵀ μ and its derivative in x, which Newton's method alone uses.
+    fn pull_back_with_derivative(&self, graph: &Graph, x: &[Id], mu: &[Id]) -> (Vec<Id>, Matrix);
+
+    /// g·τ(x) and Ad\*_{τ(x)⁻¹} μ.
+    fn transport(&self, graph: &Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved;
+
+    /// g·exp(y) and Ad\*_{exp(−y)} μ: the motion of a comoving frame, of any length.
+    fn move_frame(&self, graph: &Graph, g: &[Id], y: &[Id], mu: &[Id]) -> Option<Moved>;
+
+    /// Ad\*_g μ, the spatial momentum. `back` has the numbers of g⁻¹ where [`Part::inverted`] asks for them, else
+    /// anything.
+    fn spatial(&self, graph: &Graph, g: &[Id], back: &[Id], mu: &[Id]) -> Vec<Id>;
+
+    /// Parts of an element that are matrices with an inverse that formulas do not give: where each begins, and its rows.
+    fn inverted(&self) -> Vec<(usize, usize)> {
+        Vec::new()
+    }
+
+    /// How far x goes into the chart: the square of its share of a half turn, or a bound on it; not a number where x is not
+    /// finite. These formulas hold up to half a half turn.
+    fn extent(&self, graph: &Graph, x: &[Id]) -> Id;
+
+    /// Up to which share of a half turn the estimate of what Newton's method leaves is taken for a bound, if S is a series
+    /// with a radius.
+    fn estimated(&self) -> f64 {
+        ESTIMATED
+    }
+
+    /// How far g is from the group; not a number where g is not finite.
+    fn defect(&self, graph: &Graph, g: &[Id]) -> Id;
+
+    /// The matrix of g.
+    fn matrix(&self, graph: &Graph, g: &[Id]) -> Matrix;
+
+    /// A description of the numbers of an element.
+    fn about(&self) -> String;
+
+    /// The numbers of the element with this matrix, row by row.
+    fn element_of(&self, matrix: &[f64]) -> Vec<f64>;
+}
+
+/// A state moved on.
+#[derive(Clone, Debug)]
+pub(crate) struct Moved {
+    /// The group element.
+    pub g: Vec<Id>,
+    /// The momentum.
+    pub mu: Vec<Id>,
 }

@@ -4,15 +4,14 @@ use coadjoint_program::limits::{NEAR, RATE_OF_HALF_TURN};
 use coadjoint_program::{Kernel, KernelParts, Programs};
 use num_traits::ToPrimitive;
 
-use super::error::StepError;
-use super::part::{ESTIMATED, Part};
-use super::product::Product;
 use super::solving::{ROUNDINGS, Scheme, inputs, squares_of_series, tolerance};
 use super::vector::{all_at_most, finite};
 use crate::graph::{Graph, Id, Program};
 use crate::integrator::{Integrator, Kicks};
 use crate::lie;
 use crate::poly::Polynomial;
+use crate::step::StepError;
+use crate::step::product::{ESTIMATED, Part, Product};
 
 /// The programs of a step; the integrator's folded coefficients come first, after them those of the bound on the
 /// Hessian, and the square of the radius.
@@ -60,9 +59,9 @@ pub(crate) fn kernel(
 /// g, μ ↦ μ + l·τ(g), with the torque τ and the length l of the kick.
 fn kick(kicks: &Kicks, group: &Product, length: usize) -> Program {
     let (n, m) = (group.dim(), group.element());
-    let mut graph = Graph::new();
-    let (g, mu) = (inputs(&mut graph, 0, m), inputs(&mut graph, m, n));
-    let matrix = group.matrix(&mut graph, &g);
+    let graph = Graph::new();
+    let (g, mu) = (inputs(&graph, 0, m), inputs(&graph, m, n));
+    let matrix = group.matrix(&graph, &g);
     let torque = graph.call_from(&kicks.kick.torque, matrix.entries(), kicks.first);
     let length = graph.slot(length);
     let mut kicked = |(&torque, &mu): (&Id, &Id)| graph.times_plus(torque, length, mu);
@@ -73,25 +72,23 @@ fn kick(kicks: &Kicks, group: &Product, length: usize) -> Program {
 /// g, μ, x ↦ the state moved by the increment, then by the frame of one flow.
 fn followed(group: &Product, transport: &Program, frame: &Program) -> Program {
     let (n, m) = (group.dim(), group.element());
-    let mut graph = Graph::new();
-    let state = inputs(&mut graph, 0, m + n + n);
-    let mut moved = graph.call(transport, &state);
+    let graph = Graph::new();
+    let mut moved = graph.call(transport, &inputs(&graph, 0, m + n + n));
     moved.push(graph.constant(1.0));
-    let outputs = graph.call(frame, &moved);
-    graph.finish(m + n + n, &outputs)
+    graph.finish(m + n + n, &graph.call(frame, &moved))
 }
 
 /// μ, x, the residual bound, the distance from the guess ↦ 1 where the step is right.
 fn accept(integrator: &Integrator, scheme: Scheme, group: &Product, radius: usize) -> Program {
     let n = group.dim();
-    let mut graph = Graph::new();
-    let (mu, x) = (inputs(&mut graph, 0, n), inputs(&mut graph, n, n));
+    let graph = Graph::new();
+    let (mu, x) = (inputs(&graph, 0, n), inputs(&graph, n, n));
     let (residual_bound, distance) = (graph.input(2 * n), graph.input(2 * n + 1));
-    let (tolerance, near) = (tolerance(&mut graph), graph.constant(NEAR));
-    let extent = group.extent(&mut graph, &x);
+    let (tolerance, near) = (tolerance(&graph), graph.constant(NEAR));
+    let extent = group.extent(&graph, &x);
     let one = graph.constant(1.0);
     let radius = graph.slot(radius);
-    let mut inverse_square = |share: f64| graph.constant((1.0 / share).powi(2));
+    let inverse_square = |share: f64| graph.constant((1.0 / share).powi(2));
     // Newton's method judges the rate at which motions part with its matrices, the fixed point by the turn.
     let rate = integrator.largest_rate.filter(|_| scheme == Scheme::FixedPoint);
     let most = rate.map_or(1.0, |rate| rate / RATE_OF_HALF_TURN);
@@ -99,23 +96,21 @@ fn accept(integrator: &Integrator, scheme: Scheme, group: &Product, radius: usiz
         [group.estimated(), ESTIMATED].map(|share| inverse_square(share.min(most)));
     // No series has a radius so large that its square has no place in 32 bits.
     let finite = graph.constant(f64::from(f32::MAX));
-    let share = graph.select(radius, finite, series, others);
-    let extent = graph.mul(extent, share);
+    let extent = graph.mul(extent, graph.select(radius, finite, series, others));
     let mut tests = vec![(residual_bound, tolerance), (distance, near), (extent, one)];
     // A factor of the group that hardly moves must not hide another.
-    let squares = squares_of_series(&mut graph, integrator, group, &mu);
+    let squares = squares_of_series(&graph, integrator, group, &mu);
     tests.extend(squares.into_iter().map(|square| (square, radius)));
-    let verdict = all_at_most(&mut graph, &tests);
-    graph.finish(2 * n + 2, &[verdict])
+    graph.finish(2 * n + 2, &[all_at_most(&graph, &tests)])
 }
 
 /// g, μ, x ↦ g·τ(x), Ad\*_{τ(x)⁻¹} μ.
 fn transport(group: &Product) -> Program {
     let (n, m) = (group.dim(), group.element());
-    let mut graph = Graph::new();
-    let g = inputs(&mut graph, 0, m);
-    let (mu, x) = (inputs(&mut graph, m, n), inputs(&mut graph, m + n, n));
-    let moved = group.transport(&mut graph, &g, &x, &mu);
+    let graph = Graph::new();
+    let g = inputs(&graph, 0, m);
+    let (mu, x) = (inputs(&graph, m, n), inputs(&graph, m + n, n));
+    let moved = group.transport(&graph, &g, &x, &mu);
     let outputs: Vec<Id> = moved.g.into_iter().chain(moved.mu).collect();
     graph.finish(m + n + n, &outputs)
 }
@@ -126,14 +121,14 @@ fn frame(integrator: &Integrator, group: &Product) -> Result<Option<Program>, St
         return Ok(None);
     }
     let (n, m) = (group.dim(), group.element());
-    let mut graph = Graph::new();
-    let mut g = inputs(&mut graph, 0, m);
-    let mut mu = inputs(&mut graph, m, n);
+    let graph = Graph::new();
+    let mut g = inputs(&graph, 0, m);
+    let mut mu = inputs(&graph, m, n);
     let times = graph.input(m + n);
     for motion in &integrator.frame {
         let y = graph.call(motion, &mu);
         let y: Vec<Id> = y.iter().map(|&entry| graph.mul(times, entry)).collect();
-        let moved = group.move_frame(&mut graph, &g, &y, &mu).ok_or_else(|| {
+        let moved = group.move_frame(&graph, &g, &y, &mu).ok_or_else(|| {
             let group = integrator.problem.algebra.name().to_owned();
             StepError::Frame { group }
         })?;
@@ -146,39 +141,35 @@ fn frame(integrator: &Integrator, group: &Product) -> Result<Option<Program>, St
 /// g, μ ↦ 1 where both are finite and g is on the group, to the square root of rounding.
 fn sound(group: &Product) -> Program {
     let (n, m) = (group.dim(), group.element());
-    let mut graph = Graph::new();
-    let (g, mu) = (inputs(&mut graph, 0, m), inputs(&mut graph, m, n));
-    let defect = group.defect(&mut graph, &g);
-    let rest = finite(&mut graph, &mu);
-    let defect = graph.add(defect, rest);
+    let graph = Graph::new();
+    let (g, mu) = (inputs(&graph, 0, m), inputs(&graph, m, n));
+    let defect = graph.add(group.defect(&graph, &g), finite(&graph, &mu));
     let limit = graph.epsilon();
-    let limit = graph.sqrt(limit);
-    let verdict = all_at_most(&mut graph, &[(defect, limit)]);
-    graph.finish(m + n, &[verdict])
+    graph.finish(m + n, &[all_at_most(&graph, &[(defect, graph.sqrt(limit))])])
 }
 
 /// g, μ ↦ the energy H_red(μ) + V(g), then the Casimirs of low degree that are conserved.
 fn watch(integrator: &Integrator, group: &Product) -> Program {
     let (n, m) = (group.dim(), group.element());
-    let mut graph = Graph::new();
-    let (g, mu) = (inputs(&mut graph, 0, m), inputs(&mut graph, m, n));
+    let graph = Graph::new();
+    let (g, mu) = (inputs(&graph, 0, m), inputs(&graph, m, n));
     let mut outputs = graph.call(&integrator.energy, &mu);
     let mut casimirs = lie::watched_casimirs(&integrator.problem.algebra);
     if let Some(Kicks { kick, first, .. }) = &integrator.kicks {
-        let matrix = group.matrix(&mut graph, &g);
+        let matrix = group.matrix(&graph, &g);
         for energy in graph.call_from(&kick.energy, matrix.entries(), *first) {
             outputs[0] = graph.add(outputs[0], energy);
         }
         casimirs.retain(|casimir| kick.potential.keeps(casimir));
     }
     for casimir in casimirs {
-        outputs.push(polynomial(&mut graph, &casimir, &mu));
+        outputs.push(polynomial(&graph, &casimir, &mu));
     }
     graph.finish(m + n, &outputs)
 }
 
 /// The value of a polynomial in these coordinates.
-fn polynomial(graph: &mut Graph, polynomial: &Polynomial, inputs: &[Id]) -> Id {
+fn polynomial(graph: &Graph, polynomial: &Polynomial, inputs: &[Id]) -> Id {
     let mut sum = graph.zero();
     for (factors, value) in polynomial.factors() {
         let mut product = graph.constant(value.to_f64().unwrap_or(f64::NAN));
@@ -195,8 +186,7 @@ fn polynomial(graph: &mut Graph, polynomial: &Polynomial, inputs: &[Id]) -> Id {
 /// g ↦ its matrix, row by row.
 fn matrix(group: &Product) -> Program {
     let m = group.element();
-    let mut graph = Graph::new();
-    let g = inputs(&mut graph, 0, m);
-    let matrix = group.matrix(&mut graph, &g);
+    let graph = Graph::new();
+    let matrix = group.matrix(&graph, &inputs(&graph, 0, m));
     graph.finish(m, matrix.entries())
 }

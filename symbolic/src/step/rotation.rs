@@ -3,7 +3,7 @@
 use crate::graph::{Graph, Id};
 use crate::lie::Chart;
 use crate::step::entire::{Accuracy, Angle, WideAngle};
-use crate::step::part::{ESTIMATED, Moved, Part};
+use crate::step::product::{ESTIMATED, Moved, Part};
 use crate::step::vector::{Matrix, V3, cross, dot, minus, plus, scaled, three};
 
 /// The largest θ² of a step: a quarter turn, and what is beyond it by rounding. Longer ones are not accepted at once.
@@ -28,7 +28,7 @@ pub(crate) struct Dexp {
 
 impl Dexp {
     /// The four functions.
-    pub(crate) fn new(graph: &mut Graph, angle: Angle, slopes: Accuracy) -> Self {
+    pub(crate) fn new(graph: &Graph, angle: Angle, slopes: Accuracy) -> Self {
         Self {
             b: angle.b(graph),
             c: angle.c(graph),
@@ -39,36 +39,29 @@ impl Dexp {
 }
 
 /// μ + b μ×x + c (μ×x)×x
-pub(crate) fn dexp_transpose(graph: &mut Graph, b: Id, c: Id, x: &V3, mu: &V3) -> V3 {
+pub(crate) fn dexp_transpose(graph: &Graph, b: Id, c: Id, x: &V3, mu: &V3) -> V3 {
     let once = cross(graph, mu, x);
     let twice = cross(graph, &once, x);
-    let near = plus(graph, mu, b, &once);
-    plus(graph, &near, c, &twice)
+    plus(graph, &plus(graph, mu, b, &once), c, &twice)
 }
 
 /// [`dexp_transpose`] and its derivative in x.
-pub(crate) fn dexp_with_derivative(graph: &mut Graph, k: &Dexp, x: &V3, mu: &V3) -> (V3, Matrix) {
+pub(crate) fn dexp_with_derivative(graph: &Graph, k: &Dexp, x: &V3, mu: &V3) -> (V3, Matrix) {
     let once = cross(graph, mu, x);
     let twice = cross(graph, &once, x);
-    let near = plus(graph, mu, k.b, &once);
-    let value = plus(graph, &near, k.c, &twice);
+    let value = plus(graph, &plus(graph, mu, k.b, &once), k.c, &twice);
     // D v = b μ×v + c [(μ×v)×x + (μ×x)×v] + (x·v)(2b′ μ×x + 2c′ (μ×x)×x),
     // with (μ×v)×x = v (μ·x) − μ (v·x).
     let along = scaled(graph, k.b_slope, &once);
-    let along = plus(graph, &along, k.c_slope, &twice);
-    let minus_c = graph.neg(k.c);
-    let along = plus(graph, &along, minus_c, mu);
-    let turn = scaled(graph, k.b, mu);
-    let turn = plus(graph, &turn, k.c, &once);
-    let across = dot(graph, mu, x);
-    let diagonal = graph.mul(k.c, across);
-    let constant = turned(graph, &turn, diagonal);
+    let along = plus(graph, &plus(graph, &along, k.c_slope, &twice), graph.neg(k.c), mu);
+    let turn = plus(graph, &scaled(graph, k.b, mu), k.c, &once);
+    let constant = turned(graph, &turn, graph.mul(k.c, dot(graph, mu, x)));
     let derivative = Matrix::new(3, 3, |i, j| graph.times_plus(along[i], x[j], constant.at(i, j)));
     (value, derivative)
 }
 
 /// The matrix of v ↦ turn × v + diagonal·v.
-pub(crate) fn turned(graph: &mut Graph, turn: &V3, diagonal: Id) -> Matrix {
+pub(crate) fn turned(graph: &Graph, turn: &V3, diagonal: Id) -> Matrix {
     let back = minus(graph, turn);
     let rows =
         [[diagonal, back[2], turn[1]], [turn[2], diagonal, back[0]], [back[1], turn[0], diagonal]];
@@ -76,27 +69,22 @@ pub(crate) fn turned(graph: &mut Graph, turn: &V3, diagonal: Id) -> Matrix {
 }
 
 /// R(q)ᵀ v for the unit quaternion (w, s·x): v + 2 s w v×x + 2 s² (v×x)×x, whose products with x need not wait for w and s.
-pub(crate) fn rotate_back(graph: &mut Graph, (w, s): (Id, Id), x: &V3, v: &V3) -> V3 {
+pub(crate) fn rotate_back(graph: &Graph, (w, s): (Id, Id), x: &V3, v: &V3) -> V3 {
     let two = graph.constant(2.0);
     let once = cross(graph, v, x);
     let twice = cross(graph, &once, x);
     let doubled = graph.mul(two, s);
     let (near, far) = (graph.mul(doubled, w), graph.mul(doubled, s));
-    let turned = plus(graph, v, near, &once);
-    plus(graph, &turned, far, &twice)
+    plus(graph, &plus(graph, v, near, &once), far, &twice)
 }
 
 /// The product of unit quaternions, pulled back onto the unit sphere to first order, so that rounding does not
 /// accumulate in the norm over many steps. The second one is (w, s·x).
-pub(crate) fn compose(graph: &mut Graph, a: &[Id], (w, s): (Id, Id), x: &V3) -> Vec<Id> {
+pub(crate) fn compose(graph: &Graph, a: &[Id], (w, s): (Id, Id), x: &V3) -> Vec<Id> {
     let u = scaled(graph, s, x);
     let vector = three(a, 1);
-    let back = dot(graph, &vector, &u);
-    let back = graph.neg(back);
-    let real = graph.times_plus(a[0], w, back);
-    let turned = cross(graph, &vector, &u);
-    let turned = plus(graph, &turned, a[0], &u);
-    let imaginary = plus(graph, &turned, w, &vector);
+    let real = graph.times_plus(a[0], w, graph.neg(dot(graph, &vector, &u)));
+    let imaginary = plus(graph, &plus(graph, &cross(graph, &vector, &u), a[0], &u), w, &vector);
     let product = [real, imaginary[0], imaginary[1], imaginary[2]];
     let norm = dot(graph, &product, &product);
     let (factor, half) = (graph.constant(1.5), graph.constant(-0.5));
@@ -105,7 +93,7 @@ pub(crate) fn compose(graph: &mut Graph, a: &[Id], (w, s): (Id, Id), x: &V3) -> 
 }
 
 /// The matrix of R(q).
-pub(crate) fn rotation_matrix(graph: &mut Graph, q: &[Id]) -> Matrix {
+pub(crate) fn rotation_matrix(graph: &Graph, q: &[Id]) -> Matrix {
     let (w, back) = (q[0], three(q, 1));
     let back = minus(graph, &back);
     let (zero, one) = (graph.zero(), graph.constant(1.0));
@@ -136,12 +124,12 @@ pub(crate) fn quaternion_of(matrix: &[f64], stride: usize) -> Vec<f64> {
 }
 
 impl Rotation {
-    fn angle(self, graph: &mut Graph, x: &V3) -> Angle {
+    fn angle(self, graph: &Graph, x: &V3) -> Angle {
         Angle { t: dot(graph, x, x), reach: QUARTER_TURN }
     }
 
     /// w and s of τ(x) as a quaternion (w, s·x).
-    pub(crate) fn increment(self, graph: &mut Graph, x: &V3) -> (Id, Id) {
+    pub(crate) fn increment(self, graph: &Graph, x: &V3) -> (Id, Id) {
         match self.chart {
             Chart::Exponential => {
                 let angle = self.angle(graph, x);
@@ -152,19 +140,14 @@ impl Rotation {
                 let [quarter, half, one] = [0.25, 0.5, 1.0].map(|value| graph.constant(value));
                 let a = scaled(graph, quarter, x);
                 let n = dot(graph, &a, &a);
-                let below = graph.add(one, n);
-                let factor = graph.div(one, below);
-                let above = graph.sub(one, n);
-                (graph.mul(above, factor), graph.mul(half, factor))
+                let factor = graph.div(one, graph.add(one, n));
+                (graph.mul(graph.sub(one, n), factor), graph.mul(half, factor))
             }
             Chart::Cayley => {
                 // cay(x) is the rotation with quaternion (1, x/2)/√(1 + |x|²/4).
                 let (half, one) = (graph.constant(0.5), graph.constant(1.0));
                 let a = scaled(graph, half, x);
-                let n = dot(graph, &a, &a);
-                let below = graph.add(one, n);
-                let below = graph.sqrt(below);
-                let w = graph.div(one, below);
+                let w = graph.div(one, graph.sqrt(graph.add(one, dot(graph, &a, &a))));
                 (w, graph.mul(half, w))
             }
         }
@@ -173,14 +156,12 @@ impl Rotation {
 
 /// 1 + |a|² and (1 − |a|²)μ + 2(a·μ)a + 2 μ×a, a = x/4: with them (d^R cay_x)ᵀ μ on SU(2) is the second by the square of
 /// the first.
-fn doubled(graph: &mut Graph, a: &V3, mu: &V3) -> (Id, V3) {
+fn doubled(graph: &Graph, a: &V3, mu: &V3) -> (Id, V3) {
     let (one, two) = (graph.constant(1.0), graph.constant(2.0));
     let n = dot(graph, a, a);
     let along = dot(graph, a, mu);
-    let turned = cross(graph, mu, a);
-    let bent = plus(graph, &turned, along, a);
-    let rest = graph.sub(one, n);
-    let rest = scaled(graph, rest, mu);
+    let bent = plus(graph, &cross(graph, mu, a), along, a);
+    let rest = scaled(graph, graph.sub(one, n), mu);
     (graph.add(one, n), plus(graph, &rest, two, &bent))
 }
 
@@ -193,7 +174,7 @@ impl Part for Rotation {
         4
     }
 
-    fn pull_back(&self, graph: &mut Graph, x: &[Id], mu: &[Id]) -> Vec<Id> {
+    fn pull_back(&self, graph: &Graph, x: &[Id], mu: &[Id]) -> Vec<Id> {
         let (x, mu) = (three(x, 0), three(mu, 0));
         match self.chart {
             Chart::Exponential => {
@@ -205,30 +186,22 @@ impl Part for Rotation {
         }
     }
 
-    fn pull_back_with_derivative(
-        &self,
-        graph: &mut Graph,
-        x: &[Id],
-        mu: &[Id],
-    ) -> (Vec<Id>, Matrix) {
+    fn pull_back_with_derivative(&self, graph: &Graph, x: &[Id], mu: &[Id]) -> (Vec<Id>, Matrix) {
         let (x, mu) = (three(x, 0), three(mu, 0));
         let (half, quarter, one) = (graph.constant(0.5), graph.constant(0.25), graph.constant(1.0));
         match self.chart {
             Chart::Exponential => {
-                let angle = self.angle(graph, &x);
-                let k = Dexp::new(graph, angle, Accuracy::Newton);
+                let k = Dexp::new(graph, self.angle(graph, &x), Accuracy::Newton);
                 let (value, derivative) = dexp_with_derivative(graph, &k, &x, &mu);
                 (value.to_vec(), derivative)
             }
             Chart::Cayley if self.double_cover => {
                 let a = scaled(graph, quarter, &x);
                 let (m, y) = doubled(graph, &a, &mu);
-                let square = graph.mul(m, m);
-                let factor = graph.div(one, square);
+                let factor = graph.div(one, graph.mul(m, m));
                 let value = scaled(graph, factor, &y);
                 // ∂y/∂a = 2(aμᵀ − μaᵀ + a·μ + μ̂), ∂(m⁻²)/∂a = −4 m⁻³ aᵀ, ∂a/∂x = ¼.
-                let diagonal = dot(graph, &a, &mu);
-                let turn = turned(graph, &mu, diagonal);
+                let turn = turned(graph, &mu, dot(graph, &a, &mu));
                 let weight = graph.mul(half, factor);
                 let shrink = graph.div(one, m);
                 let derivative = Matrix::new(3, 3, |i, j| {
@@ -236,26 +209,19 @@ impl Part for Rotation {
                     let slope = graph.times_plus(a[i], mu[j], turn.at(i, j));
                     let slope = graph.times_plus(back, a[j], slope);
                     let along = graph.mul(value[i], a[j]);
-                    let along = graph.mul(along, shrink);
-                    let along = graph.neg(along);
-                    graph.times_plus(slope, weight, along)
+                    graph.times_plus(slope, weight, graph.neg(graph.mul(along, shrink)))
                 });
                 (value.to_vec(), derivative)
             }
             Chart::Cayley => {
                 // d^R cay_x = (1 + x̂/2)/(1 + |x|²/4); its transpose sends μ to (μ + ½ μ×x)/(1 + |x|²/4).
-                let square = dot(graph, &x, &x);
-                let below = graph.times_plus(square, quarter, one);
-                let factor = graph.div(one, below);
+                let factor = graph.div(one, graph.times_plus(dot(graph, &x, &x), quarter, one));
                 let once = cross(graph, &mu, &x);
-                let value = plus(graph, &mu, half, &once);
-                let value = scaled(graph, factor, &value);
+                let value = scaled(graph, factor, &plus(graph, &mu, half, &once));
                 let half_factor = graph.mul(half, factor);
                 let turn = scaled(graph, half_factor, &mu);
-                let along = scaled(graph, half_factor, &value);
-                let along = minus(graph, &along);
-                let zero = graph.zero();
-                let turn = turned(graph, &turn, zero);
+                let along = minus(graph, &scaled(graph, half_factor, &value));
+                let turn = turned(graph, &turn, graph.zero());
                 let derivative =
                     Matrix::new(3, 3, |i, j| graph.times_plus(along[i], x[j], turn.at(i, j)));
                 (value.to_vec(), derivative)
@@ -263,23 +229,22 @@ impl Part for Rotation {
         }
     }
 
-    fn transport(&self, graph: &mut Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved {
+    fn transport(&self, graph: &Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved {
         let (x, mu) = (three(x, 0), three(mu, 0));
         let q = self.increment(graph, &x);
         let moved = rotate_back(graph, q, &x, &mu);
         Moved { g: compose(graph, g, q, &x), mu: moved.to_vec() }
     }
 
-    fn move_frame(&self, graph: &mut Graph, g: &[Id], y: &[Id], mu: &[Id]) -> Option<Moved> {
+    fn move_frame(&self, graph: &Graph, g: &[Id], y: &[Id], mu: &[Id]) -> Option<Moved> {
         let (y, mu) = (three(y, 0), three(mu, 0));
-        let t = dot(graph, &y, &y);
-        let angle = WideAngle::new(graph, t);
+        let angle = WideAngle::new(graph, dot(graph, &y, &y));
         let q = (angle.half_cosine, angle.half_sine);
         let moved = rotate_back(graph, q, &y, &mu);
         Some(Moved { g: compose(graph, g, q, &y), mu: moved.to_vec() })
     }
 
-    fn spatial(&self, graph: &mut Graph, g: &[Id], _: &[Id], mu: &[Id]) -> Vec<Id> {
+    fn spatial(&self, graph: &Graph, g: &[Id], _: &[Id], mu: &[Id]) -> Vec<Id> {
         let (back, one) = (minus(graph, &three(g, 1)), graph.constant(1.0));
         rotate_back(graph, (g[0], one), &back, &three(mu, 0)).to_vec()
     }
@@ -288,24 +253,22 @@ impl Part for Rotation {
         if self.double_cover { ESTIMATED } else { 0.5 }
     }
 
-    fn extent(&self, graph: &mut Graph, x: &[Id]) -> Id {
+    fn extent(&self, graph: &Graph, x: &[Id]) -> Id {
         let square = dot(graph, x, x);
         let limit = match (self.chart, self.double_cover) {
             (Chart::Exponential, _) => std::f64::consts::PI.powi(2),
             (Chart::Cayley, false) => 4.0,
             (Chart::Cayley, true) => 16.0,
         };
-        let scale = graph.constant(1.0 / limit);
-        graph.mul(square, scale)
+        graph.mul(square, graph.constant(1.0 / limit))
     }
 
-    fn defect(&self, graph: &mut Graph, g: &[Id]) -> Id {
+    fn defect(&self, graph: &Graph, g: &[Id]) -> Id {
         let (norm, one) = (dot(graph, g, g), graph.constant(1.0));
-        let off = graph.sub(norm, one);
-        graph.abs(off)
+        graph.abs(graph.sub(norm, one))
     }
 
-    fn matrix(&self, graph: &mut Graph, g: &[Id]) -> Matrix {
+    fn matrix(&self, graph: &Graph, g: &[Id]) -> Matrix {
         if !self.double_cover {
             return rotation_matrix(graph, g);
         }

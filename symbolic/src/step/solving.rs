@@ -1,15 +1,14 @@
 //! The equation of a step as programs: a first guess, and a correction of it.
 
-use super::part::Part;
-use super::product::Product;
 use super::tables::structure_of;
 use super::vector::{Eliminated, Matrix, dot, finite, largest};
 use crate::graph::{Graph, Id, Program};
 use crate::integrator::{Integrator, Predictor};
 use crate::lie::LieAlgebra;
+use crate::step::product::{Part, Product};
 
 /// Inputs of a program, this many from one on.
-pub(crate) fn inputs(graph: &mut Graph, from: usize, count: usize) -> Vec<Id> {
+pub(crate) fn inputs(graph: &Graph, from: usize, count: usize) -> Vec<Id> {
     (from..from + count).map(|i| graph.input(i)).collect()
 }
 
@@ -17,7 +16,7 @@ pub(crate) fn inputs(graph: &mut Graph, from: usize, count: usize) -> Vec<Id> {
 pub(crate) const ROUNDINGS: f64 = 4.0;
 
 /// The largest residual accepted, relative to the largest coordinate of μ.
-pub(crate) fn tolerance(graph: &mut Graph) -> Id {
+pub(crate) fn tolerance(graph: &Graph) -> Id {
     let (unit, many) = (graph.epsilon(), graph.constant(ROUNDINGS));
     graph.mul(many, unit)
 }
@@ -114,7 +113,7 @@ impl Scheme {
 /// |μ|² of each factor of the group on which S₃ … S_K depend: what says how they converge. The translations of a free
 /// body are not among them.
 pub(crate) fn squares_of_series(
-    graph: &mut Graph,
+    graph: &Graph,
     integrator: &Integrator,
     group: &Product,
     mu: &[Id],
@@ -126,7 +125,7 @@ pub(crate) fn squares_of_series(
 /// The first guess of p, 1/scale, and half the bound on what the Hessian leaves out times the scale, the scale being the
 /// largest coordinate of μ.
 fn start(
-    graph: &mut Graph,
+    graph: &Graph,
     integrator: &Integrator,
     group: &Product,
     (base, bound_len): (usize, usize),
@@ -138,10 +137,8 @@ fn start(
         Predictor::Explicit(_) => found,
     };
     let smallest = graph.constant(f64::from(f32::MIN_POSITIVE));
-    let size = largest(graph, mu);
-    let scale = graph.add(size, smallest);
-    let one = graph.constant(1.0);
-    let inverse_scale = graph.div(one, scale);
+    let scale = graph.add(largest(graph, mu), smallest);
+    let inverse_scale = graph.div(graph.constant(1.0), scale);
     let mut bound = graph.zero();
     if bound_len > 0 {
         let mut square = graph.zero();
@@ -150,12 +147,9 @@ fn start(
         }
         let size = graph.sqrt(square);
         for degree in (0..bound_len).rev() {
-            let coefficient = graph.slot(base + degree);
-            bound = graph.times_plus(bound, size, coefficient);
+            bound = graph.times_plus(bound, size, graph.slot(base + degree));
         }
-        let half = graph.constant(0.5);
-        let half = graph.mul(half, scale);
-        bound = graph.mul(half, bound);
+        bound = graph.mul(graph.mul(graph.constant(0.5), scale), bound);
     }
     (guess, inverse_scale, bound)
 }
@@ -163,16 +157,16 @@ fn start(
 /// μ ↦ p, 1/scale, half the bound on what the Hessian leaves out times the scale.
 fn guess(integrator: &Integrator, group: &Product, bound: (usize, usize)) -> Program {
     let n = group.dim();
-    let mut graph = Graph::new();
-    let mu = inputs(&mut graph, 0, n);
-    let (mut outputs, inverse_scale, bound) = start(&mut graph, integrator, group, bound, &mu);
+    let graph = Graph::new();
+    let mu = inputs(&graph, 0, n);
+    let (mut outputs, inverse_scale, bound) = start(&graph, integrator, group, bound, &mu);
     outputs.extend([inverse_scale, bound]);
     graph.finish(n, &outputs)
 }
 
 /// The equation and its matrices at p: x, the residual F(p) = p − (d^R τ_x)ᵀ μ, ∂F/∂p = 1 − D·Hess S.
 fn linearised(
-    graph: &mut Graph,
+    graph: &Graph,
     integrator: &Integrator,
     group: &Product,
     p: &[Id],
@@ -204,22 +198,18 @@ fn linearised(
 
 /// maxᵢ Σⱼ |ZᵢⱼZⱼᵢ| of Z = ad_xᵀ + 2 D·Hess S, which to first order is h times the derivative of μ̇ = ad\*_{∂H/∂μ} μ: a
 /// bound on how fast motions part that does not depend on the units of the coordinates.
-fn square_of_rate(graph: &mut Graph, algebra: &LieAlgebra, x: &[Id], product: &Matrix) -> Id {
+fn square_of_rate(graph: &Graph, algebra: &LieAlgebra, x: &[Id], product: &Matrix) -> Id {
     let n = x.len();
     let two = graph.constant(2.0);
     let mut z = Matrix::new(n, n, |i, j| graph.mul(two, product.at(i, j)));
     for (i, j, k, c) in structure_of(algebra) {
-        let c = graph.constant(c);
-        let value = graph.times_plus(c, x[i], z.at(j, k));
-        z.set(j, k, value);
+        z.set(j, k, graph.times_plus(graph.constant(c), x[i], z.at(j, k)));
     }
     let rows: Vec<Id> = (0..n)
         .map(|i| {
             let mut sum = graph.zero();
             for j in 0..n {
-                let pair = graph.mul(z.at(i, j), z.at(j, i));
-                let pair = graph.abs(pair);
-                sum = graph.add(sum, pair);
+                sum = graph.add(sum, graph.abs(graph.mul(z.at(i, j), z.at(j, i))));
             }
             sum
         })
@@ -232,22 +222,20 @@ impl Matrices {
     /// what Newton leaves.
     fn correct(
         &self,
-        graph: &mut Graph,
+        graph: &Graph,
         (p, x, residual): (&[Id], &[Id], &[Id]),
         inverse_scale: Id,
     ) -> Corrected {
         let correction = self.jacobian.solve(graph, residual);
         let shift = self.hessian.apply(graph, &correction);
-        let mut less = |list: &[Id], change: &[Id]| -> Vec<Id> {
+        let less = |list: &[Id], change: &[Id]| -> Vec<Id> {
             list.iter().zip(change).map(|(&a, &b)| graph.sub(a, b)).collect()
         };
         let (p, x) = (less(p, &correction), less(x, &shift));
-        let length = largest(graph, &correction);
-        let mut relative = graph.mul(length, inverse_scale);
+        let mut relative = graph.mul(largest(graph, &correction), inverse_scale);
         if let Some((rate, most)) = self.rate {
             // Too long a step is not near anything.
-            let far = graph.constant(f64::from(f32::MAX));
-            relative = graph.select(rate, most, relative, far);
+            relative = graph.select(rate, most, relative, graph.constant(f64::from(f32::MAX)));
         }
         let stretch = largest(graph, &shift);
         Corrected { p, x, relative, stretch }
@@ -256,42 +244,36 @@ impl Matrices {
 
 /// How much faster than with the length of a correction the chart bends what it adds to x. In a comoving frame x is short
 /// where S is far from quadratic.
-fn bend(graph: &mut Graph, integrator: &Integrator, x: &[Id]) -> Id {
+fn bend(graph: &Graph, integrator: &Integrator, x: &[Id]) -> Id {
     if !integrator.problem.is_quadratic() || integrator.problem.comoving.is_some() {
         return graph.constant(1.0);
     }
     let size = largest(graph, x);
-    let square = graph.mul(size, size);
-    let quarter = graph.constant(0.25);
-    graph.mul(square, quarter)
+    graph.mul(graph.mul(size, size), graph.constant(0.25))
 }
 
 /// The residual bound: the estimate where the distance from the matrices' point is short, else the correction itself;
 /// the smaller of both where the correction is below rounding.
-fn residual_bound(graph: &mut Graph, (estimate, relative, distance): (Id, Id, Id)) -> Id {
+fn residual_bound(graph: &Graph, (estimate, relative, distance): (Id, Id, Id)) -> Id {
     let (trusted, tolerance) = (graph.constant(TRUSTED), tolerance(graph));
     let bound = graph.select(distance, trusted, estimate, relative);
-    let rounded = graph.min(bound, relative);
-    graph.select(relative, tolerance, rounded, bound)
+    graph.select(relative, tolerance, graph.min(bound, relative), bound)
 }
 
 /// A correction of Newton's method: p, μ, constants ↦ the next p, x there to second order, the residual bound, the
 /// length of the correction.
 fn newton(integrator: &Integrator, group: &Product) -> Program {
     let n = group.dim();
-    let mut graph = Graph::new();
-    let (p, mu) = (inputs(&mut graph, 0, n), inputs(&mut graph, n, n));
+    let graph = Graph::new();
+    let (p, mu) = (inputs(&graph, 0, n), inputs(&graph, n, n));
     let (inverse_scale, half_bound) = (graph.input(2 * n), graph.input(2 * n + 1));
-    let (x, residual, matrices) = linearised(&mut graph, integrator, group, &p, &mu);
-    let corrected = matrices.correct(&mut graph, (&p, &x, &residual), inverse_scale);
+    let (x, residual, matrices) = linearised(&graph, integrator, group, &p, &mu);
+    let corrected = matrices.correct(&graph, (&p, &x, &residual), inverse_scale);
     let Corrected { p, x: moved, relative, stretch } = corrected;
-    let bend = bend(&mut graph, integrator, &x);
-    let bend = graph.mul(bend, relative);
-    let half = graph.constant(0.5);
-    let curved = graph.times_plus(half, stretch, bend);
-    let rest = graph.mul(half_bound, relative);
-    let estimate = graph.times_plus(stretch, curved, rest);
-    let bound = residual_bound(&mut graph, (estimate, relative, relative));
+    let bend = graph.mul(bend(&graph, integrator, &x), relative);
+    let curved = graph.times_plus(graph.constant(0.5), stretch, bend);
+    let estimate = graph.times_plus(stretch, curved, graph.mul(half_bound, relative));
+    let bound = residual_bound(&graph, (estimate, relative, relative));
     let outputs: Vec<Id> = p.into_iter().chain(moved).chain([bound, relative]).collect();
     graph.finish(2 * n + 2, &outputs)
 }
@@ -300,15 +282,15 @@ fn newton(integrator: &Integrator, group: &Product) -> Program {
 /// constants.
 fn chord(integrator: &Integrator, group: &Product, bound: (usize, usize)) -> (Program, Program) {
     let n = group.dim();
-    let mut graph = Graph::new();
-    let mu = inputs(&mut graph, 0, n);
-    let (p, inverse_scale, half_bound) = start(&mut graph, integrator, group, bound, &mu);
-    let (x, residual, matrices) = linearised(&mut graph, integrator, group, &p, &mu);
-    let first = matrices.correct(&mut graph, (&p, &x, &residual), inverse_scale);
+    let graph = Graph::new();
+    let mu = inputs(&graph, 0, n);
+    let (p, inverse_scale, half_bound) = start(&graph, integrator, group, bound, &mu);
+    let (x, residual, matrices) = linearised(&graph, integrator, group, &p, &mu);
+    let first = matrices.correct(&graph, (&p, &x, &residual), inverse_scale);
     let mut outputs = first.p;
     outputs.extend([inverse_scale, half_bound, first.relative, first.stretch]);
     // The chord's graph, in which numbers that are known have no place among the constants.
-    let mut chord = Graph::new();
+    let chord = Graph::new();
     let mut known = std::collections::BTreeMap::new();
     let mut rename = |id: Id| {
         if let Some(value) = graph.known_number(id) {
@@ -332,20 +314,20 @@ fn chord(integrator: &Integrator, group: &Product, bound: (usize, usize)) -> (Pr
 
 /// A chord: as [`newton`], with matrices from elsewhere.
 fn chord_correction(
-    mut graph: Graph,
+    graph: Graph,
     integrator: &Integrator,
     group: &Product,
     matrices: &Matrices,
     inputs_of_chord: usize,
 ) -> Program {
     let n = group.dim();
-    let (p, mu) = (inputs(&mut graph, 0, n), inputs(&mut graph, n, n));
+    let (p, mu) = (inputs(&graph, 0, n), inputs(&graph, n, n));
     let [inverse_scale, half_bound, first, first_stretch] =
         [0, 1, 2, 3].map(|i| graph.input(2 * n + i));
     let x = graph.call(&integrator.gradient, &p);
-    let pulled = group.pull_back(&mut graph, &x, &mu);
+    let pulled = group.pull_back(&graph, &x, &mu);
     let residual: Vec<Id> = p.iter().zip(&pulled).map(|(&a, &b)| graph.sub(a, b)).collect();
-    let corrected = matrices.correct(&mut graph, (&p, &x, &residual), inverse_scale);
+    let corrected = matrices.correct(&graph, (&p, &x, &residual), inverse_scale);
     let Corrected { p, x: moved, relative, stretch } = corrected;
     // The matrices are of a place no farther away than twice the first correction and this one, and change by that twice
     // as much as over half the distance, which is Newton's.
@@ -354,13 +336,10 @@ fn chord_correction(
     let two = graph.constant(2.0);
     let four = graph.constant(4.0);
     let slope = graph.constant(CHORD);
-    let bend = bend(&mut graph, integrator, &x);
-    let bend = graph.mul(bend, distance);
-    let curved = graph.times_plus(two, far, slope);
-    let curved = graph.times_plus(four, bend, curved);
-    let rest = graph.mul(half_bound, relative);
-    let estimate = graph.times_plus(stretch, curved, rest);
-    let bound = residual_bound(&mut graph, (estimate, relative, distance));
+    let bend = graph.mul(bend(&graph, integrator, &x), distance);
+    let curved = graph.times_plus(four, bend, graph.times_plus(two, far, slope));
+    let estimate = graph.times_plus(stretch, curved, graph.mul(half_bound, relative));
+    let bound = residual_bound(&graph, (estimate, relative, distance));
     let outputs: Vec<Id> = p.into_iter().chain(moved).chain([bound, distance]).collect();
     graph.finish(inputs_of_chord, &outputs)
 }
@@ -374,39 +353,35 @@ fn fixed_point(
     bound: (usize, usize),
 ) -> (Program, Program) {
     let n = group.dim();
-    let mut graph = Graph::new();
-    let mu = inputs(&mut graph, 0, n);
-    let (mut outputs, inverse_scale, _) = start(&mut graph, integrator, group, bound, &mu);
+    let graph = Graph::new();
+    let mu = inputs(&graph, 0, n);
+    let (mut outputs, inverse_scale, _) = start(&graph, integrator, group, bound, &mu);
     outputs.push(inverse_scale);
     let guess = graph.finish(n, &outputs);
 
-    let mut graph = Graph::new();
-    let (p, mu) = (inputs(&mut graph, 0, n), inputs(&mut graph, n, n));
+    let graph = Graph::new();
+    let (p, mu) = (inputs(&graph, 0, n), inputs(&graph, n, n));
     let inverse_scale = graph.input(2 * n);
-    let evaluate = |graph: &mut Graph, p: &[Id]| {
+    let evaluate = |graph: &Graph, p: &[Id]| {
         let x = graph.call(&integrator.gradient, p);
         let next = group.pull_back(graph, &x, &mu);
         (x, next)
     };
-    let distance = |graph: &mut Graph, a: &[Id], b: &[Id]| {
+    let distance = |graph: &Graph, a: &[Id], b: &[Id]| {
         let change: Vec<Id> = a.iter().zip(b).map(|(&a, &b)| graph.sub(a, b)).collect();
-        let length = largest(graph, &change);
-        graph.mul(length, inverse_scale)
+        graph.mul(largest(graph, &change), inverse_scale)
     };
-    let (_, once) = evaluate(&mut graph, &p);
-    let (x, twice) = evaluate(&mut graph, &once);
-    let second = distance(&mut graph, &once, &twice);
-    let moved = distance(&mut graph, &p, &twice);
-    let tolerance = tolerance(&mut graph);
+    let (_, once) = evaluate(&graph, &p);
+    let (x, twice) = evaluate(&graph, &once);
+    let second = distance(&graph, &once, &twice);
+    let moved = distance(&graph, &p, &twice);
+    let tolerance = tolerance(&graph);
     let many = (ROUNDINGS_EACH * n as f64).clamp(ROUNDINGS, MOST_ROUNDINGS);
     let many = graph.constant(many);
     let unit = graph.epsilon();
-    let rounding = graph.mul(many, unit);
-    let solved = graph.min(second, tolerance);
-    let bound = graph.select(second, rounding, solved, second);
+    let bound = graph.select(second, graph.mul(many, unit), graph.min(second, tolerance), second);
     // The largest of many numbers may hide one that is none.
-    let rest = finite(&mut graph, &twice);
-    let bound = graph.add(bound, rest);
+    let bound = graph.add(bound, finite(&graph, &twice));
     let outputs: Vec<Id> = twice.into_iter().chain(x).chain([bound, moved]).collect();
     (guess, graph.finish(2 * n + 1, &outputs))
 }

@@ -3,8 +3,8 @@
 use crate::graph::{Graph, Id};
 use crate::lie::{Chart, LieAlgebra, RationalMatrix};
 use crate::number::nearest_float;
-use crate::step::error::MOST_OF_TABLES;
-use crate::step::part::{Moved, Part};
+use crate::step::MOST_OF_TABLES;
+use crate::step::product::{Moved, Part};
 use crate::step::vector::{Matrix, dot, finite, largest, solve};
 
 /// The norm of ad_x and of the matrix of x up to which series are exact to rounding: up to it steps are accepted at once.
@@ -89,47 +89,41 @@ impl Tables {
     }
 
     /// ad_xᵀ as a matrix.
-    fn ad_transpose(&self, graph: &mut Graph, x: &[Id]) -> Matrix {
+    fn ad_transpose(&self, graph: &Graph, x: &[Id]) -> Matrix {
         let mut matrix = Matrix::zeros(graph, self.dim, self.dim);
         for &(i, j, k, c) in &self.structure {
-            let c = graph.constant(c);
-            let value = graph.times_plus(c, x[i], matrix.at(j, k));
-            matrix.set(j, k, value);
+            matrix.set(j, k, graph.times_plus(graph.constant(c), x[i], matrix.at(j, k)));
         }
         matrix
     }
 
     /// Entry (j, i): Σₖ cᵢⱼᵏ vₖ, the derivative of ad_xᵀ v in x.
-    fn ad_slope(&self, graph: &mut Graph, v: &[Id]) -> Matrix {
+    fn ad_slope(&self, graph: &Graph, v: &[Id]) -> Matrix {
         let mut matrix = Matrix::zeros(graph, self.dim, self.dim);
         for &(i, j, k, c) in &self.structure {
-            let c = graph.constant(c);
-            let value = graph.times_plus(c, v[k], matrix.at(j, i));
-            matrix.set(j, i, value);
+            matrix.set(j, i, graph.times_plus(graph.constant(c), v[k], matrix.at(j, i)));
         }
         matrix
     }
 
     /// Σ weightᵢ · matrixᵢ, the matrices given by their entries.
-    fn combine(&self, graph: &mut Graph, matrices: &[Entries], weights: &[Id]) -> Matrix {
+    fn combine(&self, graph: &Graph, matrices: &[Entries], weights: &[Id]) -> Matrix {
         let mut sum = Matrix::zeros(graph, self.size, self.size);
         for (entries, &weight) in matrices.iter().zip(weights) {
             for &(i, j, value) in entries {
-                let value = graph.constant(value);
-                let value = graph.times_plus(value, weight, sum.at(i, j));
-                sum.set(i, j, value);
+                sum.set(i, j, graph.times_plus(graph.constant(value), weight, sum.at(i, j)));
             }
         }
         sum
     }
 
     /// The matrix of x.
-    fn represent(&self, graph: &mut Graph, x: &[Id]) -> Matrix {
+    fn represent(&self, graph: &Graph, x: &[Id]) -> Matrix {
         self.combine(graph, &self.basis, x)
     }
 
     /// φ(A)μ with φ(A) = (exp A − 1)/A, A = ad_xᵀ, by its Taylor series.
-    fn phi(&self, graph: &mut Graph, a: &Matrix, mu: &[Id]) -> Vec<Id> {
+    fn phi(&self, graph: &Graph, a: &Matrix, mu: &[Id]) -> Vec<Id> {
         let mut term = mu.to_vec();
         let mut sum = mu.to_vec();
         for k in 1..=terms(REACH, ROUNDING) {
@@ -144,7 +138,7 @@ impl Tables {
     }
 
     /// The derivative of φ(ad_xᵀ)μ in x.
-    fn phi_slope(&self, graph: &mut Graph, a: &Matrix, mu: &[Id]) -> Matrix {
+    fn phi_slope(&self, graph: &Graph, a: &Matrix, mu: &[Id]) -> Matrix {
         let one = graph.constant(1.0);
         let mut term = mu.to_vec();
         let mut slope = Matrix::zeros(graph, self.dim, self.dim);
@@ -152,8 +146,7 @@ impl Tables {
         for k in 1..=terms(REACH, self.slope) {
             let factor = graph.constant(1.0 / (k + 1) as f64);
             let carried = a.times(graph, &slope);
-            let own = self.ad_slope(graph, &term);
-            let both = carried.plus(graph, one, &own);
+            let both = carried.plus(graph, one, &self.ad_slope(graph, &term));
             slope = Matrix::new(self.dim, self.dim, |i, j| graph.mul(both.at(i, j), factor));
             term = a.apply(graph, &term).iter().map(|&entry| graph.mul(entry, factor)).collect();
             if slope.is_zero(graph) {
@@ -165,11 +158,10 @@ impl Tables {
     }
 
     /// exp X by its Taylor series in powers of a power (M. Paterson and L. Stockmeyer, SIAM J. Comput. 2, 1973).
-    fn exponential(&self, graph: &mut Graph, x: &Matrix) -> Matrix {
+    fn exponential(&self, graph: &Graph, x: &Matrix) -> Matrix {
         let degree = terms(REACH, ROUNDING) + 1;
         let stride = (degree as f64).sqrt().round() as usize;
-        let identity = self.identity(graph);
-        let mut powers = vec![identity];
+        let mut powers = vec![self.identity(graph)];
         while powers.len() <= stride {
             let next = match powers.len() {
                 1 => x.clone(),
@@ -187,8 +179,7 @@ impl Tables {
             // Small coefficients first.
             for (i, power) in low.iter().enumerate().rev() {
                 let inverse = 1.0 / factorial(block * stride + i);
-                let coefficient = graph.constant(inverse);
-                total = total.plus(graph, coefficient, power);
+                total = total.plus(graph, graph.constant(inverse), power);
             }
             sum = Some(total);
         }
@@ -197,12 +188,11 @@ impl Tables {
 
     /// exp X − 1 for X of any norm up to [`FARTHEST`], by scaling and squaring (N. Higham, *Functions of Matrices*, SIAM
     /// 2008, chapter 10). Without the identity, (1 + E)² − 1 = 2E + E², no digits of a short X are lost.
-    fn exponential_less_one(&self, graph: &mut Graph, x: &Matrix) -> Matrix {
+    fn exponential_less_one(&self, graph: &Graph, x: &Matrix) -> Matrix {
         let norm = row_norm(graph, x);
         let (most, scale) = (graph.constant(FARTHEST), graph.constant(0.5_f64.powi(SQUARINGS)));
-        let beyond = graph.constant(f64::MAX);
-        let scale = graph.select(norm, most, scale, beyond);
-        let scaled = |graph: &mut Graph, factor: Id, matrix: &Matrix| {
+        let scale = graph.select(norm, most, scale, graph.constant(f64::MAX));
+        let scaled = |graph: &Graph, factor: Id, matrix: &Matrix| {
             Matrix::zeros(graph, self.size, self.size).plus(graph, factor, matrix)
         };
         let x = scaled(graph, scale, x);
@@ -215,21 +205,19 @@ impl Tables {
         }
         let two = graph.constant(2.0);
         for _ in 0..SQUARINGS {
-            let doubled = scaled(graph, two, &sum);
-            sum = sum.times_plus(graph, &sum, &doubled);
+            sum = sum.times_plus(graph, &sum, &scaled(graph, two, &sum));
         }
         sum
     }
 
     /// g·k; where elements are orthogonal, pulled back onto them, so that rounding does not accumulate in gᵀg over many
     /// steps.
-    fn product(&self, graph: &mut Graph, g: &Matrix, k: &Matrix) -> Vec<Id> {
-        let product = g.times(graph, k);
-        self.pulled_back(graph, product).entries().to_vec()
+    fn product(&self, graph: &Graph, g: &Matrix, k: &Matrix) -> Vec<Id> {
+        self.pulled_back(graph, g.times(graph, k)).entries().to_vec()
     }
 
     /// A matrix near an element, pulled back onto the elements to first order where these are orthogonal.
-    fn pulled_back(&self, graph: &mut Graph, product: Matrix) -> Matrix {
+    fn pulled_back(&self, graph: &Graph, product: Matrix) -> Matrix {
         if !self.orthogonal {
             return product;
         }
@@ -243,7 +231,7 @@ impl Tables {
     }
 
     /// gᵀg
-    fn gram(&self, graph: &mut Graph, g: &Matrix) -> Matrix {
+    fn gram(&self, graph: &Graph, g: &Matrix) -> Matrix {
         let column = |j: usize| (0..self.size).map(|i| g.at(i, j)).collect::<Vec<_>>();
         let columns: Vec<Vec<Id>> = (0..self.size).map(column).collect();
         Matrix::new(self.size, self.size, |i, j| {
@@ -252,13 +240,13 @@ impl Tables {
         })
     }
 
-    fn identity(&self, graph: &mut Graph) -> Matrix {
+    fn identity(&self, graph: &Graph) -> Matrix {
         let (zero, one) = (graph.zero(), graph.constant(1.0));
         Matrix::new(self.size, self.size, |i, j| if i == j { one } else { zero })
     }
 
     /// (1 + s·X/2)⁻¹, s = ±1.
-    fn resolvent(&self, graph: &mut Graph, x: &Matrix, s: f64) -> Matrix {
+    fn resolvent(&self, graph: &Graph, x: &Matrix, s: f64) -> Matrix {
         let half = graph.constant(0.5 * s);
         let identity = self.identity(graph);
         let matrix = identity.plus(graph, half, x);
@@ -272,12 +260,11 @@ impl Tables {
     }
 
     /// The coordinates ⟨Z, Eᵢ⟩.
-    fn coordinates(&self, graph: &mut Graph, z: &Matrix) -> Vec<Id> {
+    fn coordinates(&self, graph: &Graph, z: &Matrix) -> Vec<Id> {
         let coordinate = |entries: &Entries| {
             let mut sum = graph.zero();
             for &(i, j, value) in entries {
-                let value = graph.constant(value);
-                sum = graph.times_plus(value, z.at(i, j), sum);
+                sum = graph.times_plus(graph.constant(value), z.at(i, j), sum);
             }
             sum
         };
@@ -285,13 +272,13 @@ impl Tables {
     }
 
     /// Aᵀ W Bᵀ with W = Σ μₖ Dₖ, so that ⟨W, ξ⟩ = ⟨μ, ξ⟩.
-    fn between(&self, graph: &mut Graph, a: &Matrix, mu: &[Id], b: &Matrix) -> Matrix {
+    fn between(&self, graph: &Graph, a: &Matrix, mu: &[Id], b: &Matrix) -> Matrix {
         let w = self.combine(graph, &self.dual, mu);
         a.transposed().times(graph, &w).times(graph, &b.transposed())
     }
 
     /// L = (1 − X/2)⁻¹, R = (1 + X/2)⁻¹, and Z with ⟨Z, ξ⟩ = ⟨μ, L ξ R⟩.
-    fn cayley(&self, graph: &mut Graph, x: &[Id], mu: &[Id]) -> [Matrix; 3] {
+    fn cayley(&self, graph: &Graph, x: &[Id], mu: &[Id]) -> [Matrix; 3] {
         let x = self.represent(graph, x);
         let (left, right) = (self.resolvent(graph, &x, -1.0), self.resolvent(graph, &x, 1.0));
         let z = self.between(graph, &left, mu, &right);
@@ -318,13 +305,12 @@ fn terms(norm: f64, accuracy: f64) -> usize {
 }
 
 /// The largest row sum of sizes.
-fn row_norm(graph: &mut Graph, matrix: &Matrix) -> Id {
+fn row_norm(graph: &Graph, matrix: &Matrix) -> Id {
     let rows: Vec<Id> = (0..matrix.rows())
         .map(|i| {
             let mut sum = graph.zero();
             for j in 0..matrix.entries().len() / matrix.rows().max(1) {
-                let entry = graph.abs(matrix.at(i, j));
-                sum = graph.add(sum, entry);
+                sum = graph.add(sum, graph.abs(matrix.at(i, j)));
             }
             sum
         })
@@ -361,12 +347,9 @@ impl Part for Tables {
         self.size * self.size
     }
 
-    fn pull_back(&self, graph: &mut Graph, x: &[Id], mu: &[Id]) -> Vec<Id> {
+    fn pull_back(&self, graph: &Graph, x: &[Id], mu: &[Id]) -> Vec<Id> {
         match self.chart {
-            Chart::Exponential => {
-                let a = self.ad_transpose(graph, x);
-                self.phi(graph, &a, mu)
-            }
+            Chart::Exponential => self.phi(graph, &self.ad_transpose(graph, x), mu),
             Chart::Cayley => {
                 let [.., z] = self.cayley(graph, x, mu);
                 self.coordinates(graph, &z)
@@ -374,12 +357,7 @@ impl Part for Tables {
         }
     }
 
-    fn pull_back_with_derivative(
-        &self,
-        graph: &mut Graph,
-        x: &[Id],
-        mu: &[Id],
-    ) -> (Vec<Id>, Matrix) {
+    fn pull_back_with_derivative(&self, graph: &Graph, x: &[Id], mu: &[Id]) -> (Vec<Id>, Matrix) {
         match self.chart {
             Chart::Exponential => {
                 let a = self.ad_transpose(graph, x);
@@ -400,8 +378,7 @@ impl Part for Tables {
                         let e = e.transposed();
                         let first = left.transposed().times(graph, &e).times(graph, &z);
                         let second = z.times(graph, &e).times(graph, &right.transposed());
-                        let change = first.plus(graph, minus, &second);
-                        let change = self.coordinates(graph, &change);
+                        let change = self.coordinates(graph, &first.plus(graph, minus, &second));
                         change.iter().map(|&entry| graph.mul(half, entry)).collect()
                     })
                     .collect();
@@ -410,17 +387,15 @@ impl Part for Tables {
         }
     }
 
-    fn transport(&self, graph: &mut Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved {
+    fn transport(&self, graph: &Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved {
         let own = self.square(g);
         match self.chart {
             Chart::Exponential => {
                 let a = self.ad_transpose(graph, x);
                 // exp(A)μ = μ + A φ(A) μ
-                let p = self.phi(graph, &a, mu);
-                let change = a.apply(graph, &p);
+                let change = a.apply(graph, &self.phi(graph, &a, mu));
                 let mu = mu.iter().zip(change).map(|(&mu, change)| graph.add(mu, change)).collect();
-                let x = self.represent(graph, x);
-                let increment = self.exponential(graph, &x);
+                let increment = self.exponential(graph, &self.represent(graph, x));
                 Moved { g: self.product(graph, &own, &increment), mu }
             }
             Chart::Cayley => {
@@ -434,14 +409,13 @@ impl Part for Tables {
                 let back = identity.plus(graph, minus, &x);
                 let increment = left.times(graph, &forward);
                 let inverse = right.times(graph, &back);
-                let z = self.between(graph, &increment, mu, &inverse);
-                let mu = self.coordinates(graph, &z);
+                let mu = self.coordinates(graph, &self.between(graph, &increment, mu, &inverse));
                 Moved { g: self.product(graph, &own, &increment), mu }
             }
         }
     }
 
-    fn move_frame(&self, graph: &mut Graph, g: &[Id], y: &[Id], mu: &[Id]) -> Option<Moved> {
+    fn move_frame(&self, graph: &Graph, g: &[Id], y: &[Id], mu: &[Id]) -> Option<Moved> {
         let products = 2 * (SQUARINGS + TERMS) as usize;
         if products.saturating_mul(self.size.saturating_pow(3)) > MOST_OF_TABLES {
             return None;
@@ -451,8 +425,7 @@ impl Part for Tables {
         let (identity, one, minus) =
             (self.identity(graph), graph.constant(1.0), graph.constant(-1.0));
         let change = self.exponential_less_one(graph, &y);
-        let increment = identity.plus(graph, one, &change);
-        let increment = self.pulled_back(graph, increment);
+        let increment = self.pulled_back(graph, identity.plus(graph, one, &change));
         let transposed = increment.transposed();
         let mu = if self.dual.is_empty() {
             // Elements are adjoint matrices.
@@ -462,39 +435,32 @@ impl Part for Tables {
                 transposed
             } else {
                 let back = Matrix::zeros(graph, self.size, self.size).plus(graph, minus, &y);
-                let back = self.exponential_less_one(graph, &back);
-                identity.plus(graph, one, &back)
+                identity.plus(graph, one, &self.exponential_less_one(graph, &back))
             };
-            let z = self.between(graph, &increment, mu, &inverse);
-            self.coordinates(graph, &z)
+            self.coordinates(graph, &self.between(graph, &increment, mu, &inverse))
         };
         Some(Moved { g: self.product(graph, &own, &increment), mu })
     }
 
-    fn spatial(&self, graph: &mut Graph, g: &[Id], back: &[Id], mu: &[Id]) -> Vec<Id> {
+    fn spatial(&self, graph: &Graph, g: &[Id], back: &[Id], mu: &[Id]) -> Vec<Id> {
         let (g, back) = (self.square(g), self.square(back));
         if self.dual.is_empty() {
             // Elements are adjoint matrices.
             return back.transposed().apply(graph, mu);
         }
         // ⟨Ad*_g μ, Eₖ⟩ = ⟨W, g⁻¹ Eₖ g⟩ = ⟨g⁻ᵀ W gᵀ, Eₖ⟩
-        let z = self.between(graph, &back, mu, &g);
-        self.coordinates(graph, &z)
+        self.coordinates(graph, &self.between(graph, &back, mu, &g))
     }
 
     fn inverted(&self) -> Vec<(usize, usize)> {
         vec![(0, self.size)]
     }
 
-    fn extent(&self, graph: &mut Graph, x: &[Id]) -> Id {
+    fn extent(&self, graph: &Graph, x: &[Id]) -> Id {
         let rest = finite(graph, x);
         let matrix = self.represent(graph, x);
         let size = match self.chart {
-            Chart::Cayley => {
-                let norm = row_norm(graph, &matrix);
-                let half = graph.constant(0.5);
-                graph.mul(norm, half)
-            }
+            Chart::Cayley => graph.mul(row_norm(graph, &matrix), graph.constant(0.5)),
             Chart::Exponential => {
                 let a = self.ad_transpose(graph, x);
                 let scale = graph.constant(std::f64::consts::FRAC_1_PI);
@@ -510,21 +476,18 @@ impl Part for Tables {
                     true => graph.zero(),
                     false => row_norm(graph, &matrix),
                 };
-                let norm = graph.max(inside, own);
-                graph.mul(norm, scale)
+                graph.mul(graph.max(inside, own), scale)
             }
         };
-        let square = graph.mul(size, size);
-        graph.add(square, rest)
+        graph.add(graph.mul(size, size), rest)
     }
 
-    fn defect(&self, graph: &mut Graph, g: &[Id]) -> Id {
+    fn defect(&self, graph: &Graph, g: &[Id]) -> Id {
         let rest = finite(graph, g);
         if !self.orthogonal {
             return rest;
         }
-        let own = self.square(g);
-        let (gram, one) = (self.gram(graph, &own), graph.constant(1.0));
+        let (gram, one) = (self.gram(graph, &self.square(g)), graph.constant(1.0));
         let mut off = Vec::new();
         for i in 0..self.size {
             for j in i..self.size {
@@ -532,11 +495,10 @@ impl Part for Tables {
                 off.push(graph.sub(gram.at(i, j), unit));
             }
         }
-        let largest = largest(graph, &off);
-        graph.add(largest, rest)
+        graph.add(largest(graph, &off), rest)
     }
 
-    fn matrix(&self, _: &mut Graph, g: &[Id]) -> Matrix {
+    fn matrix(&self, _: &Graph, g: &[Id]) -> Matrix {
         self.square(g)
     }
 

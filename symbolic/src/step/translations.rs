@@ -1,7 +1,7 @@
 //! The translations of a space; elements as vectors, the last column of their matrices.
 
 use crate::graph::{Graph, Id};
-use crate::step::part::{Moved, Part};
+use crate::step::product::{Moved, Part};
 use crate::step::vector::{Matrix, finite};
 
 /// The translations of n dimensions. They commute, so that μ stays, both charts are the same, and a step may be of any
@@ -21,41 +21,36 @@ impl Part for Translations {
         self.dim
     }
 
-    fn pull_back(&self, _graph: &mut Graph, _x: &[Id], mu: &[Id]) -> Vec<Id> {
+    fn pull_back(&self, _graph: &Graph, _x: &[Id], mu: &[Id]) -> Vec<Id> {
         mu.to_vec()
     }
 
-    fn pull_back_with_derivative(
-        &self,
-        graph: &mut Graph,
-        _x: &[Id],
-        mu: &[Id],
-    ) -> (Vec<Id>, Matrix) {
+    fn pull_back_with_derivative(&self, graph: &Graph, _x: &[Id], mu: &[Id]) -> (Vec<Id>, Matrix) {
         (mu.to_vec(), Matrix::zeros(graph, self.dim, self.dim))
     }
 
-    fn transport(&self, graph: &mut Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved {
+    fn transport(&self, graph: &Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved {
         let g = g.iter().zip(x).map(|(&g, &x)| graph.add(g, x)).collect();
         Moved { g, mu: mu.to_vec() }
     }
 
-    fn move_frame(&self, graph: &mut Graph, g: &[Id], y: &[Id], mu: &[Id]) -> Option<Moved> {
+    fn move_frame(&self, graph: &Graph, g: &[Id], y: &[Id], mu: &[Id]) -> Option<Moved> {
         Some(self.transport(graph, g, y, mu))
     }
 
-    fn spatial(&self, _graph: &mut Graph, _g: &[Id], _back: &[Id], mu: &[Id]) -> Vec<Id> {
+    fn spatial(&self, _graph: &Graph, _g: &[Id], _back: &[Id], mu: &[Id]) -> Vec<Id> {
         mu.to_vec()
     }
 
-    fn extent(&self, graph: &mut Graph, x: &[Id]) -> Id {
+    fn extent(&self, graph: &Graph, x: &[Id]) -> Id {
         finite(graph, x)
     }
 
-    fn defect(&self, graph: &mut Graph, g: &[Id]) -> Id {
+    fn defect(&self, graph: &Graph, g: &[Id]) -> Id {
         finite(graph, g)
     }
 
-    fn matrix(&self, graph: &mut Graph, g: &[Id]) -> Matrix {
+    fn matrix(&self, graph: &Graph, g: &[Id]) -> Matrix {
         let (zero, one) = (graph.zero(), graph.constant(1.0));
         Matrix::new(self.dim + 1, self.dim + 1, |i, j| match (i, j) {
             _ if i == j => one,

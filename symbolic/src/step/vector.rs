@@ -13,17 +13,16 @@ pub(crate) fn three(list: &[Id], at: usize) -> V3 {
 }
 
 /// a × b
-pub(crate) fn cross(graph: &mut Graph, a: &V3, b: &V3) -> V3 {
-    let mut entry = |i: usize, j: usize| {
+pub(crate) fn cross(graph: &Graph, a: &V3, b: &V3) -> V3 {
+    let entry = |i: usize, j: usize| {
         let product = graph.mul(a[i], b[j]);
-        let minus = graph.neg(a[j]);
-        graph.times_plus(minus, b[i], product)
+        graph.times_plus(graph.neg(a[j]), b[i], product)
     };
     [entry(1, 2), entry(2, 0), entry(0, 1)]
 }
 
 /// Σ aᵢ bᵢ
-pub(crate) fn dot(graph: &mut Graph, a: &[Id], b: &[Id]) -> Id {
+pub(crate) fn dot(graph: &Graph, a: &[Id], b: &[Id]) -> Id {
     let mut sum = graph.zero();
     for (&a, &b) in a.iter().zip(b) {
         sum = graph.times_plus(a, b, sum);
@@ -32,27 +31,27 @@ pub(crate) fn dot(graph: &mut Graph, a: &[Id], b: &[Id]) -> Id {
 }
 
 /// a + s·b
-pub(crate) fn plus(graph: &mut Graph, a: &V3, s: Id, b: &V3) -> V3 {
+pub(crate) fn plus(graph: &Graph, a: &V3, s: Id, b: &V3) -> V3 {
     [0, 1, 2].map(|i| graph.times_plus(b[i], s, a[i]))
 }
 
 /// a + b
-pub(crate) fn sum(graph: &mut Graph, a: &V3, b: &V3) -> V3 {
+pub(crate) fn sum(graph: &Graph, a: &V3, b: &V3) -> V3 {
     [0, 1, 2].map(|i| graph.add(a[i], b[i]))
 }
 
 /// a − b
-pub(crate) fn difference(graph: &mut Graph, a: &V3, b: &V3) -> V3 {
+pub(crate) fn difference(graph: &Graph, a: &V3, b: &V3) -> V3 {
     [0, 1, 2].map(|i| graph.sub(a[i], b[i]))
 }
 
 /// s·a
-pub(crate) fn scaled(graph: &mut Graph, s: Id, a: &V3) -> V3 {
+pub(crate) fn scaled(graph: &Graph, s: Id, a: &V3) -> V3 {
     [0, 1, 2].map(|i| graph.mul(a[i], s))
 }
 
 /// −a
-pub(crate) fn minus(graph: &mut Graph, a: &V3) -> V3 {
+pub(crate) fn minus(graph: &Graph, a: &V3) -> V3 {
     a.map(|entry| graph.neg(entry))
 }
 
@@ -75,7 +74,7 @@ impl Matrix {
     }
 
     /// A matrix of zeros.
-    pub(crate) fn zeros(graph: &mut Graph, rows: usize, columns: usize) -> Self {
+    pub(crate) fn zeros(graph: &Graph, rows: usize, columns: usize) -> Self {
         let zero = graph.zero();
         Self { columns, entries: vec![zero; rows * columns] }
     }
@@ -106,19 +105,18 @@ impl Matrix {
     }
 
     /// self · v
-    pub(crate) fn apply(&self, graph: &mut Graph, v: &[Id]) -> Vec<Id> {
+    pub(crate) fn apply(&self, graph: &Graph, v: &[Id]) -> Vec<Id> {
         let row = |row: &[Id]| dot(graph, row, v);
         self.entries.chunks(self.columns.max(1)).map(row).collect()
     }
 
     /// self · other
-    pub(crate) fn times(&self, graph: &mut Graph, other: &Self) -> Self {
-        let nothing = Self::zeros(graph, self.rows(), other.columns);
-        self.times_plus(graph, other, &nothing)
+    pub(crate) fn times(&self, graph: &Graph, other: &Self) -> Self {
+        self.times_plus(graph, other, &Self::zeros(graph, self.rows(), other.columns))
     }
 
     /// self · other + rest
-    pub(crate) fn times_plus(&self, graph: &mut Graph, other: &Self, rest: &Self) -> Self {
+    pub(crate) fn times_plus(&self, graph: &Graph, other: &Self, rest: &Self) -> Self {
         Self::new(self.rows(), other.columns, |i, j| {
             let mut sum = rest.at(i, j);
             for k in 0..self.columns {
@@ -129,7 +127,7 @@ impl Matrix {
     }
 
     /// The inverse of up to three rows and columns: the adjugate, and the inverse of the determinant.
-    fn inverse(&self, graph: &mut Graph) -> (Self, Id) {
+    fn inverse(&self, graph: &Graph) -> (Self, Id) {
         let (n, one) = (self.rows(), graph.constant(1.0));
         // The cofactor of entry (j, i): of three rows those after j, around the end, so that all signs are plus.
         let adjugate = Self::new(n, n, |i, j| match n {
@@ -140,17 +138,15 @@ impl Matrix {
                 let ([a, b], [c, d]) =
                     ([j + 1, j + 2].map(|k| k % 3), [i + 1, i + 2].map(|k| k % 3));
                 let product = graph.mul(self.at(a, c), self.at(b, d));
-                let minus = graph.neg(self.at(a, d));
-                graph.times_plus(minus, self.at(b, c), product)
+                graph.times_plus(graph.neg(self.at(a, d)), self.at(b, c), product)
             }
         });
         let column: Vec<Id> = (0..n).map(|i| adjugate.at(i, 0)).collect();
-        let determinant = dot(graph, &self.entries[..n], &column);
-        (adjugate, graph.div(one, determinant))
+        (adjugate, graph.div(one, dot(graph, &self.entries[..n], &column)))
     }
 
     /// self + s·other
-    pub(crate) fn plus(&self, graph: &mut Graph, s: Id, other: &Self) -> Self {
+    pub(crate) fn plus(&self, graph: &Graph, s: Id, other: &Self) -> Self {
         let entries = self.entries.iter().zip(&other.entries);
         let entries = entries.map(|(&a, &b)| graph.times_plus(b, s, a)).collect();
         Self { columns: self.columns, entries }
@@ -177,7 +173,7 @@ pub(crate) struct Eliminated {
 
 impl Eliminated {
     /// Eliminates a square matrix.
-    pub(crate) fn new(graph: &mut Graph, matrix: &Matrix) -> Self {
+    pub(crate) fn new(graph: &Graph, matrix: &Matrix) -> Self {
         let n = matrix.rows();
         let mut a = matrix.clone();
         let mut inverses = Vec::new();
@@ -189,9 +185,7 @@ impl Eliminated {
                 let entries: Vec<Id> = pivot.clone().map(|column| a.at(row, column)).collect();
                 for (j, column) in pivot.clone().enumerate() {
                     let by: Vec<Id> = (0..size).map(|i| adjugate.at(i, j)).collect();
-                    let factor = dot(graph, &entries, &by);
-                    let factor = graph.mul(factor, scale);
-                    a.set(row, column, graph.neg(factor));
+                    a.set(row, column, graph.neg(graph.mul(dot(graph, &entries, &by), scale)));
                 }
                 for column in pivot.end..n {
                     let mut value = a.at(row, column);
@@ -207,7 +201,7 @@ impl Eliminated {
     }
 
     /// The solution y of `matrix` · y = b.
-    pub(crate) fn solve(&self, graph: &mut Graph, b: &[Id]) -> Vec<Id> {
+    pub(crate) fn solve(&self, graph: &Graph, b: &[Id]) -> Vec<Id> {
         let n = b.len();
         let mut y = b.to_vec();
         for pivot in blocks(n) {
@@ -220,8 +214,7 @@ impl Eliminated {
         for (pivot, (adjugate, scale)) in blocks(n).zip(&self.inverses).rev() {
             let mut rest = |row: usize| {
                 (pivot.end..n).fold(y[row], |rest, column| {
-                    let minus = graph.neg(self.rows.at(row, column));
-                    graph.times_plus(minus, y[column], rest)
+                    graph.times_plus(graph.neg(self.rows.at(row, column)), y[column], rest)
                 })
             };
             let rest: Vec<Id> = pivot.clone().map(&mut rest).collect();
@@ -257,12 +250,12 @@ fn blocks(n: usize) -> impl DoubleEndedIterator<Item = Range<usize>> + ExactSize
 }
 
 /// The solution of `matrix` · y = b by [elimination](Eliminated).
-pub(crate) fn solve(graph: &mut Graph, matrix: &Matrix, b: &[Id]) -> Vec<Id> {
+pub(crate) fn solve(graph: &Graph, matrix: &Matrix, b: &[Id]) -> Vec<Id> {
     Eliminated::new(graph, matrix).solve(graph, b)
 }
 
 /// The largest |entry|.
-pub(crate) fn largest(graph: &mut Graph, list: &[Id]) -> Id {
+pub(crate) fn largest(graph: &Graph, list: &[Id]) -> Id {
     let mut largest = graph.zero();
     for &entry in list {
         let size = graph.abs(entry);
@@ -272,17 +265,16 @@ pub(crate) fn largest(graph: &mut Graph, list: &[Id]) -> Id {
 }
 
 /// Zero where all entries are finite, else not a number.
-pub(crate) fn finite(graph: &mut Graph, list: &[Id]) -> Id {
+pub(crate) fn finite(graph: &Graph, list: &[Id]) -> Id {
     let mut sum = graph.zero();
     for &entry in list {
-        let nothing = graph.sub(entry, entry);
-        sum = graph.add(sum, nothing);
+        sum = graph.add(sum, graph.sub(entry, entry));
     }
     sum
 }
 
 /// The smaller of 1 and 0: 1 where every pair (a, b) has a ≤ b.
-pub(crate) fn all_at_most(graph: &mut Graph, pairs: &[(Id, Id)]) -> Id {
+pub(crate) fn all_at_most(graph: &Graph, pairs: &[(Id, Id)]) -> Id {
     let (zero, one) = (graph.zero(), graph.constant(1.0));
     let mut verdict = one;
     for &(a, b) in pairs.iter().rev() {

@@ -6,7 +6,6 @@
 //! the K and h that need fewest operations per unit time.
 
 mod along;
-mod field;
 mod region;
 
 use std::fmt;
@@ -14,8 +13,7 @@ use std::fmt;
 use crate::hamilton_jacobi::{self, DeriveError, GeneratingSeries, TermLimit};
 use crate::integrator::Plan;
 use crate::problem::Problem;
-use along::{Along, Flow, rate};
-use field::{Brackets, Gradient};
+use crate::tolerance::along::{Along, Brackets, Flow, Gradient, rate};
 
 pub use region::Region;
 

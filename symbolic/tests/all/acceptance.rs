@@ -96,7 +96,7 @@ fn folded(step: &Step, radius: f64) -> Vec<f64> {
 fn verdict(group: &str, radius: f64, mu: &[f64], x: &[f64], left: f64, way: f64) -> bool {
     let step = step(group, BODY, 7, None);
     let inputs = [mu, x, &[left, way]].concat();
-    step.kernel().programs().accept.run(&inputs, &folded(&step, radius)) == [1.0]
+    step.kernel().programs.accept.run(&inputs, &folded(&step, radius)) == [1.0]
 }
 
 #[test]
@@ -173,7 +173,7 @@ fn a_coordinate_that_is_not_finite_is_not_hidden_by_others() {
     }
 }
 
-/// What a kernel estimates of a residual is enough: each increment that it accepts solves its equation to rounding. By
+/// A kernel's estimate of a residual suffices: each increment that it accepts solves its equation to rounding. By
 /// Newton's method, by chords after a poor guess, by the fixed point; where the Hessian is truncated; where H is no square.
 #[cfg(feature = "judge")]
 #[test]
@@ -249,7 +249,7 @@ fn the_residual_of_a_correction_is_within_its_acceptance_bound() {
         let dim = problem.algebra.dim();
         let (step, coefficients, judge) = judged(problem, plan);
         let mut setting = judge.at(1.0, &[]).unwrap();
-        let programs = step.kernel().programs();
+        let programs = &step.kernel().programs;
         let mut seen = 0;
         for k in 0..100 {
             let mut mu = momentum(dim, k, 1.2);

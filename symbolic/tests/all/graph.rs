@@ -33,8 +33,8 @@ proptest! {
         inputs in prop::array::uniform3(-1.5..1.5f64),
     ) {
         let slots: Vec<f64> = (0..30).map(|i| 1.0 / f64::from(i + 3)).collect();
-        let mut graph = Graph::new();
-        let outputs = [lower(&mut graph, &terms), lower(&mut graph, &other)];
+        let graph = Graph::new();
+        let outputs = [lower(&graph, &terms), lower(&graph, &other)];
         let program = graph.finish(3, &outputs);
         let results = program.run(&inputs, &slots);
         for (result, terms) in results.iter().zip([&terms, &other]) {
@@ -48,15 +48,15 @@ proptest! {
 fn reflection_symmetric_terms_are_evaluated_in_squares() {
     // x²y² + x⁴ + y⁴: term by term it takes 9 products; Horner in squares
     // takes 7.
-    let mut graph = Graph::new();
-    let output = lower(&mut graph, &[term(&[2, 2], 0), term(&[4, 0], 1), term(&[0, 4], 2)]);
+    let graph = Graph::new();
+    let output = lower(&graph, &[term(&[2, 2], 0), term(&[4, 0], 1), term(&[0, 4], 2)]);
     let program = graph.finish(2, &[output]);
     assert!(program.cost().multiplications <= 7, "{:?}", program.cost());
 }
 
 #[test]
 fn unused_nodes_are_left_out_and_operands_come_first() {
-    let mut graph = Graph::new();
+    let graph = Graph::new();
     let x = graph.input(0);
     let unused = graph.power(x, 7);
     let square = graph.power(x, 2);
@@ -75,8 +75,8 @@ fn many_variables_cost_in_proportion_to_the_terms() {
             .collect();
         let inputs: Vec<f64> = (0..=sites).map(|i| 0.5 + f64::from(i % 7) / 4.0).collect();
         let slots: Vec<f64> = (0..sites).map(|i| 1.0 / f64::from(i + 1)).collect();
-        let mut graph = Graph::new();
-        let output = lower(&mut graph, &terms);
+        let graph = Graph::new();
+        let output = lower(&graph, &terms);
         let program = graph.finish(sites as usize + 1, &[output]);
         let value = program.run(&inputs, &slots);
         let expected = by_definition(&terms, &inputs, &slots);

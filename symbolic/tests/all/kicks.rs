@@ -53,7 +53,7 @@ fn a_step_is_its_kicks_and_flows() {
     let (flow, kick) = body();
     let plain = Step::build(&flow).unwrap();
     let torque = |g: &[f64]| {
-        let matrix = plain.kernel().programs().matrix.run(g, &[]);
+        let matrix = plain.kernel().programs.matrix.run(g, &[]);
         let slots = FoldTable::of_kick(&kick).fold(1.0, &root).unwrap();
         kick.torque.run(&matrix, &slots)
     };

@@ -75,7 +75,7 @@ const MUTANTS: &[(&str, &[[&str; 2]])] = &[
             ["DISTURBANCE: f64 = 1e-6", "DISTURBANCE: f64 = 0.0"],
         ],
     ),
-    ("runtime/src/solve/rate.rs", &[["two * (identity", "(two - two) * (identity"]]),
+    ("runtime/src/solve/accept.rs", &[["two * (identity", "(two - two) * (identity"]]),
     ("runtime/src/step/mod.rs", &[["candidate.moved += distance;", "let _ = distance;"]]),
     (
         "runtime/src/solve/continuation.rs",
@@ -104,7 +104,7 @@ const MUTANTS: &[(&str, &[[&str; 2]])] = &[
             ["share.min(most)", "share.min(most + 1.0)"],
         ],
     ),
-    ("symbolic/src/step/part.rs", &[["= 1.0 / 3.0", "= 10.0 / 3.0"]]),
+    ("symbolic/src/step/product.rs", &[["= 1.0 / 3.0", "= 10.0 / 3.0"]]),
     ("symbolic/src/step/rotation.rs", &[["ESTIMATED } else { 0.5 }", "ESTIMATED } else { 5.0 }"]]),
     (
         "symbolic/src/step/solving.rs",
@@ -113,7 +113,10 @@ const MUTANTS: &[(&str, &[[&str; 2]])] = &[
                 "factors.into_iter().map(|own| dot(graph, &mu[own.clone()], &mu[own])).collect()",
                 "factors.into_iter().take(1).map(|own| dot(graph, &mu[own.clone()], &mu[own])).collect()",
             ],
-            ["relative = graph.select(rate, most, relative, far);", "let _ = (rate, most, far);"],
+            [
+                "relative = graph.select(rate, most, relative, graph.constant(f64::from(f32::MAX)));",
+                "let _ = (rate, most);",
+            ],
             [
                 "let two = graph.constant(2.0);\n    let mut z",
                 "let two = graph.constant(0.0);\n    let mut z",
@@ -127,15 +130,15 @@ const MUTANTS: &[(&str, &[[&str; 2]])] = &[
                 "1e3 * ROUNDINGS_EACH * n as f64",
             ],
             [
-                "let half = graph.mul(half, scale);\n        bound = graph.mul(half, bound);",
-                "let half = graph.mul(half, scale);\n        bound = graph.sub(half, half);",
+                "bound = graph.mul(graph.mul(graph.constant(0.5), scale), bound);",
+                "bound = graph.sub(scale, scale);",
             ],
             [
-                "let curved = graph.times_plus(half, stretch, bend);",
-                "let curved = graph.sub(half, half);",
+                "let curved = graph.times_plus(graph.constant(0.5), stretch, bend);",
+                "let curved = graph.sub(bend, bend);",
             ],
             [
-                "let curved = graph.times_plus(four, bend, curved);",
+                "let curved = graph.times_plus(four, bend, graph.times_plus(two, far, slope));",
                 "let curved = graph.sub(four, four);",
             ],
             [
@@ -143,9 +146,9 @@ const MUTANTS: &[(&str, &[[&str; 2]])] = &[
                 "let far = graph.sub(stretch, stretch);",
             ],
             ["return graph.constant(1.0);", "return graph.constant(0.0);"],
-            ["let bound = graph.add(bound, rest);", "let _ = rest;"],
+            ["let bound = graph.add(bound, finite(&graph, &twice));", ""],
             [
-                "graph.select(relative, tolerance, rounded, bound)",
+                "graph.select(relative, tolerance, graph.min(bound, relative), bound)",
                 "graph.select(relative, tolerance, bound, bound)",
             ],
         ],

@@ -101,7 +101,7 @@ impl Steps for Runner {
     }
 
     fn together(&self, starts: &[(Vec<f64>, Vec<f64>)], steps: u64) -> Option<Vec<Outcome>> {
-        let (m, n) = (self.subject.step.kernel().element(), self.subject.step.kernel().dim());
+        let (m, n) = (self.subject.step.kernel().element, self.subject.step.kernel().dim);
         let mut outcomes = Vec::new();
         for starts in starts.chunks(WIDTH) {
             let states: Vec<_> = starts.iter().map(|(at, mu)| (self.element(at), mu)).collect();

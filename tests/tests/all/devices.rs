@@ -30,7 +30,7 @@ impl Ready {
     }
 
     fn identity(&self) -> Vec<f64> {
-        let entries = self.kernel().programs().matrix.outputs().len();
+        let entries = self.kernel().programs.matrix.outputs().len();
         let rows = (entries as f64).sqrt() as usize;
         self.step.element_of(DMatrix::<f64>::identity(rows, rows).as_slice())
     }
@@ -39,7 +39,7 @@ impl Ready {
     fn rows(&self, count: usize) -> Vec<Row> {
         let row = |r: usize| {
             let size = if r + 2 == count { 1e8 } else { 0.4 + 0.5 * (r as f64 * 0.37).sin() };
-            let mut mu = momentum(self.kernel().dim(), size, r);
+            let mut mu = momentum(self.kernel().dim, size, r);
             if r + 1 == count {
                 mu[0] = f64::NAN;
             }
@@ -204,13 +204,13 @@ fn functions() -> Kernel {
         Function::Power(-5, 3),
     ];
     let m = FUNCTIONS.len();
-    let program = |inputs: usize, of: &dyn Fn(&mut Graph) -> Vec<Id>| {
-        let mut graph = Graph::new();
-        let outputs = of(&mut graph);
+    let program = |inputs: usize, of: &dyn Fn(&Graph) -> Vec<Id>| {
+        let graph = Graph::new();
+        let outputs = of(&graph);
         graph.finish(inputs, &outputs)
     };
-    let one = |graph: &mut Graph| vec![graph.constant(1.0)];
-    let own = |graph: &mut Graph| vec![graph.input(0)];
+    let one = |graph: &Graph| vec![graph.constant(1.0)];
+    let own = |graph: &Graph| vec![graph.input(0)];
     let programs = Programs {
         guess: program(1, &own),
         correct: program(2, &|graph| {
@@ -322,7 +322,7 @@ fn single_precision_keeps_the_laws_to_its_rounding() {
             return;
         };
         let name = &single.name;
-        let n = single.kernel().dim();
+        let n = single.kernel().dim;
         let mut rows = single.rows(102);
         rows.truncate(100);
         for row in &mut rows {

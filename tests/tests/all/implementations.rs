@@ -17,8 +17,8 @@ const PARTS: &[Part] = &[
         name: "the loop of a step",
         words: &[
             "Tried, corrections",
-            "..kernel.corrections()",
-            "..=kernel.corrections()",
+            "..kernel.corrections",
+            "..=kernel.corrections",
             "correct.run(",
         ],
         files: &["program/src/schedule/tree.rs"],
@@ -44,7 +44,7 @@ const PARTS: &[Part] = &[
         // The same data printed to C, which evaluates them there.
         name: "folding in C",
         words: &["product_of[term]", "1.1892071"],
-        files: &["codegen/src/emit/c/fold.rs", "codegen/src/emit/c/fold_text.rs"],
+        files: &["codegen/src/emit/c/fold.rs", "codegen/src/emit/c/template.rs"],
     },
     Part {
         name: "the domain of a chart by eigenvalues",

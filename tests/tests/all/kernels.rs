@@ -34,7 +34,7 @@ fn compare<G, C>(
     let step = Step::build(integrator).unwrap();
     let kernel = step.kernel();
     let slots = unlimited(&step, h);
-    let n = kernel.dim();
+    let n = kernel.dim;
     let mut phase = Phase::<G>::new(group.identity(), DVector::from_vec(momentum(n, 0.9)));
     let size = group.matrix_size();
     let matrix = |phase: &Phase<G>| -> Vec<f64> {
@@ -56,7 +56,7 @@ fn compare<G, C>(
     for (found, wanted) in mu.iter().zip(&phase.momentum) {
         assert!((found - wanted).abs() < 4e-14 * scale, "{name}: μ {found} for {wanted}");
     }
-    let found = kernel.programs().matrix.run(&g, &[]);
+    let found = kernel.programs.matrix.run(&g, &[]);
     let wanted = matrix(&phase);
     let largest = wanted.iter().fold(1.0_f64, |a, b| a.max(b.abs()));
     for (found, wanted) in found.iter().zip(&wanted) {
@@ -149,7 +149,7 @@ fn many_dimensions_have_a_kernel_by_the_fixed_point() {
     let end = |integrator: &Integrator| {
         let step = Step::build(integrator).unwrap();
         let kernel = step.kernel();
-        let n = kernel.dim();
+        let n = kernel.dim;
         let slots = unlimited(&step, 0.05);
         let mut g: Vec<f64> = (0..n / 3).flat_map(|_| [1.0, 0.0, 0.0, 0.0]).collect();
         let mut mu: Vec<f64> = (0..n).map(|i| (1.3 * i as f64).cos()).collect();

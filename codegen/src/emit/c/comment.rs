@@ -5,7 +5,7 @@ use coadjoint_program::quoting::c_comment;
 use super::fold::Folding;
 use super::names::Names;
 use super::{HeaderOptions, Language};
-use crate::emit::opening;
+use crate::emit::header;
 use crate::integrator::Integrator;
 use crate::step::Step;
 
@@ -22,7 +22,7 @@ pub(super) fn opening(
 ) -> String {
     let mut text = String::from("/*\n");
     for paragraph in paragraphs(integrator, step, fold, names, options) {
-        for line in opening::wrapped(&paragraph, WIDTH) {
+        for line in header::wrapped(&paragraph, WIDTH) {
             text.push_str(if line.is_empty() { " *" } else { " * " });
             text.push_str(&line);
             text.push('\n');
@@ -64,7 +64,7 @@ fn paragraphs(
         ),
         String::new(),
     ];
-    list.extend(opening::system(integrator, c_comment));
+    list.extend(header::system(integrator, c_comment));
     list.extend([
         "How to use it:".to_owned(),
         format!("     {lower}_map map;"),
@@ -85,13 +85,13 @@ fn paragraphs(
             .to_owned(),
         String::new(),
     ]);
-    list.extend(opening::costs(kernel));
+    list.extend(header::costs(kernel));
     list.extend([
         format!(
             "Data: {} coefficients ({} bytes) in a map, {} bytes in a state.",
             fold.len() * lists,
             8 * fold.len() * lists,
-            8 * (kernel.dim() + kernel.element())
+            8 * (kernel.dim + kernel.element)
         ),
         String::new(),
         format!(
@@ -101,7 +101,7 @@ fn paragraphs(
             names.upper
         ),
     ]);
-    if kernel.programs().frame.is_some() {
+    if kernel.programs.frame.is_some() {
         list.push(String::new());
         list.push(format!(
             "The motion is generated in a comoving frame, which moves on every {0}_BLOCK steps and at the end of each call \

@@ -7,12 +7,11 @@ use coadjoint_program::fold::{DEGREES, Fold, LastTerm};
 use coadjoint_program::quoting::c_comment;
 use coadjoint_program::{Node, Program};
 
-use super::dialect::decimal;
-use super::fold_text::{
-    ABOUT, BEGIN, BOUND, END, LAST, LOOP, POWER, RADIUS, STEP, SYMBOLS, WITHIN,
-};
-use super::names::Names;
-use super::{HeaderError, HeaderOptions, parameter};
+use super::template::{ABOUT, BEGIN, BOUND, END, LAST, LOOP, POWER, RADIUS, STEP, SYMBOLS, WITHIN};
+use crate::emit::c::dialect::decimal;
+use crate::emit::c::names::Names;
+use crate::emit::c::parameter;
+use crate::emit::c::{HeaderError, HeaderOptions};
 use crate::integrator::{FoldTable, Integrator, Kicks};
 use crate::step::Step;
 
@@ -44,7 +43,7 @@ impl Folding {
     /// # Errors
     /// [`HeaderError::Degree`], [`HeaderError::Constant`].
     pub(super) fn new(integrator: &Integrator, step: &Step) -> Result<Self, HeaderError> {
-        let programs = step.kernel().programs();
+        let programs = &step.kernel().programs;
         let mut list = vec![&programs.guess, &programs.correct, &programs.accept];
         list.extend([&programs.transport, &programs.sound, &programs.watch]);
         list.extend(programs.frame.iter().chain(step.kernel().kick()));

@@ -4,12 +4,9 @@
 //! nothing. It folds the coefficients by the operations of [`coadjoint_program::fold`], has no globals, allocates nothing,
 //! and every loop in it has an end that is known beforehand.
 
-mod class;
 mod comment;
 mod dialect;
-mod drive;
 mod fold;
-mod fold_text;
 mod names;
 mod options;
 mod parameter;
@@ -17,12 +14,12 @@ mod programs;
 mod reference;
 mod template;
 
-pub use names::prefix;
-pub use options::{HeaderError, HeaderOptions, Language, MOST_OPERATIONS};
-
+use crate::emit::c::names::Names;
 use crate::integrator::Integrator;
 use crate::step::Step;
-use names::Names;
+
+pub use names::prefix;
+pub use options::{HeaderError, HeaderOptions, Language, MOST_OPERATIONS};
 
 /// The header of an integrator, to be saved as `PREFIX.h` (`PREFIX.hpp` for C++).
 ///
@@ -30,7 +27,7 @@ use names::Names;
 /// [`HeaderError`] where there is no such header.
 pub fn header(integrator: &Integrator, options: &HeaderOptions) -> Result<String, HeaderError> {
     let step = Step::build(integrator)?;
-    let programs = step.kernel().programs();
+    let programs = &step.kernel().programs;
     let list = [&programs.guess, &programs.correct, &programs.accept, &programs.transport];
     let operations = list.iter().map(|program| program.cost().total()).sum();
     if operations > MOST_OPERATIONS {
@@ -43,13 +40,13 @@ pub fn header(integrator: &Integrator, options: &HeaderOptions) -> Result<String
         reference::types(integrator, &step, &fold, &names, options),
         names.fill(template::HELPERS),
         programs::functions(&step, &fold, &names),
-        drive::functions(&step, &fold, &names),
+        programs::drive(&step, &fold, &names),
         fold.init(integrator, &names, options),
         reference::functions(integrator, &step, &names),
         names.fill(template::END_OF_C),
         match options.language {
             Language::C => String::new(),
-            Language::Cpp => class::class(integrator, &step, &names),
+            Language::Cpp => reference::class(integrator, &step, &names),
         },
         format!("\n#endif /* {} */\n", names.guard()),
     ];

@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 
 use super::{HeaderOptions, Language};
-use crate::emit::{camel_case, fresh};
+use crate::emit::camel_case;
+use crate::emit::hygiene::fresh;
 use crate::problem::Problem;
 
 /// Words that C99 or C++ keep for themselves, as far as they are in lower case.

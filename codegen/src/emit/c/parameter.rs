@@ -1,7 +1,7 @@
 //! Opaque coefficients as expressions of C in the user's parameters.
 
-use super::dialect::decimal;
 use super::names::Names;
+use crate::emit::c::dialect::decimal;
 use crate::expr::{Function, ParameterExpr};
 use crate::problem::{Parameter, Shape};
 

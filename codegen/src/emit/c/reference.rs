@@ -6,18 +6,19 @@ use coadjoint_program::BLOCK;
 use coadjoint_program::quoting::c_comment;
 use num_traits::ToPrimitive;
 
-use super::dialect::decimal;
-use super::fold::Folding;
-use super::names::Names;
-use super::programs::casimirs;
-use super::template::{CASIMIRS, STATE, TEXT};
-use super::{HeaderOptions, parameter};
+use crate::emit::c::HeaderOptions;
+use crate::emit::c::dialect::decimal;
+use crate::emit::c::fold::Folding;
+use crate::emit::c::names::Names;
+use crate::emit::c::parameter;
+use crate::emit::c::programs::casimirs;
+use crate::emit::c::template::{CASIMIRS, STATE, TEXT};
 use crate::integrator::Integrator;
 use crate::step::Step;
 
 /// How many rows the matrix of an element has.
 fn rows(step: &Step) -> usize {
-    step.kernel().programs().matrix.outputs().len().isqrt()
+    step.kernel().programs.matrix.outputs().len().isqrt()
 }
 
 /// Sizes, the status, and the structures.
@@ -34,8 +35,8 @@ pub(crate) fn types(
     let mut size = |name: &str, value: usize, about: &str| {
         let _ = writeln!(text, "/** {about} */\n#define @P@_{name} {value}u");
     };
-    size("DIMENSION", kernel.dim(), "Coordinates of the momentum.");
-    size("ELEMENT", kernel.element(), "Numbers of a group element.");
+    size("DIMENSION", kernel.dim, "Coordinates of the momentum.");
+    size("ELEMENT", kernel.element, "Numbers of a group element.");
     size("ROWS", rows(step), "Rows of its matrix.");
     if casimirs(step) > 0 {
         size("CASIMIRS", casimirs(step), "Casimirs of degree three at most that are looked at.");
@@ -199,4 +200,83 @@ typedef struct @p@_map {
     /** Whether steps can be made with it. */
     @p@_status status;
 } @p@_map;
+";
+
+/// The class, for compilers of C++ alone.
+pub(crate) fn class(integrator: &Integrator, step: &Step, names: &Names) -> String {
+    let with = !integrator.problem.parameters.is_empty();
+    let text = CLASS
+        .replace("/*PARAMETERS*/", if with { PARAMETERS } else { "" })
+        .replace("/*ARGUMENT*/", if with { ", const Parameters &parameters" } else { "" })
+        .replace("/*PASSED*/", if with { ", &parameters" } else { "" })
+        .replace("/*CASIMIRS*/", if casimirs(step) > 0 { CLASS_CASIMIRS } else { "" });
+    names.fill(&format!("\n#if defined(__cplusplus){text}#endif\n"))
+}
+
+/// The name of the parameters in the class.
+const PARAMETERS: &str = "    typedef @p@_parameters Parameters;\n";
+
+/// The class of C++.
+const CLASS: &str = "
+/**
+ * The same for C++11: a map with its functions. It allocates nothing and throws nothing.
+ */
+class @C@ {
+public:
+    typedef @p@_state State;
+    typedef @p@_status Status;
+/*PARAMETERS*/
+    /** As @p@_init; ask status() whether that went well. */
+    explicit @C@(double h/*ARGUMENT*/) noexcept
+    {
+        (void)@p@_init(&map_, h/*PASSED*/);
+    }
+
+    /** Whether steps can be made, or why not. */
+    Status status() const noexcept { return map_.status; }
+
+    /** The state at the identity with this momentum. */
+    static State at_identity(const double (&mu)[@P@_DIMENSION]) noexcept
+    {
+        State state;
+        @p@_at_identity(&state, mu);
+        return state;
+    }
+
+    /** As @p@_step. */
+    Status step(State &state) const noexcept { return @p@_step(&map_, &state); }
+
+    /** As @p@_advance. */
+    Status advance(State &state, uint32_t steps, uint32_t &made) const noexcept
+    {
+        return @p@_advance(&map_, &state, steps, &made);
+    }
+
+    /** As @p@_energy. */
+    double energy(const State &state) const noexcept { return @p@_energy(&map_, &state); }
+/*CASIMIRS*/
+    /** As @p@_spatial_momentum. */
+    static void spatial_momentum(const State &state, double (&spatial)[@P@_DIMENSION]) noexcept
+    {
+        @p@_spatial_momentum(&state, spatial);
+    }
+
+    /** As @p@_matrix. */
+    static void matrix(const State &state, double (&entries)[@P@_ROWS * @P@_ROWS]) noexcept
+    {
+        @p@_matrix(&state, entries);
+    }
+
+private:
+    @p@_map map_;
+};
+";
+
+/// The Casimirs in the class.
+const CLASS_CASIMIRS: &str = "
+    /** As @p@_casimirs. */
+    static void casimirs(const State &state, double (&values)[@P@_CASIMIRS]) noexcept
+    {
+        @p@_casimirs(&state, values);
+    }
 ";

@@ -1,4 +1,199 @@
-//! Text of a header that is the same for all systems.
+//! Text of a header that is the same for all systems, or filled in.
+
+/// a^n, where parameters have powers: the operations of the interpreter.
+pub(super) const POWER: &str = "
+/* Internal: a^n by repeated squaring. */
+static inline double @p@_internal_power(double a, uint32_t n)
+{
+    double base = a;
+    double result = 1.0;
+    uint32_t left = n;
+    while (left > 0u) {
+        if ((left % 2u) == 1u) {
+            result = result * base;
+        }
+        left = left / 2u;
+        if (left > 0u) {
+            base = base * base;
+        }
+    }
+    return result;
+}
+";
+
+/// How far a series is trusted.
+pub(super) const WITHIN: &str = "
+/* Internal: the value of a polynomial. */
+static inline double @p@_internal_polynomial(const double *coefficients, double r)
+{
+    double sum = 0.0;
+    uint32_t i;
+    for (i = /*DEGREES*/; i > 0u; i--) {
+        sum = (sum * r) + coefficients[i - 1u];
+    }
+    return sum;
+}
+
+/* Internal: whether the last term of the series is at most half the one before for |p| up to r. */
+static inline bool @p@_internal_within(const double *last, const double *before, double r)
+{
+    const double size = @p@_internal_polynomial(last, r);
+    const double whole = @p@_internal_polynomial(before, r);
+    /* Without a term to compare with there is no ratio, and rounding's own is none. */
+    const bool nothing = (whole <= 0.0) || (size <= (16.0 * DBL_EPSILON));
+    return ((size <= (0.5 * whole)) || nothing) && (size <= DBL_MAX);
+}
+
+/* Internal: how far, in |p|, the series can be trusted. */
+static inline double @p@_internal_radius(const double *last, const double *before)
+{
+    static const double longer[13] = {
+        1.3407807929942597e154, 1.157920892373162e77, 3.402823669209385e38, 18446744073709551616.0,
+        4294967296.0, 65536.0, 256.0, 16.0, 4.0, 2.0,
+        1.4142135623730951, 1.189207115002721, 1.0905077326652577,
+    };
+    double r = DBL_MAX;
+    const double size = @p@_internal_polynomial(last, 1.0);
+    if ((size > 0.0) || (size < 0.0) || !(fabs(size) <= DBL_MAX)) {
+        const double smallest = 1.1754943508222875e-38;
+        uint32_t i;
+        r = @p@_internal_within(last, before, smallest) ? smallest : 0.0;
+        for (i = 0u; i < 13u; i++) {
+            const double next = r * longer[i];
+            if (@p@_internal_within(last, before, next)) {
+                r = next;
+            }
+        }
+    }
+    return r;
+}
+";
+
+/// The documentation of the function.
+pub(super) const ABOUT: &str = "
+/**
+ * Folds the coefficients for steps of size h (negative: backwards in time). Call it once, and again whenever h or
+ * a parameter changes; steps only read the map. It needs about /*BYTES*/ bytes of stack.
+ *
+ * Returns @P@_OK, @P@_BAD_STEP (h is zero or not finite) or @P@_BAD_PARAMETER (a coefficient is not
+ * finite: a parameter is not, or one that is divided by is zero). The map keeps the status: steps with a map that
+ * could not be made return it and do nothing.
+ */
+";
+
+/// Counters, and the step size.
+pub(super) const BEGIN: &str = "    double radius = DBL_MAX;
+    @p@_status status = @P@_OK;
+    uint32_t term = 0u;
+    uint32_t part = 0u;
+    uint32_t slot = 0u;
+    uint32_t base;
+    uint32_t i;
+/*NEXT*/    if ((!(fabs(h) <= DBL_MAX)) || (!(fabs(h) > 0.0))) {
+        status = @P@_BAD_STEP;
+    }
+";
+
+/// Opaque coefficients and their products.
+pub(super) const SYMBOLS: &str = "    for (i = 0u; i < /*SYMBOLS*/; i++) {
+        if ((status == @P@_OK) && (!(fabs(symbol[i]) <= DBL_MAX))) {
+            status = @P@_BAD_PARAMETER;
+        }
+    }
+    product[0] = 1.0;
+    for (i = 0u; i < /*PRODUCTS*/; i++) {
+        product[i + 1u] = product[made_of[i]] * symbol[made_by[i]];
+    }
+";
+
+/// A coefficient's share in the bound on the Hessian.
+pub(super) const BOUND: &str =
+    "        for (; (next_bound < /*BOUNDS*/) && (bound_base[next_bound] == base); next_bound++) {
+            i = bound_place[next_bound];
+            map->c[i] = map->c[i] + (fabs(value) * bound_weight[next_bound]);
+        }
+";
+
+/// A part of the last two terms of the series.
+pub(super) const LAST: &str =
+    "            for (; (next_last < /*LASTS*/) && (last_part[next_last] == part); next_last++) {
+                const double size = fabs(sum) * last_weight[next_last];
+                i = last_place[next_last];
+                if (last_is_highest[next_last] == 1u) {
+                    last[i] = last[i] + size;
+                } else {
+                    before[i] = before[i] + size;
+                }
+            }
+";
+
+/// The coefficients.
+pub(super) const LOOP: &str = "    power[0] = 1.0;
+    for (i = 1u; i < /*POWERS*/; i++) {
+        power[i] = power[i - 1u] * h;
+    }
+    for (i = 0u; i < @P@_COEFFICIENTS; i++) {
+        map->c[i] = 0.0;
+    }
+    for (base = 0u; base < /*BASES*/; base++) {
+        double value = 0.0;
+        for (; part < part_end[base]; part++) {
+            double sum = 0.0;
+            for (; term < term_end[part]; term++) {
+                sum = sum + /*SUMMAND*/;
+            }
+            sum = sum * power[power_of[part]];
+/*LAST*/            value = value + sum;
+        }
+        for (; slot < slot_end[base]; slot++) {
+            map->c[slot] = value * (double)scale[slot];
+        }
+/*BOUND*/    }
+";
+
+/// The smallest radius of a factor of the group.
+pub(super) const RADIUS: &str = "    for (i = 0u; i < /*PLACES*/; i += /*DEGREES*/) {
+        const double own = @p@_internal_radius(&last[i], &before[i]);
+        radius = (own < radius) ? own : radius;
+    }
+";
+
+/// The radius, and whether all is finite.
+pub(super) const END: &str = "/*RADIUS*/    for (i = 0u; i < (@P@_COEFFICIENTS - 1u); i++) {
+        if ((status == @P@_OK) && (!(fabs(map->c[i]) <= DBL_MAX))) {
+            status = @P@_BAD_PARAMETER;
+        }
+    }
+    map->c[@P@_COEFFICIENTS - 1u] = radius * radius;
+    if (status != @P@_OK) {
+        for (i = 0u; i < @P@_COEFFICIENTS; i++) {
+            map->c[i] = (double)NAN;
+        }
+    }
+    map->status = status;
+    return status;
+}
+";
+
+/// Folding for a step of kicks and flows.
+pub(super) const STEP: &str =
+    "static inline @p@_status @p@_init(@p@_map *map, double h/*PARAMETERS*/)
+{
+    /* The flows and kicks of a step, as parts of it. */
+    static const double flows[@P@_FLOWS + 1u] = /*FLOWS*/;
+    static const double kicks[@P@_FLOWS + 1u] = /*KICKS*/;
+    @p@_status status = @P@_OK;
+    uint32_t i;
+    for (i = 0u; i <= @P@_FLOWS; i++) {
+        const @p@_status found = @p@_internal_fold(&map->c[i * @P@_COEFFICIENTS], h * flows[i], h * kicks[i]/*PASSED*/);
+        if (status == @P@_OK) {
+            status = found;
+        }
+    }
+    map->status = status;
+    return status;
+}
+";
 
 /// Helpers of functions that follow.
 pub(crate) const HELPERS: &str = "

@@ -7,15 +7,8 @@
 
 mod algebra;
 mod arguments;
-mod assign;
 mod evaluate;
-mod function;
-mod iterate;
-mod method;
-mod operate;
-mod scope;
 mod signature;
-mod statement;
 mod value;
 
 use proc_macro2::TokenStream;

@@ -1,9 +1,15 @@
 //! The values of a function's variables while it is read.
 
+use std::cmp::Ordering;
 use std::rc::Rc;
 
-use super::function::Callable;
-use crate::expr::ExprId;
+use syn::{BinOp, Expr, ExprBinary, ExprMethodCall, ExprRange, RangeLimits, Type};
+
+use crate::diagnostic::{Mistake, Span, nearest};
+use crate::expr::{ExprId, Function, Node};
+use crate::number::{Rational, integer};
+use crate::parse::rust::evaluate::{Callable, Evaluator, Flow};
+use crate::parse::rust::signature::sizes;
 
 /// A value of the function's world. Copies of lists and matrices share their entries.
 #[derive(Clone, Debug)]
@@ -123,5 +129,638 @@ impl Value {
             }
             _ => Err(0),
         }
+    }
+}
+
+type Combine = fn(ExprId, ExprId) -> Node;
+
+impl Evaluator<'_> {
+    /// A binary operation or a compound assignment.
+    pub(super) fn binary(&mut self, binary: &ExprBinary) -> Result<Value, Flow> {
+        // a + b + c + … nests to the left; a loop keeps long sums off the stack.
+        let mut chain = vec![binary];
+        while let Some(Expr::Binary(left)) = chain.last().map(|b| &*b.left) {
+            if is_assignment(&left.op) || matches!(left.op, BinOp::And(_) | BinOp::Or(_)) {
+                break;
+            }
+            chain.push(left);
+        }
+        let mut value = match chain.last() {
+            Some(first) => self.expression(&first.left)?,
+            None => Value::Wrong,
+        };
+        for operation in chain.into_iter().rev() {
+            let span = Span::of(&operation.op);
+            self.tick(span)?;
+            // `&&` and `||` look at the right side only where they need it.
+            match (&operation.op, &value) {
+                (BinOp::And(_), Value::Bool(false)) | (BinOp::Or(_), Value::Bool(true)) => continue,
+                _ => {}
+            }
+            let right = self.expression(&operation.right)?;
+            let whole = Span::of(&operation.left).to(Span::of(&operation.right));
+            let result = self.operate(&operation.op, value, right, whole);
+            value = if is_assignment(&operation.op) {
+                self.assign(&operation.left, result)?;
+                Value::Unit
+            } else {
+                result
+            };
+        }
+        Ok(value)
+    }
+
+    fn operate(&mut self, op: &BinOp, a: Value, b: Value, span: Span) -> Value {
+        match op {
+            BinOp::Add(_) | BinOp::AddAssign(_) => self.add(a, b, span),
+            BinOp::Sub(_) | BinOp::SubAssign(_) => self.subtract(a, b, span),
+            BinOp::Mul(_) | BinOp::MulAssign(_) => self.multiply(a, b, span),
+            BinOp::Div(_) | BinOp::DivAssign(_) => self.divide(a, b, span),
+            BinOp::Rem(_) | BinOp::RemAssign(_) => match (&a, &b) {
+                (Value::Integer(a), Value::Integer(b)) => {
+                    self.checked_integer(a.checked_rem(*b), span)
+                }
+                _ => self.no_operation("%", &a, &b, span),
+            },
+            BinOp::And(_) | BinOp::BitAnd(_) => self.logic(a, b, span, |a, b| a && b),
+            BinOp::Or(_) | BinOp::BitOr(_) => self.logic(a, b, span, |a, b| a || b),
+            BinOp::Eq(_) => self.compare(&a, &b, span, Ordering::is_eq),
+            BinOp::Ne(_) => self.compare(&a, &b, span, Ordering::is_ne),
+            BinOp::Lt(_) => self.compare(&a, &b, span, Ordering::is_lt),
+            BinOp::Le(_) => self.compare(&a, &b, span, Ordering::is_le),
+            BinOp::Gt(_) => self.compare(&a, &b, span, Ordering::is_gt),
+            BinOp::Ge(_) => self.compare(&a, &b, span, Ordering::is_ge),
+            _ => self.unsupported(span, "this operator is not read", "use + - * /"),
+        }
+    }
+
+    fn no_operation(&mut self, operator: &str, a: &Value, b: &Value, span: Span) -> Value {
+        if matches!(a, Value::Wrong) || matches!(b, Value::Wrong) {
+            return Value::Wrong;
+        }
+        let message = format!("`{operator}` of {} and {} is not read", a.kind(), b.kind());
+        self.unsupported(span, &message, "write it out in coordinates")
+    }
+
+    pub(super) fn checked_integer(&mut self, value: Option<i128>, span: Span) -> Value {
+        match value {
+            Some(value) => Value::Integer(value),
+            None => self.unsupported(span, "this integer operation overflows", ""),
+        }
+    }
+
+    fn logic(&mut self, a: Value, b: Value, span: Span, op: fn(bool, bool) -> bool) -> Value {
+        match (&a, &b) {
+            (Value::Bool(a), Value::Bool(b)) => Value::Bool(op(*a, *b)),
+            _ => self.no_operation("&&", &a, &b, span),
+        }
+    }
+
+    fn compare(&mut self, a: &Value, b: &Value, span: Span, op: fn(Ordering) -> bool) -> Value {
+        match (a, b) {
+            (Value::Integer(a), Value::Integer(b)) => Value::Bool(op(a.cmp(b))),
+            (Value::Bool(a), Value::Bool(b)) => Value::Bool(op(a.cmp(b))),
+            (Value::Wrong, _) | (_, Value::Wrong) => Value::Wrong,
+            _ => self.undecided("a comparison", span),
+        }
+    }
+
+    /// A matrix whose entries are those of another after an operation.
+    fn map(&mut self, matrix: &Matrix, mut of: impl FnMut(&mut Self, Value) -> Value) -> Value {
+        let entries = matrix.entries.iter().map(|entry| of(self, entry.clone()));
+        Value::Matrix(matrix.with(entries))
+    }
+
+    pub(super) fn negate(&mut self, value: Value, span: Span) -> Value {
+        match value {
+            Value::Number(a) => self.push(Node::Neg(a), span),
+            Value::Integer(n) => self.checked_integer(n.checked_neg(), span),
+            Value::Matrix(matrix) => self.map(&matrix, |this, entry| this.negate(entry, span)),
+            other => self.no_operation("-", &other, &other, span),
+        }
+    }
+
+    /// Entry by entry.
+    pub(super) fn zip(
+        &mut self,
+        a: Value,
+        b: Value,
+        span: Span,
+        name: &str,
+        node: Combine,
+    ) -> Value {
+        match (a, b) {
+            (Value::Number(a), Value::Number(b)) => self.push(node(a, b), span),
+            (Value::Matrix(a), Value::Matrix(b)) if a.shape() == b.shape() => {
+                let entries = a.entries.iter().cloned().zip(b.entries.iter().cloned());
+                let entries = entries.map(|(a, b)| self.zip(a, b, span, name, node));
+                Value::Matrix(a.with(entries))
+            }
+            (a, b) => self.no_operation(name, &a, &b, span),
+        }
+    }
+
+    pub(super) fn add(&mut self, a: Value, b: Value, span: Span) -> Value {
+        match (&a, &b) {
+            (Value::Integer(a), Value::Integer(b)) => self.checked_integer(a.checked_add(*b), span),
+            _ => self.zip(a, b, span, "+", Node::Add),
+        }
+    }
+
+    pub(super) fn subtract(&mut self, a: Value, b: Value, span: Span) -> Value {
+        match (&a, &b) {
+            (Value::Integer(a), Value::Integer(b)) => self.checked_integer(a.checked_sub(*b), span),
+            _ => self.zip(a, b, span, "-", Node::Sub),
+        }
+    }
+
+    pub(super) fn multiply(&mut self, a: Value, b: Value, span: Span) -> Value {
+        match (a, b) {
+            (Value::Integer(a), Value::Integer(b)) => self.checked_integer(a.checked_mul(b), span),
+            (Value::Number(a), Value::Number(b)) => self.push(Node::Mul(a, b), span),
+            (Value::Number(s), Value::Matrix(matrix))
+            | (Value::Matrix(matrix), Value::Number(s)) => {
+                self.map(&matrix, |this, entry| this.multiply(Value::Number(s), entry, span))
+            }
+            (Value::Matrix(a), Value::Matrix(b)) if a.columns == b.rows => {
+                let transposed = b.transposed();
+                let entry = |at: usize| {
+                    let (i, j) = (at / b.columns, at % b.columns);
+                    let row = &a.entries[i * a.columns..][..a.columns];
+                    self.dot(row, &transposed.entries[j * b.rows..][..b.rows], span)
+                };
+                Value::Matrix(Matrix::new(a.rows, b.columns, (0..a.rows * b.columns).map(entry)))
+            }
+            (a, b) => self.no_operation("*", &a, &b, span),
+        }
+    }
+
+    fn divide(&mut self, a: Value, b: Value, span: Span) -> Value {
+        match (a, b) {
+            (Value::Integer(a), Value::Integer(b)) => self.checked_integer(a.checked_div(b), span),
+            (Value::Number(a), Value::Number(b)) => self.push(Node::Div(a, b), span),
+            (Value::Matrix(matrix), Value::Number(s)) => {
+                self.map(&matrix, |this, entry| this.divide(entry, Value::Number(s), span))
+            }
+            (a, b) => self.no_operation("/", &a, &b, span),
+        }
+    }
+
+    /// Σ aᵢ bᵢ.
+    pub(super) fn dot(&mut self, a: &[Value], b: &[Value], span: Span) -> Value {
+        let mut sum: Option<Value> = None;
+        for (a, b) in a.iter().zip(b) {
+            let product = self.multiply(a.clone(), b.clone(), span);
+            sum = Some(match sum {
+                Some(sum) => self.add(sum, product, span),
+                None => product,
+            });
+        }
+        sum.unwrap_or_else(|| self.constant(integer(0), span))
+    }
+
+    /// `value as type`.
+    pub(super) fn cast(&mut self, value: Value, ty: &Type, span: Span) -> Value {
+        let to_float =
+            matches!(ty, Type::Path(p) if p.path.is_ident("f64") || p.path.is_ident("f32"));
+        match value {
+            Value::Integer(n) if to_float => self.constant(Rational::from_integer(n.into()), span),
+            Value::Integer(n) => Value::Integer(n),
+            Value::Number(id) if to_float => Value::Number(id),
+            Value::Bool(truth) if !to_float => Value::Integer(i128::from(truth)),
+            Value::Wrong => Value::Wrong,
+            _ => self.wrong(span, Mistake::NotConstant("a number cast to an integer")),
+        }
+    }
+}
+
+fn is_assignment(op: &BinOp) -> bool {
+    matches!(
+        op,
+        BinOp::AddAssign(_)
+            | BinOp::SubAssign(_)
+            | BinOp::MulAssign(_)
+            | BinOp::DivAssign(_)
+            | BinOp::RemAssign(_)
+            | BinOp::BitXorAssign(_)
+            | BinOp::BitAndAssign(_)
+            | BinOp::BitOrAssign(_)
+            | BinOp::ShlAssign(_)
+            | BinOp::ShrAssign(_)
+    )
+}
+
+impl Evaluator<'_> {
+    /// The integers of a range.
+    pub(super) fn range(&mut self, range: &ExprRange) -> Result<Value, Flow> {
+        let span = Span::of(range);
+        let Some((start, end)) = self.bounds(range, None)? else { return Ok(Value::Wrong) };
+        let mut list = Vec::new();
+        for i in start..end {
+            self.tick(span)?;
+            list.push(Value::Integer(i));
+        }
+        Ok(Value::list(list))
+    }
+
+    /// Start and end (excluded) of a range; an open end is `open`.
+    fn bounds(
+        &mut self,
+        range: &ExprRange,
+        open: Option<usize>,
+    ) -> Result<Option<(i128, i128)>, Flow> {
+        let bound = |this: &mut Self, bound: &Option<Box<Expr>>, default: Option<i128>| {
+            let Some(bound) = bound else {
+                if default.is_none() {
+                    this.wrong(Span::of(range), Mistake::NotConstant("the end of a range"));
+                }
+                return Ok(default);
+            };
+            let value = this.expression(bound)?;
+            Ok(this.integer(&value, "the bound of a range", Span::of(bound)))
+        };
+        let start = bound(self, &range.start, open.map(|_| 0))?;
+        let end = bound(self, &range.end, open.map(|n| n as i128))?;
+        let inclusive = matches!(range.limits, RangeLimits::Closed(_)) && range.end.is_some();
+        let end = end.map(|end| if inclusive { end.saturating_add(1) } else { end });
+        Ok(start.zip(end))
+    }
+
+    /// `base[start..end]`.
+    pub(super) fn slice(&mut self, base: &Value, range: &ExprRange) -> Result<Value, Flow> {
+        let Some(list) = base.iterated() else { return Ok(Value::Wrong) };
+        let Some((start, end)) = self.bounds(range, Some(list.len()))? else {
+            return Ok(Value::Wrong);
+        };
+        let slice = usize::try_from(start).ok().zip(usize::try_from(end).ok());
+        Ok(match slice.and_then(|(start, end)| list.get(start..end)) {
+            Some(slice) => Value::list(slice.to_vec()),
+            None => {
+                let shown = format!("{start}..{end}");
+                self.wrong(Span::of(range), Mistake::IndexRange(shown, list.len()))
+            }
+        })
+    }
+
+    /// `for pattern in list { … }`.
+    pub(super) fn for_loop(&mut self, for_loop: &syn::ExprForLoop) -> Result<Value, Flow> {
+        let span = Span::of(&for_loop.expr);
+        let list = self.expression(&for_loop.expr)?;
+        let Some(items) = list.iterated() else {
+            return Ok(match list {
+                Value::Wrong => Value::Wrong,
+                _ => {
+                    let help = "loop over a range such as 0..3, or over an array";
+                    self.unsupported(span, "this cannot be looped over", help)
+                }
+            });
+        };
+        for item in items.iter() {
+            self.tick(span)?;
+            self.scopes.enter();
+            self.bind(&for_loop.pat, item.clone());
+            let flow = self.block(&for_loop.body);
+            self.scopes.leave();
+            if ends(flow)? {
+                break;
+            }
+        }
+        Ok(Value::Unit)
+    }
+
+    /// `while condition { … }`, as long as the condition is known.
+    pub(super) fn while_loop(&mut self, while_loop: &syn::ExprWhile) -> Result<Value, Flow> {
+        loop {
+            self.tick(Span::of(&while_loop.cond))?;
+            match self.condition(&while_loop.cond)? {
+                Some(true) => {}
+                Some(false) => return Ok(Value::Unit),
+                None => return Ok(Value::Wrong),
+            }
+            if ends(self.block(&while_loop.body))? {
+                return Ok(Value::Unit);
+            }
+        }
+    }
+
+    /// `loop { … }`.
+    pub(super) fn forever(&mut self, forever: &syn::ExprLoop) -> Result<Value, Flow> {
+        loop {
+            self.tick(Span::of(&forever.loop_token))?;
+            if ends(self.block(&forever.body))? {
+                return Ok(Value::Unit);
+            }
+        }
+    }
+
+    /// Methods of arrays and iterators; `None` if there is no such method.
+    pub(super) fn list_method(
+        &mut self,
+        items: &[Value],
+        call: &syn::ExprMethodCall,
+        arguments: &[Value],
+    ) -> Result<Option<Value>, Flow> {
+        let span = Span::of(call);
+        let pair = |(a, b): (Value, &Value)| Value::list([a, b.clone()]);
+        let list = match (call.method.to_string().as_str(), arguments) {
+            (
+                "iter" | "iter_mut" | "into_iter" | "copied" | "cloned" | "clone" | "to_vec"
+                | "as_slice" | "as_ref" | "collect" | "to_owned" | "by_ref",
+                [],
+            ) => items.to_vec(),
+            ("len" | "count", []) => return Ok(Some(Value::Integer(items.len() as i128))),
+            ("rev", []) => items.iter().rev().cloned().collect(),
+            ("enumerate", []) => (0..).map(Value::Integer).zip(items).map(pair).collect(),
+            ("zip", [other]) => match other.iterated() {
+                Some(other) => items.iter().cloned().zip(other.iter()).map(pair).collect(),
+                None => return Ok(None),
+            },
+            ("chain", [other]) => match other.iterated() {
+                Some(other) => items.iter().chain(other.iter()).cloned().collect(),
+                None => return Ok(None),
+            },
+            (name @ ("take" | "skip" | "step_by" | "windows"), [count]) => {
+                let count = self.integer(count, "this number", Span::of(&call.args));
+                let Some(n) = count.and_then(|n| usize::try_from(n).ok()) else { return Ok(None) };
+                match name {
+                    "take" => items.iter().take(n).cloned().collect(),
+                    "skip" => items.iter().skip(n).cloned().collect(),
+                    "step_by" => items.iter().step_by(n.max(1)).cloned().collect(),
+                    _ => items.windows(n.max(1)).map(|w| Value::list(w.to_vec())).collect(),
+                }
+            }
+            ("map", [Value::Function(function)]) => self.mapped(items, function, span)?,
+            ("flat_map", [Value::Function(function)]) => {
+                let mapped = self.mapped(items, function, span)?.into_iter();
+                let flat = mapped.flat_map(|value| match value {
+                    Value::List(values) => values.to_vec(),
+                    other => vec![other],
+                });
+                flat.collect()
+            }
+            ("filter", [Value::Function(function)]) => {
+                let mut kept = Vec::new();
+                for (item, keep) in items.iter().zip(self.mapped(items, function, span)?) {
+                    match keep {
+                        Value::Bool(true) => kept.push(item.clone()),
+                        Value::Bool(false) | Value::Wrong => {}
+                        _ => {
+                            let unknown = Mistake::NotConstant("the condition of a filter");
+                            return Ok(Some(self.wrong(span, unknown)));
+                        }
+                    }
+                }
+                kept
+            }
+            ("fold", [start, Value::Function(function)]) => {
+                let mut value = start.clone();
+                for item in items {
+                    value = self.apply(function, vec![value, item.clone()], span)?;
+                }
+                return Ok(Some(value));
+            }
+            (name @ ("sum" | "product"), []) => {
+                let operation = if name == "sum" { Self::add } else { Self::multiply };
+                let Some((first, items)) = items.split_first() else {
+                    let neutral = integer(i64::from(name == "product"));
+                    return Ok(Some(self.constant(neutral, span)));
+                };
+                let mut value = first.clone();
+                for item in items {
+                    self.tick(span)?;
+                    value = operation(self, value, item.clone(), span);
+                }
+                return Ok(Some(value));
+            }
+            _ => return Ok(None),
+        };
+        Ok(Some(Value::list(list)))
+    }
+
+    /// The values of a function at items.
+    fn mapped(
+        &mut self,
+        items: &[Value],
+        function: &Rc<Callable>,
+        span: Span,
+    ) -> Result<Vec<Value>, Flow> {
+        items.iter().map(|item| self.apply(function, vec![item.clone()], span)).collect()
+    }
+}
+
+/// Whether the body of a loop ended the loop.
+fn ends(flow: Result<Value, Flow>) -> Result<bool, Flow> {
+    match flow {
+        Ok(_) | Err(Flow::Continue | Flow::Wrong) => Ok(false),
+        Err(Flow::Break) => Ok(true),
+        Err(flow) => Err(flow),
+    }
+}
+
+const KNOWN: &str = "powi, powf, mul_add, sqrt, sin, cos, tan, atan, tanh, exp, ln, abs, recip, dot, cross, norm_squared, norm, \
+    component_mul, component_div, sum, iter, map, zip, enumerate, fold, transpose";
+
+impl Evaluator<'_> {
+    /// `receiver.method(arguments)`.
+    pub(super) fn method_call(&mut self, call: &ExprMethodCall) -> Result<Value, Flow> {
+        let span = Span::of(call);
+        self.tick(span)?;
+        let receiver = self.expression(&call.receiver)?;
+        let arguments: Result<Vec<Value>, Flow> =
+            call.args.iter().map(|argument| self.expression(argument)).collect();
+        let arguments = arguments?;
+        if matches!(receiver, Value::Wrong) {
+            return Ok(Value::Wrong);
+        }
+        let name = call.method.to_string();
+        let value = match &receiver {
+            Value::Number(_) => self.number_method(&name, &receiver, &arguments, span),
+            Value::Integer(n) => self.integer_method(&name, *n, &arguments, span),
+            Value::List(items) => self.list_method(items, call, &arguments)?,
+            Value::Matrix(matrix) => match self.matrix_method(&name, matrix, call, &arguments) {
+                Some(value) => Some(value),
+                // Maps of matrices are matrices; their iterators are lists.
+                None => {
+                    let found = self.list_method(&matrix.transposed().entries, call, &arguments)?;
+                    found.map(|found| match found {
+                        Value::List(list) if name == "map" => {
+                            let (rows, columns) = matrix.shape();
+                            let entries = list.iter().cloned();
+                            Value::Matrix(Matrix::new(columns, rows, entries).transposed())
+                        }
+                        found => found,
+                    })
+                }
+            },
+            _ => None,
+        };
+        Ok(match value {
+            Some(value) => value,
+            None if arguments.iter().any(|a| matches!(a, Value::Wrong)) => Value::Wrong,
+            None => {
+                let suggestion = nearest(&name, KNOWN.split(", "))
+                    .filter(|known| *known != name)
+                    .map(|known| format!("did you mean `{known}`?"));
+                let message =
+                    format!("`{name}` of {} with these arguments is not read", receiver.kind());
+                let help = suggestion.unwrap_or_else(|| format!("methods read: {KNOWN}"));
+                self.unsupported(Span::of(&call.method), &message, &help)
+            }
+        })
+    }
+
+    /// Methods of `f64`; also called as `f64::name(x, …)`.
+    pub(super) fn number_method(
+        &mut self,
+        name: &str,
+        receiver: &Value,
+        arguments: &[Value],
+        span: Span,
+    ) -> Option<Value> {
+        let &Value::Number(x) = receiver else { return None };
+        Some(match (name, arguments) {
+            ("powi", [power @ (Value::Integer(_) | Value::Wrong)]) => {
+                let n = self.integer(power, "the power", span)?;
+                match self.constant(Rational::from_integer(n.into()), span) {
+                    Value::Number(n) => self.push(Node::Pow(x, n), span),
+                    other => other,
+                }
+            }
+            ("powf", [Value::Number(n)]) => self.push(Node::Pow(x, *n), span),
+            ("mul_add", [a, b]) => {
+                let product = self.multiply(receiver.clone(), a.clone(), span);
+                self.add(product, b.clone(), span)
+            }
+            ("recip", []) => match self.constant(integer(1), span) {
+                Value::Number(one) => self.push(Node::Div(one, x), span),
+                other => other,
+            },
+            ("clone" | "to_owned" | "into", []) => receiver.clone(),
+            ("hypot", [other]) => {
+                let a = self.multiply(receiver.clone(), receiver.clone(), span);
+                let b = self.multiply(other.clone(), other.clone(), span);
+                let sum = self.add(a, b, span);
+                self.root(sum, span)
+            }
+            ("min" | "max" | "clamp" | "floor" | "ceil" | "round" | "signum" | "trunc", _) => self
+                .unsupported(
+                    span,
+                    &format!("`{name}` has kinks or jumps: the Hamiltonian must be smooth"),
+                    "write it with functions that are smooth, such as tanh",
+                ),
+            (_, []) => {
+                let function = Function::lookup(name)?;
+                self.push(Node::Call(function, x), span)
+            }
+            _ => return None,
+        })
+    }
+
+    fn root(&mut self, value: Value, span: Span) -> Value {
+        match value {
+            Value::Number(x) => self.push(Node::Call(Function::Sqrt, x), span),
+            other => other,
+        }
+    }
+
+    fn integer_method(
+        &mut self,
+        name: &str,
+        n: i128,
+        arguments: &[Value],
+        span: Span,
+    ) -> Option<Value> {
+        let value = match (name, arguments) {
+            ("pow", [Value::Integer(power)]) => {
+                u32::try_from(*power).ok().and_then(|power| n.checked_pow(power))
+            }
+            ("abs", []) => n.checked_abs(),
+            ("min", [Value::Integer(other)]) => Some(n.min(*other)),
+            ("max", [Value::Integer(other)]) => Some(n.max(*other)),
+            ("abs_diff", [Value::Integer(other)]) => {
+                n.checked_sub(*other).and_then(i128::checked_abs)
+            }
+            ("clone" | "into", []) => Some(n),
+            _ => return None,
+        };
+        Some(self.checked_integer(value, span))
+    }
+
+    fn matrix_method(
+        &mut self,
+        name: &str,
+        matrix: &Matrix,
+        call: &ExprMethodCall,
+        arguments: &[Value],
+    ) -> Option<Value> {
+        let span = Span::of(call);
+        let (rows, columns) = matrix.shape();
+        let items = &matrix.entries;
+        let whole = || Value::Matrix(matrix.clone());
+        let diagonal = || (0..rows.min(columns)).map(|i| items[i * columns + i].clone());
+        let found = match (name, arguments) {
+            ("dot", [Value::Matrix(other)]) => {
+                if items.len() != other.entries.len() {
+                    let message =
+                        format!("dot of {} and {} entries", items.len(), other.entries.len());
+                    return Some(self.unsupported(span, &message, "both must have as many"));
+                }
+                return Some(self.dot(items, &other.entries, span));
+            }
+            ("norm_squared" | "magnitude_squared", []) => {
+                return Some(self.dot(items, items, span));
+            }
+            ("norm" | "magnitude", []) => {
+                let square = self.dot(items, items, span);
+                return Some(self.root(square, span));
+            }
+            ("trace", []) => {
+                let diagonal: Vec<Value> = diagonal().collect();
+                let ones = vec![self.constant(integer(1), span); diagonal.len()];
+                return Some(self.dot(&diagonal, &ones, span));
+            }
+            ("component_mul", [other @ Value::Matrix(_)]) => {
+                return Some(self.zip(whole(), other.clone(), span, name, Node::Mul));
+            }
+            ("component_div", [other @ Value::Matrix(_)]) => {
+                return Some(self.zip(whole(), other.clone(), span, name, Node::Div));
+            }
+            ("scale", [factor]) => return Some(self.multiply(whole(), factor.clone(), span)),
+            ("tr_mul", [other]) => {
+                let transposed = Value::Matrix(matrix.transposed());
+                return Some(self.multiply(transposed, other.clone(), span));
+            }
+            ("cross", [Value::Matrix(other)]) if items.len() == 3 && other.entries.len() == 3 => {
+                let other = &other.entries;
+                matrix.with((0..3).map(|i| {
+                    let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+                    let a = self.multiply(items[j].clone(), other[k].clone(), span);
+                    let b = self.multiply(items[k].clone(), other[j].clone(), span);
+                    self.subtract(a, b, span)
+                }))
+            }
+            ("clone" | "into_owned" | "clone_owned" | "to_owned", []) => matrix.clone(),
+            ("transpose", []) => matrix.transposed(),
+            ("diagonal", []) => Matrix::new(rows.min(columns), 1, diagonal()),
+            ("column", [j]) => {
+                let j = usize::try_from(self.integer(j, "the column", span)?).ok()?;
+                let column = (0..rows).map(|i| items.get(i * columns + j).cloned());
+                Matrix::vector(&column.collect::<Option<Vec<_>>>()?)
+            }
+            ("fixed_rows", [start]) if columns == 1 => {
+                let start = usize::try_from(self.integer(start, "the first row", span)?).ok()?;
+                let count = *sizes(call.turbofish.as_ref()?).first()?;
+                let end = start.checked_add(count)?;
+                let Some(rows) = items.get(start..end) else {
+                    let wrong = Mistake::IndexRange(format!("{start}..{end}"), items.len());
+                    return Some(self.wrong(span, wrong));
+                };
+                Matrix::vector(rows)
+            }
+            ("xyz", []) if columns == 1 => Matrix::vector(items.get(..3)?),
+            ("xy", []) if columns == 1 => Matrix::vector(items.get(..2)?),
+            _ => return None,
+        };
+        Some(Value::Matrix(found))
     }
 }

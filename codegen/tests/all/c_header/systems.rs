@@ -140,12 +140,12 @@ pub struct Built {
 /// Whether a step finds nothing wrong with twice the neutral element.
 fn any_element(programs: &Step) -> bool {
     let kernel = programs.kernel();
-    let matrix = programs.kernel().programs().matrix.outputs().len().isqrt();
+    let matrix = programs.kernel().programs.matrix.outputs().len().isqrt();
     let unit = |at: usize| if at / matrix == at % matrix { 1.0 } else { 0.0 };
     let unit: Vec<f64> = (0..matrix * matrix).map(unit).collect();
     let mut state: Vec<f64> = programs.element_of(&unit).iter().map(|entry| 2.0 * entry).collect();
-    state.extend(vec![0.1; kernel.dim()]);
-    kernel.programs().sound.run(&state, &[]) == [1.0]
+    state.extend(vec![0.1; kernel.dim]);
+    kernel.programs.sound.run(&state, &[]) == [1.0]
 }
 
 impl Built {

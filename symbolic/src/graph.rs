@@ -1,12 +1,19 @@
-//! Horner's scheme in several variables, with shared powers.
+//! Expression graphs: what a step computes, as shared multiplications and additions.
+//!
+//! Polynomials whose coefficients are numbered *slots* are lowered together into one [`Program`]:
+//! Horner's scheme in several variables, powers and equal sub-expressions shared. Graphs and programs are those of
+//! `coadjoint-program`, which every target reads.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, HashMap};
 use std::hash::Hash;
+use std::ops::{Add, Mul};
 
-use coadjoint_program::{Graph, Id};
+use num_traits::Zero;
 
 use crate::cancel;
+
+pub use coadjoint_program::{Cost, Graph, Id, Node, Program};
 
 /// Above this many variables a polynomial is split by the first variable of its terms, so that the
 /// work grows with the terms and not with terms times variables.
@@ -29,7 +36,7 @@ pub type SlotPolynomial = Vec<SlotTerm>;
 /// Two schemes are tried, and the one with fewer new operations kept: greedy Horner on all terms,
 /// and Horner on each parity class (terms whose exponents agree modulo 2), where all powers are
 /// powers of squares. Systems with reflection symmetries split into few classes.
-pub fn lower(graph: &mut Graph, polynomial: &[SlotTerm]) -> Id {
+pub fn lower(graph: &Graph, polynomial: &[SlotTerm]) -> Id {
     if polynomial.is_empty() {
         return graph.zero();
     }
@@ -38,10 +45,7 @@ pub fn lower(graph: &mut Graph, polynomial: &[SlotTerm]) -> Id {
     if variables.len() > WIDE {
         let parts = grouped(polynomial, |term| term.factors.first().map(|&(first, _)| first));
         if parts.len() > 1 {
-            return parts.iter().fold(graph.zero(), |sum, part| {
-                let value = lower(graph, part);
-                graph.add(value, sum)
-            });
+            return parts.iter().fold(graph.zero(), |sum, part| graph.add(lower(graph, part), sum));
         }
     }
     let mark = graph.mark();
@@ -82,7 +86,7 @@ fn odd(term: &SlotTerm) -> Vec<(u32, u32)> {
     term.factors.iter().filter(|(_, e)| e % 2 == 1).map(|&(variable, _)| (variable, 1)).collect()
 }
 
-fn by_parity(graph: &mut Graph, classes: &[Vec<SlotTerm>]) -> Id {
+fn by_parity(graph: &Graph, classes: &[Vec<SlotTerm>]) -> Id {
     let mut sum = graph.zero();
     for class in classes {
         let parity = match class.first() {
@@ -112,11 +116,10 @@ fn divide(term: &mut SlotTerm, divisor: &[(u32, u32)]) {
 }
 
 /// The product of powers, or `None` for the empty product.
-pub(super) fn monomial(graph: &mut Graph, factors: &[(u32, u32)]) -> Option<Id> {
+pub(super) fn monomial(graph: &Graph, factors: &[(u32, u32)]) -> Option<Id> {
     let mut product: Option<Id> = None;
     for &(variable, exponent) in factors {
-        let input = graph.input(variable as usize);
-        let power = graph.power(input, exponent);
+        let power = graph.power(graph.input(variable as usize), exponent);
         product = Some(match product {
             Some(product) => graph.mul(product, power),
             None => power,
@@ -150,7 +153,7 @@ struct Occurrence {
 
 /// Greedy Horner (Ceberio and Kreinovich 2004): take out what all terms share, then split on the
 /// variable that occurs in most terms.
-fn horner(graph: &mut Graph, mut terms: Vec<SlotTerm>) -> Id {
+fn horner(graph: &Graph, mut terms: Vec<SlotTerm>) -> Id {
     cancel::check();
     if terms.is_empty() {
         return graph.zero();
@@ -158,8 +161,7 @@ fn horner(graph: &mut Graph, mut terms: Vec<SlotTerm>) -> Id {
     let content = content(&terms);
     if let Some(factor) = monomial(graph, &content) {
         terms.iter_mut().for_each(|term| divide(term, &content));
-        let rest = horner(graph, terms);
-        return graph.mul(factor, rest);
+        return graph.mul(factor, horner(graph, terms));
     }
     if let [only] = terms.as_slice() {
         return graph.slot(only.slot);
@@ -186,9 +188,39 @@ fn horner(graph: &mut Graph, mut terms: Vec<SlotTerm>) -> Id {
     let has = |term: &SlotTerm| term.factors.iter().any(|&(other, _)| other == variable);
     let (mut with, without): (Vec<_>, Vec<_>) = terms.into_iter().partition(has);
     with.iter_mut().for_each(|term| divide(term, &[(variable, lowest)]));
-    let input = graph.input(variable as usize);
-    let power = graph.power(input, lowest);
-    let quotient = horner(graph, with);
-    let remainder = horner(graph, without);
-    graph.times_plus(quotient, power, remainder)
+    let power = graph.power(graph.input(variable as usize), lowest);
+    graph.times_plus(horner(graph, with), power, horner(graph, without))
+}
+
+/// Numbers that add and multiply: `f64`, `f32`, or a pack of lanes.
+pub trait Arithmetic: Copy + Add<Output = Self> + Mul<Output = Self> + Zero {}
+
+impl<T: Copy + Add<Output = T> + Mul<Output = T> + Zero> Arithmetic for T {}
+
+/// Evaluates every node into `scratch`, where [`Program::outputs`] then point. For programs of sums and products, as
+/// [`lower`](super::lower) makes them; other operations read as 0.
+///
+/// Always inlined, so that lanes get the instruction set of the caller.
+#[inline(always)]
+pub fn evaluate<T: Arithmetic>(
+    program: &Program,
+    input: impl Fn(usize) -> T,
+    slot: impl Fn(usize) -> T,
+    scratch: &mut Vec<T>,
+) {
+    scratch.clear();
+    scratch.reserve(program.nodes().len());
+    for node in program.nodes() {
+        let value = match *node {
+            Node::Input(i) => input(i as usize),
+            Node::Slot(i) => slot(i as usize),
+            Node::Add(a, b) => scratch[a.index()] + scratch[b.index()],
+            Node::Mul(a, b) => scratch[a.index()] * scratch[b.index()],
+            Node::TimesPlus(a, b, c) => {
+                scratch[a.index()] * scratch[b.index()] + scratch[c.index()]
+            }
+            _ => T::zero(),
+        };
+        scratch.push(value);
+    }
 }

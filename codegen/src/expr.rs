@@ -1,8 +1,10 @@
-//! The expression as the user wrote it.
+//! Expressions, in two forms: as the user wrote them ([`Arena`], with places), and those in
+//! parameters only that become opaque coefficients ([`ParameterExpr`]).
 
 use crate::diagnostic::Span;
-use crate::expr::Function;
 use crate::number::Rational;
+
+pub use coadjoint_symbolic::expr::{Function, ParameterExpr};
 
 /// The identity of a node in its [`Arena`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

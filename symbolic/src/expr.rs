@@ -1,12 +1,104 @@
-//! Expressions in parameters only: the opaque coefficients of a Hamiltonian.
+//! Expressions in parameters only, which become opaque coefficients ([`ParameterExpr`]).
 
 use std::fmt::Write;
 
 use coadjoint_program::fold::Values;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
-use crate::expr::Function;
 use crate::number::Rational;
+
+/// A function of one real number. (Those of the momentum are straight-line programs, [`coadjoint_program::Function`].)
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Function {
+    /// The square root.
+    Sqrt,
+    /// The sine (radians).
+    Sin,
+    /// The cosine (radians).
+    Cos,
+    /// The tangent (radians).
+    Tan,
+    /// The inverse of the tangent.
+    Atan,
+    /// The hyperbolic tangent.
+    Tanh,
+    /// The exponential.
+    Exp,
+    /// The natural logarithm.
+    Ln,
+    /// The absolute value.
+    Abs,
+}
+
+impl Function {
+    /// Every function.
+    pub const ALL: [Self; 9] = [
+        Self::Sqrt,
+        Self::Sin,
+        Self::Cos,
+        Self::Tan,
+        Self::Atan,
+        Self::Tanh,
+        Self::Exp,
+        Self::Ln,
+        Self::Abs,
+    ];
+
+    /// The name of the function: the same in a system file and as a method of `f64`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sqrt => "sqrt",
+            Self::Sin => "sin",
+            Self::Cos => "cos",
+            Self::Tan => "tan",
+            Self::Atan => "atan",
+            Self::Tanh => "tanh",
+            Self::Exp => "exp",
+            Self::Ln => "ln",
+            Self::Abs => "abs",
+        }
+    }
+
+    /// The function of this name.
+    #[must_use]
+    pub fn lookup(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|function| function.name() == name)
+    }
+
+    /// The value of the function at `x`.
+    #[must_use]
+    pub fn apply(self, x: f64) -> f64 {
+        match self {
+            Self::Sqrt => x.sqrt(),
+            Self::Sin => x.sin(),
+            Self::Cos => x.cos(),
+            Self::Tan => x.tan(),
+            Self::Atan => x.atan(),
+            Self::Tanh => x.tanh(),
+            Self::Exp => x.exp(),
+            Self::Ln => x.ln(),
+            Self::Abs => x.abs(),
+        }
+    }
+
+    /// The derivative of the function at `x`.
+    #[must_use]
+    pub fn slope(self, x: f64) -> f64 {
+        match self {
+            Self::Sqrt => 0.5 / x.sqrt(),
+            Self::Sin => x.cos(),
+            Self::Cos => -x.sin(),
+            Self::Tan => 1.0 + x.tan().powi(2),
+            Self::Atan => 1.0 / (1.0 + x * x),
+            Self::Tanh => 1.0 - x.tanh().powi(2),
+            Self::Exp => x.exp(),
+            Self::Ln => 1.0 / x,
+            Self::Abs if x == 0.0 => f64::NAN,
+            Self::Abs => x.signum(),
+        }
+    }
+}
 
 /// An expression in parameters and numbers.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -65,30 +157,28 @@ impl ParameterExpr {
 
     /// The same with these exact values put in for parameters that have one, and numbers computed where they are exact.
     #[must_use]
-    pub fn with_values(&self, values: &[Option<Rational>]) -> Self {
+    pub(crate) fn with_values(&self, values: &[Option<Rational>]) -> Self {
+        type Exact<'a> = &'a dyn Fn(&Rational, &Rational) -> Option<Rational>;
         let within = |a: &Self| Box::new(a.with_values(values));
+        let pair =
+            |a: &Self, b: &Self, exact: Exact<'_>, otherwise: fn(Box<Self>, Box<Self>) -> Self| {
+                let (a, b) = (within(a), within(b));
+                match (&*a, &*b) {
+                    (Self::Rational(x), Self::Rational(y)) => exact(x, y).map(Self::Rational),
+                    _ => None,
+                }
+                .unwrap_or_else(|| otherwise(a, b))
+            };
         match self {
             Self::Rational(_) => self.clone(),
             Self::Parameter(i) => {
                 let value = values.get(*i).cloned().flatten();
                 value.map_or_else(|| self.clone(), Self::Rational)
             }
-            Self::Add(a, b) => match (*within(a), *within(b)) {
-                (Self::Rational(a), Self::Rational(b)) => Self::Rational(a + b),
-                (a, b) => Self::Add(Box::new(a), Box::new(b)),
-            },
-            Self::Sub(a, b) => match (*within(a), *within(b)) {
-                (Self::Rational(a), Self::Rational(b)) => Self::Rational(a - b),
-                (a, b) => Self::Sub(Box::new(a), Box::new(b)),
-            },
-            Self::Mul(a, b) => match (*within(a), *within(b)) {
-                (Self::Rational(a), Self::Rational(b)) => Self::Rational(a * b),
-                (a, b) => Self::Mul(Box::new(a), Box::new(b)),
-            },
-            Self::Div(a, b) => match (*within(a), *within(b)) {
-                (Self::Rational(a), Self::Rational(b)) if !b.is_zero() => Self::Rational(a / b),
-                (a, b) => Self::Div(Box::new(a), Box::new(b)),
-            },
+            Self::Add(a, b) => pair(a, b, &|a, b| Some(a + b), Self::Add),
+            Self::Sub(a, b) => pair(a, b, &|a, b| Some(a - b), Self::Sub),
+            Self::Mul(a, b) => pair(a, b, &|a, b| Some(a * b), Self::Mul),
+            Self::Div(a, b) => pair(a, b, &|a, b| (!b.is_zero()).then(|| a / b), Self::Div),
             Self::Neg(a) => match *within(a) {
                 Self::Rational(a) => Self::Rational(-a),
                 a => Self::Neg(Box::new(a)),
