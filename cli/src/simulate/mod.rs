@@ -13,7 +13,6 @@ mod target;
 
 use std::path::Path;
 
-use coadjoint_codegen::smooth::Hamiltonian;
 use coadjoint_codegen::system::{Parameters, Run, Units};
 use coadjoint_learn::ModelFile;
 use coadjoint_run::simulate::{Schedule, Setup, Sink, run_model};
@@ -86,12 +85,6 @@ fn runs(
         let announcement = setup.schedule.announcement();
         if let Some(line) = announcement.filter(|_| runs.is_empty()) {
             eprintln!("{line}");
-        }
-        if let (Some(path), Hamiltonian::Smooth(_)) = (&options.checkpoint, &system.problem) {
-            return Err(CliError::Option(format!(
-                "--checkpoint {}: steps by collocation go by those before them, which a checkpoint does not hold; leave it out",
-                path.display()
-            )));
         }
         let phase = system.problem.polynomial().map(|problem| {
             progress::phase(&format!("deriving the series, K = {}", problem.truncation))

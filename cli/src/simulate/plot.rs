@@ -42,13 +42,14 @@ fn settings(runs: &[Trajectory], units: &Units) -> Vec<String> {
     let step = |run: &Trajectory| {
         run.header.get("step").and_then(Value::as_f64).map(brief).unwrap_or_default()
     };
-    let mut settings = vec![
-        format!("group {}", said("group")),
-        format!("chart {}", said("chart")),
+    let mut settings = vec![format!("group {}", said("group"))];
+    // Steps by collocation name none.
+    settings.extend(first.header.get("chart").map(|_| format!("chart {}", said("chart"))));
+    settings.extend([
         format!("K = {}", all(|run| run.header.text("truncation"))),
         format!("h = {}{unit}", all(step)),
         format!("T = {}{unit}", brief(first.outcome.time)),
-    ];
+    ]);
     let usual = format!("K = {}, {}", said("truncation"), said("chart"));
     let more = first.label.strip_prefix(&usual).unwrap_or(&first.label);
     settings.extend(more.split(", ").filter(|t| !t.is_empty()).map(str::to_owned));

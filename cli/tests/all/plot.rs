@@ -3,7 +3,6 @@
 use std::collections::BTreeSet;
 
 use crate::support::{Folder, json, root, run, text_of};
-use coadjoint_codegen::smooth::Hamiltonian;
 use coadjoint_codegen::system::{Options, read_either};
 
 /// The picture of a run.
@@ -226,24 +225,18 @@ fn every_example_has_its_picture() {
         let system = read_either(&example, Options::default(), &[]).unwrap();
         let stem = path.file_stem().unwrap().to_str().unwrap();
         let svg = text_of(&format!("docs/images/{stem}.svg"));
-        let name = match &system.problem {
-            Hamiltonian::Polynomial(problem) => &problem.name,
-            Hamiltonian::Smooth(smooth) => &smooth.name,
-        };
+        let name = system.problem.facts().name;
         assert_ne!(name, "system", "{stem} has no name");
         contains(&svg, &[&format!(">{name}</text>")]);
-        // Pictures of runs by collocation say no settings.
-        if let Hamiltonian::Polynomial(problem) = &system.problem {
-            let unit = system.units.time.map(|unit| format!(" {unit}")).unwrap_or_default();
-            contains(
-                &svg,
-                &[
-                    &format!(">group {}</text>", problem.algebra.name()),
-                    &format!(">h = {}{unit}</text>", system.run.step.unwrap()),
-                    &format!(">T = {}{unit}</text>", system.run.time.unwrap()),
-                ],
-            );
-        }
+        let unit = system.units.time.map(|unit| format!(" {unit}")).unwrap_or_default();
+        contains(
+            &svg,
+            &[
+                &format!(">group {}</text>", system.problem.facts().algebra.name()),
+                &format!(">h = {}{unit}</text>", system.run.step.unwrap()),
+                &format!(">T = {}{unit}</text>", system.run.time.unwrap()),
+            ],
+        );
         assert_legible(&svg);
         seen += 1;
     }

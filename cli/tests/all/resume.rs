@@ -14,6 +14,7 @@ const KEEP: &str = " --checkpoint state --checkpoint-interval 0.001";
 fn place() -> Folder {
     let place = Folder::new();
     place.write("body.toml", text_of(BODY));
+    place.write("smooth.toml", text_of("examples/relativistic_body.toml"));
     place
 }
 
@@ -27,6 +28,11 @@ fn body(out: &str) -> String {
 /// A run of the learned map.
 fn learned(out: &str) -> String {
     format!("simulate --model model.json --start 2,0.5,1 --time 1000 --format json --out {out}")
+}
+
+/// Steps by collocation, which are guessed from those before them.
+fn smooth(out: &str) -> String {
+    format!("simulate smooth.toml --time 4000 --every 3 --format json --out {out}")
 }
 
 /// Starts a command, and waits until a file has been written and replaced `times` times.
@@ -85,7 +91,7 @@ fn a_killed_run_ends_with_the_same_bits() {
     }
 }
 
-/// Of a system and of a learned map.
+/// Of a system, by its series and by collocation, and of a learned map.
 #[test]
 fn an_interrupted_run_leaves_a_whole_part_and_goes_on() {
     let place = place();
@@ -94,6 +100,7 @@ fn an_interrupted_run_leaves_a_whole_part_and_goes_on() {
     for (signal, run, out) in [
         (Signal::INT, body as fn(&str) -> String, "i.csv"),
         (Signal::TERM, body, "e.csv"),
+        (Signal::INT, smooth, "s.csv"),
         (Signal::INT, learned, "l.csv"),
         (Signal::INT, learned, "l.npy"),
     ] {

@@ -153,6 +153,16 @@ impl<const M: usize> Motion for Collocated<'_, M> {
         Ok(())
     }
 
+    fn memory(&self, mu: &[f64]) -> Vec<f64> {
+        let step = self.step.lock().unwrap_or_else(PoisonError::into_inner);
+        step.memory(&DVector::from_column_slice(mu)).collect()
+    }
+
+    fn recall(&self, mu: &[f64], memory: &[f64]) -> bool {
+        let mut step = self.step.lock().unwrap_or_else(PoisonError::into_inner);
+        step.recall(&DVector::from_column_slice(mu), memory)
+    }
+
     /// There is no series.
     fn ratio(&self, _: &[f64]) -> f64 {
         0.0

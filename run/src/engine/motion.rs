@@ -51,6 +51,16 @@ pub trait Motion: Send + Sync {
         self.advance(state, 0, 1).map(drop).map_err(|(_, error)| error)
     }
 
+    /// The numbers that the steps made so far leave to the next one from this momentum beside the state.
+    fn memory(&self, _mu: &[f64]) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Takes the memory of steps that led to this momentum; whether it is one.
+    fn recall(&self, _mu: &[f64], memory: &[f64]) -> bool {
+        memory.is_empty()
+    }
+
     /// The ratio of the last two terms of the series at a momentum, where it may be worth a warning; else 0.
     fn ratio(&self, mu: &[f64]) -> f64;
 

@@ -84,6 +84,8 @@ pub struct Resume {
     pub momentum: Vec<f64>,
     /// The numbers of g, as what makes the steps has them.
     pub element: Vec<f64>,
+    /// The numbers that the steps made leave to the next one beside the state.
+    pub memory: Vec<f64>,
     /// How many of the times asked for are recorded.
     pub times: usize,
     /// The maxima so far.

@@ -46,11 +46,11 @@ const KEPT_LONG: usize = 5;
 
 /// The largest share of the highest polynomial in the velocity up to which steps with two nodes and more are accepted, by
 /// the number of nodes; with one node the largest product of [`Collocation::bend`].
-const LARGEST_TAIL: [f64; MAX_NODES] = [0.08, 0.3, 0.08, 1e-2, 1e-2, 1e-2, 1e-2, 1e-2];
+const LARGEST_TAIL: [f64; MAX_NODES] = [0.08, 0.25, 0.06, 1e-2, 1e-2, 1e-2, 1e-2, 1e-2];
 
 /// The largest highest polynomial in the force, relative to the momentum: where it is larger, as where momenta grow along
 /// the step on a group that is not compact, a velocity that is resolved does not tell that the step is.
-const LARGEST_FORCE: f64 = 0.3;
+const LARGEST_FORCE: f64 = 0.25;
 
 /// Steps of size h of the flow of H(t, μ), by collocation at `M` nodes (1 to 8): order 2M.
 ///
@@ -184,6 +184,31 @@ where
             worst.residual = f64::max(worst.residual, report.residual);
         }
         Ok(worst)
+    }
+
+    /// The rates of the last steps, the oldest first, from which the next one from the momentum μ is guessed; none where it
+    /// does not go on from their end.
+    pub fn memory(&self, mu: &G::Vector) -> impl Iterator<Item = f64> {
+        let follows = self.end.as_ref() == Some(mu);
+        let (dim, kept) = (mu.dim(), if follows { self.noted.min(KEPT) } else { 0 });
+        let last = self.noted - kept..self.noted;
+        let rates = last.filter_map(|step| self.rates[step % KEPT].as_ref());
+        rates.flat_map(move |rates| rates.numbers(dim))
+    }
+
+    /// Goes on from the momentum μ as the steps do that had this [`Collocation::memory`] there: to the same bits. False,
+    /// with nothing changed, where it is no memory of such steps.
+    pub fn recall(&mut self, mu: &G::Vector, memory: &[f64]) -> bool {
+        let size = 2 * mu.dim() * M;
+        if !memory.len().is_multiple_of(size) || memory.len() > KEPT * size {
+            return false;
+        }
+        self.noted = memory.len() / size;
+        for (place, numbers) in self.rates.iter_mut().zip(memory.chunks_exact(size)) {
+            *place = Some(Rates::of_numbers(mu.dim(), numbers));
+        }
+        self.end = Some(mu.clone());
+        true
     }
 
     fn equations<'a>(&'a self, mu: &'a G::Vector, middle: f64) -> Equations<'a, G, E, M> {

@@ -16,7 +16,7 @@ const STEPS: usize = 4;
 /// Steps of the other method for one of ours.
 const FINE: usize = 128;
 /// How far, relatively, a step with 1, 2, 3 or more nodes may be from the flow. Another branch is farther away than any.
-const FARTHEST: [f64; 4] = [0.2, 0.2, 2e-2, 1e-3];
+const FARTHEST: [f64; 4] = [0.2, 0.2, 2e-2, 5e-3];
 
 /// √(1 + Σ wᵢ μᵢ²) + ½ Σ qᵢⱼ μᵢ μⱼ + Σ bᵢ μᵢ
 #[derive(Clone, Debug)]
