@@ -25,59 +25,65 @@ const BETA: [f64; MAX_DEGREE + 1] = [
     1.0 / 74_724_249_600.0,
 ];
 
-/// a + s·b
+/// a ← a + s·b at each node.
 #[inline(always)]
-fn plus<T: Scalar, V: Coordinates<T>>(mut a: V, s: T, b: &V) -> V {
-    for i in 0..a.dim() {
-        a[i] = b[i].times_plus(s, a[i]);
+fn add<T: Scalar, V: Coordinates<T>, const M: usize>(
+    dim: usize,
+    a: &mut V::Rows<M>,
+    s: T,
+    b: &V::Rows<M>,
+) {
+    for k in 0..dim {
+        for i in 0..M {
+            a[k][i] = b[k][i].times_plus(s, a[k][i]);
+        }
     }
-    a
 }
 
-/// J_R(x, p), given the algebra's ad\*.
-pub(super) fn momentum<T: Scalar, V: Coordinates<T>>(
-    ad_star: impl Fn(&V, &V) -> V,
-    x: &V,
-    p: V,
+/// J_R(x, p) at each node, given the algebra's ad\*.
+pub(super) fn momenta<T: Scalar, V: Coordinates<T>, const M: usize>(
+    dim: usize,
+    ad_stars: impl Fn(&V::Rows<M>, &V::Rows<M>) -> V::Rows<M>,
+    x: &V::Rows<M>,
+    p: &V::Rows<M>,
     degree: usize,
-) -> V {
-    let mut power = p.clone();
-    let mut sum = p;
+) -> V::Rows<M> {
+    let (mut power, mut sum) = (p.clone(), p.clone());
     for &beta in BETA.iter().take(degree + 1).skip(1) {
-        power = ad_star(x, &power);
+        power = ad_stars(x, &power);
         if beta != 0.0 {
-            sum = plus(sum, T::of(beta), &power);
+            add::<T, V, M>(dim, &mut sum, T::of(beta), &power);
         }
     }
     sum
 }
 
-/// ẋ = (∂J_R/∂p)ᵀ ω and ṗ = −(∂J_R/∂x)ᵀ ω, given the algebra's ad\* and bracket: with wₖ = (ad\*_x)ᵏ p and a_d = β_d ω,
-/// aₖ = βₖ ω + [x, aₖ₊₁], they are a₀ and Σ ad\*_{aₖ₊₁} wₖ.
-pub(super) fn rates<T: Scalar, V: Coordinates<T>>(
-    ad_star: impl Fn(&V, &V) -> V,
-    bracket: impl Fn(&V, &V) -> V,
-    [x, p, omega]: [V; 3],
+/// ẋ = (∂J_R/∂p)ᵀ ω and ṗ = −(∂J_R/∂x)ᵀ ω at each node, given the algebra's ad\* and bracket: with wₖ = (ad\*_x)ᵏ p and
+/// a_d = β_d ω, aₖ = βₖ ω + [x, aₖ₊₁], they are a₀ and Σ ad\*_{aₖ₊₁} wₖ.
+pub(super) fn rates<T: Scalar, V: Coordinates<T>, const M: usize>(
+    dim: usize,
+    ad_stars: impl Fn(&V::Rows<M>, &V::Rows<M>) -> V::Rows<M>,
+    brackets: impl Fn(&V::Rows<M>, &V::Rows<M>) -> V::Rows<M>,
+    [x, p, omega]: [&V::Rows<M>; 3],
     degree: usize,
-) -> (V, V) {
+) -> [V::Rows<M>; 2] {
     let degree = degree.min(MAX_DEGREE);
-    let mut powers: [Option<V>; MAX_DEGREE] = [const { None }; MAX_DEGREE];
-    let mut power = p;
+    let mut powers: [Option<V::Rows<M>>; MAX_DEGREE] = [const { None }; MAX_DEGREE];
+    let mut power = p.clone();
     for place in powers.iter_mut().take(degree) {
-        let next = ad_star(&x, &power);
+        let next = ad_stars(x, &power);
         *place = Some(core::mem::replace(&mut power, next));
     }
-    let zero = V::zeros(x.dim());
-    let mut a = plus(zero.clone(), T::of(BETA[degree]), &omega);
-    let mut force = zero;
+    let (mut a, mut force) = (V::zero_rows::<M>(dim), V::zero_rows::<M>(dim));
+    add::<T, V, M>(dim, &mut a, T::of(BETA[degree]), omega);
     for (k, power) in powers.iter().enumerate().take(degree).rev() {
         if let Some(power) = power {
-            force = plus(force, T::of(1.0), &ad_star(&a, power));
+            add::<T, V, M>(dim, &mut force, T::of(1.0), &ad_stars(&a, power));
         }
-        a = bracket(&x, &a);
+        a = brackets(x, &a);
         if BETA[k] != 0.0 {
-            a = plus(a, T::of(BETA[k]), &omega);
+            add::<T, V, M>(dim, &mut a, T::of(BETA[k]), omega);
         }
     }
-    (a, force)
+    [a, force]
 }

@@ -116,12 +116,8 @@ pub trait LieGroup: Clone + Debug {
         p: &Rows<Self, M>,
         degree: usize,
     ) -> Rows<Self, M> {
-        let n = self.dim();
-        let at = |rows, node| Self::Vector::at::<M>(n, rows, node);
-        let ad_star = |x: &_, p: &_| self.ad_star(x, p);
-        Self::Vector::by_node::<M>(n, |node| {
-            middle::momentum(ad_star, &at(x, node), at(p, node), degree)
-        })
+        let ad_stars = |x: &_, p: &_| self.ad_stars::<M>(x, p);
+        middle::momenta::<_, Self::Vector, M>(self.dim(), ad_stars, x, p, degree)
     }
 
     /// ẋ = (∂J_R/∂p)ᵀ ω and ṗ = −(∂J_R/∂x)ᵀ ω at (x, p): derivatives of [`LieGroup::node_momenta`] of the same degree,
@@ -133,20 +129,10 @@ pub trait LieGroup: Clone + Debug {
         omega: &Rows<Self, M>,
         degree: usize,
     ) -> [Rows<Self, M>; 2] {
-        let n = self.dim();
-        let at = |rows, node| Self::Vector::at::<M>(n, rows, node);
-        let (ad_star, bracket) =
-            (|x: &_, p: &_| self.ad_star(x, p), |x: &_, y: &_| self.bracket(x, y));
-        let mut forces = Self::Vector::zero_rows::<M>(n);
-        let velocities = Self::Vector::by_node::<M>(n, |node| {
-            let point = [x, p, omega].map(|rows| at(rows, node));
-            let (velocity, force) = middle::rates(ad_star, bracket, point, degree);
-            for i in 0..n {
-                forces[i][node] = force[i];
-            }
-            velocity
-        });
-        [velocities, forces]
+        let ad_stars = |x: &_, p: &_| self.ad_stars::<M>(x, p);
+        let brackets = |x: &_, y: &_| self.brackets::<M>(x, y);
+        let point = [x, p, omega];
+        middle::rates::<_, Self::Vector, M>(self.dim(), ad_stars, brackets, point, degree)
     }
 
     /// [`LieGroup::ad_star`] at several nodes.

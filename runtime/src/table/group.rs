@@ -3,7 +3,7 @@
 use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd};
 
 use crate::group::element_error::{ElementError, within};
-use crate::group::{CayleyGroup, LieGroup};
+use crate::group::{CayleyGroup, LieGroup, Rows};
 use crate::linear::coordinates::Coordinates;
 use crate::linear::square;
 use crate::number::Scalar;
@@ -190,6 +190,28 @@ impl<K: Tables> LieGroup for TableGroup<K> {
 
     fn ad_star(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
         self.ad_transpose(x, mu)
+    }
+
+    fn ad_stars<const M: usize>(&self, x: &Rows<Self, M>, mu: &Rows<Self, M>) -> Rows<Self, M> {
+        let mut result = K::Vector::zero_rows::<M>(self.algebra().dim);
+        for &(i, j, k, c) in self.algebra().structure {
+            for node in 0..M {
+                let factor = x[i][node] * K::Scalar::of(c);
+                result[j][node] = factor.times_plus(mu[k][node], result[j][node]);
+            }
+        }
+        result
+    }
+
+    fn brackets<const M: usize>(&self, x: &Rows<Self, M>, y: &Rows<Self, M>) -> Rows<Self, M> {
+        let mut result = K::Vector::zero_rows::<M>(self.algebra().dim);
+        for &(i, j, k, c) in self.algebra().structure {
+            for node in 0..M {
+                let factor = x[i][node] * K::Scalar::of(c);
+                result[k][node] = factor.times_plus(y[j][node], result[k][node]);
+            }
+        }
+        result
     }
 
     fn adjoint(&self, g: &Self::Element, x: &Self::Vector) -> Self::Vector {

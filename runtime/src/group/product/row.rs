@@ -422,6 +422,18 @@ impl<T: Scalar, R: Row<Group: LieGroup<Scalar = T>>> LieGroup for RowProduct<R> 
         })
     }
 
+    fn ad_stars<const M: usize>(&self, x: &Rows<Self, M>, mu: &Rows<Self, M>) -> Rows<Self, M> {
+        let [turned] =
+            self.rows_by_parts::<M, _, _>([x, mu], |group, [x, mu]| [group.ad_stars::<M>(&x, &mu)]);
+        turned
+    }
+
+    fn brackets<const M: usize>(&self, x: &Rows<Self, M>, y: &Rows<Self, M>) -> Rows<Self, M> {
+        let [brackets] =
+            self.rows_by_parts::<M, _, _>([x, y], |group, [x, y]| [group.brackets::<M>(&x, &y)]);
+        brackets
+    }
+
     fn element_defect(&self, g: &Self::Element) -> T {
         self.largest(|at, group| group.element_defect(&g.as_ref()[at]))
     }
