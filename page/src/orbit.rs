@@ -4,11 +4,9 @@ use std::collections::HashMap;
 
 use coadjoint_codegen::poly::Numeric;
 
-/// How often the triangles of a sphere are parted in four.
-const FINENESS: u32 = 5;
-/// Cells of the grid along an axis, for other surfaces.
+/// Cells of the grid along an axis.
 const CELLS: usize = 34;
-/// Other surfaces are looked at up to this multiple of |μ|.
+/// Surfaces other than spheres are looked at up to this multiple of |μ|.
 const EXTENT: f64 = 1.7;
 /// Curves of the energy.
 const LEVELS: usize = 14;
@@ -70,52 +68,14 @@ impl Surface {
         if !(size > 0.0 && size.is_finite()) {
             return None;
         }
-        if is_sphere(casimir) {
-            return Some(Self::sphere(size));
+        let sphere = is_sphere(casimir);
+        let extent = if sphere { 1.05 * size } else { EXTENT * size };
+        let mut surface = Self::level(casimir, casimir.value(mu), extent);
+        if sphere {
+            surface.points.iter_mut().for_each(|p| *p = unit(*p).map(|x| x * size));
+            (surface.radius, surface.extent) = (Some(size), size);
         }
-        Some(Self::level(casimir, casimir.value(mu), EXTENT * size))
-            .filter(|surface| !surface.triangles.is_empty())
-    }
-
-    fn sphere(radius: f64) -> Self {
-        // An octahedron, parted.
-        let mut points = vec![
-            [1.0, 0.0, 0.0],
-            [-1.0, 0.0, 0.0],
-            [0.0, 1.0, 0.0],
-            [0.0, -1.0, 0.0],
-            [0.0, 0.0, 1.0],
-            [0.0, 0.0, -1.0],
-        ];
-        let mut triangles: Vec<[u32; 3]> = vec![
-            [0, 2, 4],
-            [2, 1, 4],
-            [1, 3, 4],
-            [3, 0, 4],
-            [2, 0, 5],
-            [1, 2, 5],
-            [3, 1, 5],
-            [0, 3, 5],
-        ];
-        for _ in 0..FINENESS {
-            let mut middles: HashMap<(u32, u32), u32> = HashMap::new();
-            let mut middle = |a: u32, b: u32| {
-                *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
-                    let (a, b) = (points[a as usize], points[b as usize]);
-                    points.push(unit([a[0] + b[0], a[1] + b[1], a[2] + b[2]]));
-                    points.len() as u32 - 1
-                })
-            };
-            triangles = triangles
-                .iter()
-                .flat_map(|&[a, b, c]| {
-                    let (d, e, f) = (middle(a, b), middle(b, c), middle(c, a));
-                    [[a, d, f], [d, b, e], [f, e, c], [d, e, f]]
-                })
-                .collect();
-        }
-        let points = points.iter().map(|p| p.map(|x| x * radius)).collect();
-        Self { points, triangles, radius: Some(radius), extent: radius }
+        Some(surface).filter(|surface| !surface.triangles.is_empty())
     }
 
     /// By marching tetrahedra, six in a cell.

@@ -44,6 +44,7 @@ fn bad_data_and_models_exit_with_two() {
         (&format!("{RUN} --start 2,0.5,1 --time 10"), "is not `coadjoint-model`"),
         ("learn missing.csv --dt 0.1", "missing.csv"),
         ("learn missing.csv --dt 0.1 --model network --activation relu", "--activation"),
+        ("geometrize --system examples/rigid_body.toml --map verlet --dt 0.1", "rk4"),
         ("geometrize --dt 0.1", "DATA"),
         (&format!("geometrize --system {BODY} --dt 0.1 --within 3,1"), "is no interval"),
         ("reproduce", paper),

@@ -4,6 +4,8 @@ use std::fmt::Write;
 use std::io;
 use std::path::Path;
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 
 /// The page with links out of the folder of sources replaced by the names of the files, as from the root of the
@@ -38,8 +40,8 @@ pub fn without_outside(page: &str, source: &Path) -> io::Result<String> {
                 }
             }
             Event::Start(Tag::Image { dest_url, .. }) if dest_url.starts_with("../") => {
-                let picture = std::fs::read_to_string(source.join(&*dest_url))?;
-                let address = format!("data:image/svg+xml,{}", encoded(&picture));
+                let picture = STANDARD.encode(std::fs::read(source.join(&*dest_url))?);
+                let address = format!("data:image/svg+xml;base64,{picture}");
                 written.push_str(&page[done..place.start]);
                 written.push_str(&page[place.clone()].replace(&*dest_url, &address));
                 done = place.end;
@@ -61,17 +63,4 @@ fn from_root(link: &str) -> String {
         }
     }
     folders.join("/")
-}
-
-/// A text as part of an address, without what would end a link in Markdown.
-fn encoded(text: &str) -> String {
-    let mut encoded = String::with_capacity(text.len() * 3 / 2);
-    for byte in text.bytes() {
-        if byte.is_ascii_alphanumeric() || b"-_.~/:;=,".contains(&byte) {
-            encoded.push(char::from(byte));
-        } else {
-            let _ = write!(encoded, "%{byte:02X}");
-        }
-    }
-    encoded
 }
