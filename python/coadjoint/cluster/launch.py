@@ -10,6 +10,7 @@ from .._arrays import Backend, Numbers, Real, count, flag
 from ..system import System
 from . import local
 from .drive import Engine
+from .engines import Dask, Ray
 from .errors import InputError
 from .job import Job
 from .progress import Progress
@@ -127,10 +128,4 @@ def engine_of(client: Any, workers: int | None, threads: int) -> Engine:
         )
     if workers is not None:
         raise InputError("workers is for processes of this machine: the client has its own number")
-    if home == "ray":
-        from .ray_engine import Ray
-
-        return Ray(client, threads)
-    from .dask_engine import Dask
-
-    return Dask(client)
+    return Ray(client, threads) if home == "ray" else Dask(client)

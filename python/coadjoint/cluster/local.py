@@ -5,6 +5,7 @@ from __future__ import annotations
 import concurrent.futures
 import os
 import pickle
+import signal
 import subprocess
 import sys
 import threading
@@ -17,7 +18,7 @@ from .shard import Summary, Task
 
 _START = (
     "import pickle, sys; sys.path[:] = pickle.load(sys.stdin.buffer); "
-    "from coadjoint.cluster.worker import main; main()"
+    "from coadjoint.cluster.local import serve; serve()"
 )
 
 
@@ -152,6 +153,31 @@ class _Process:
     def _send(self, value: object) -> None:
         pickle.dump(value, self._tasks)
         self._tasks.flush()
+
+
+def serve() -> None:
+    """The work of such a process: tasks come in by a pipe, summaries go out, until there are no more tasks."""
+    # An interruption is the parent's business.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    tasks = sys.stdin.buffer
+    answers = os.fdopen(os.dup(1), "wb")
+    # Output of other code must not come between the answers.
+    os.dup2(2, 1)
+    while True:
+        try:
+            task = pickle.load(tasks)
+        except EOFError:
+            return
+        answer: Summary | Exception
+        try:
+            answer = shard.run(task)
+        except Exception as error:
+            answer = error
+        try:
+            pickle.dump(answer, answers)
+            answers.flush()
+        except BrokenPipeError:
+            return
 
 
 def engine(workers: int | None) -> Here | Processes:
