@@ -301,7 +301,4 @@ pub(crate) struct GroupOptions {
     /// How to print
     #[arg(long, value_parser = named(FORMATS), default_value = "text")]
     pub format: Format,
-    /// The same as --format json
-    #[arg(long)]
-    pub json: bool,
 }

@@ -4,17 +4,17 @@ use std::path::Path;
 
 use coadjoint_codegen::signal::{Columns, Signal, SignalError};
 use coadjoint_codegen::smooth::Hamiltonian;
+use coadjoint_codegen::system::System;
 use coadjoint_learn::table::{Row, Table};
 
 use crate::error::RunError;
-use crate::load::System;
 use crate::number::shortest;
 
 /// Reads the tables of inputs that stand in files, which are named relative to that of the system.
 ///
 /// # Errors
 /// The file, and the row and the column where it is wrong.
-pub fn fill(system: &Path, read: &mut System) -> Result<(), RunError> {
+pub fn fill(system: &Path, read: &mut System<Hamiltonian>) -> Result<(), RunError> {
     let Hamiltonian::Smooth(smooth) = &mut read.problem else { return Ok(()) };
     for signal in &mut smooth.signals {
         if let Some(columns) = &signal.columns {

@@ -6,7 +6,6 @@ pub mod bridge;
 pub mod elliptic;
 pub mod emitted;
 pub mod energies;
-pub mod golden;
 pub mod kernels;
 pub mod matrix_free;
 pub mod moments;

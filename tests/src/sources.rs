@@ -1,4 +1,4 @@
-//! The files of the repository.
+//! The files of the repository, committed texts among them.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -31,4 +31,14 @@ pub fn rust(folder: &str) -> Vec<(String, String)> {
         }
     }
     files
+}
+
+/// Compares a text with the committed file of this name in `tests/golden`; with `COADJOINT_BLESS` set, writes the file.
+pub fn golden(name: &str, text: &str) {
+    let path = root().join("tests/golden").join(name);
+    if std::env::var_os("COADJOINT_BLESS").is_some() {
+        fs::write(&path, text).expect("a file that can be written");
+    }
+    let committed = fs::read_to_string(&path).unwrap_or_default();
+    assert!(committed == text, "{} differs from the text written now", path.display());
 }

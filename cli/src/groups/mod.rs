@@ -15,20 +15,19 @@ use facts::Facts;
 
 /// Prints the list of groups, or one group.
 pub(crate) fn run(options: &GroupOptions) -> Result<(), CliError> {
-    let program = options.json || options.format == Format::Json;
     let Some(name) = &options.name else {
         let all: Vec<Facts> =
             catalogue::names().iter().map(|name| Facts::new(name)).collect::<Result<_, _>>()?;
-        match program {
-            true => outln!("{:#}", list(&all)),
-            false => out!("{}", text::list(&all)),
+        match options.format {
+            Format::Json => outln!("{:#}", list(&all)),
+            Format::Text => out!("{}", text::list(&all)),
         }
         return Ok(());
     };
     let facts = Facts::new(name)?.with_casimirs(options.degree)?;
-    match program {
-        true => outln!("{:#}", group(&facts)),
-        false => out!("{}", text::group(&facts)),
+    match options.format {
+        Format::Json => outln!("{:#}", group(&facts)),
+        Format::Text => out!("{}", text::group(&facts)),
     }
     Ok(())
 }

@@ -182,7 +182,7 @@ fn casimirs(out: &mut String, facts: &Facts) {
         let _ = writeln!(out, "  {}", cut(&facts.casimir(casimir)));
     }
     if count > CASIMIRS {
-        let _ = writeln!(out, "  and {} more; --json prints all", count - CASIMIRS);
+        let _ = writeln!(out, "  and {} more; --format json prints all", count - CASIMIRS);
     }
 }
 
@@ -201,5 +201,5 @@ fn cut(text: &str) -> String {
         return text.to_owned();
     }
     let short: String = text.chars().take(LONGEST).collect();
-    format!("{short} ... (--json prints all)")
+    format!("{short} ... (--format json prints all)")
 }

@@ -1,6 +1,5 @@
 //! `coadjoint simulate`: a run, what it kept, and pictures of it.
 
-mod element;
 mod interrupt;
 mod keep;
 mod plot;

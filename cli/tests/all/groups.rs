@@ -34,7 +34,7 @@ where
     G::Vector: std::ops::Index<usize, Output = f64>,
 {
     use coadjoint::groups::Coordinates;
-    let facts = run(&format!("groups '{name}' --json")).json();
+    let facts = json(&format!("groups '{name}'"));
     let components = facts["ad_star"]["components"].as_array().unwrap();
     let n = components.len();
     let (xi, mu) = (numbers_of(n, 0.3), numbers_of(n, 2.9));
@@ -80,7 +80,7 @@ fn the_list_is_that_of_the_catalogue() {
 #[test]
 fn structure_constants_are_the_commutators_of_the_basis() {
     for name in ["SO4", "SU3", "U2", "SL2", "SO3 |x Sym3"] {
-        let facts = run(&format!("groups '{name}' --json")).json();
+        let facts = json(&format!("groups '{name}'"));
         let size = facts["matrix_size"].as_u64().unwrap() as usize;
         let matrix = |entries: &serde_json::Value| {
             let mut matrix = nalgebra::DMatrix::<f64>::zeros(size, size);

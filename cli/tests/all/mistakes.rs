@@ -35,36 +35,6 @@ fn mistakes_are_reported_with_file_and_line() {
 }
 
 #[test]
-fn one_line_reasons() {
-    for (text, reason) in [
-        // The bracket of E₁₂ and E₂₁ is diagonal.
-        (
-            "hamiltonian = \"mu[0]\"\n[algebra]\nbasis = [[[0, 1], [0, 0]], [[0, 0], [1, 0]]]",
-            "is not a combination of the basis",
-        ),
-        (
-            "hamiltonian = \"mu[0]\"\n[algebra]\nbasis = [[[0, 1], [0, 0]], [[0, 2], [0, 0]]]",
-            "linear combination of those before it",
-        ),
-        (
-            "hamiltonian = \"a\"\n[algebra]\ngenerators = [\"a\", \"b\", \"c\"]\nbrackets = [\"[a, b] = a\", \"[b, c] = b\", \"[c, a] = c\"]",
-            "the Jacobi identity fails for a, b, c",
-        ),
-        (
-            "group = \"SU3\"\nhamiltonian = \"mu[0]\"\n[integrator]\nchart = \"cayley\"",
-            "no Cayley chart",
-        ),
-        (
-            "group = \"SO3\"\nhamiltonian = \"mu[0]\"\n[integrator]\ntruncation = 6",
-            "truncation 6 is even",
-        ),
-    ] {
-        let ran = Folder::with(text).run("derive system.toml").fails(2, &[]);
-        assert!(ran.error.lines().next().unwrap().contains(reason), "{ran:?}");
-    }
-}
-
-#[test]
 fn options_are_checked_too() {
     Folder::with(GOOD).refused(&[
         ("simulate system.toml --step 0", "other than zero"),

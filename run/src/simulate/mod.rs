@@ -3,7 +3,6 @@
 mod blocks;
 mod estimate;
 mod event;
-mod learned;
 mod march;
 mod orbit;
 mod recorder;
@@ -17,9 +16,8 @@ pub use blocks::{Block, Kind, matrix, split};
 pub use estimate::LARGE;
 pub(crate) use estimate::{estimate, estimate_from};
 pub use event::{Crossing, Direction, Event, Function};
-pub use learned::run_model;
 pub use recorder::{Drift, Outcome, Recorder, Scales, Watched};
-pub use run::run;
+pub use run::{run, run_model};
 pub use setup::{Schedule, Setup, Stop, Times};
 pub use single::Single;
 pub use sink::{Begun, Halt, Record, Resume, Sink};

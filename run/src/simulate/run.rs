@@ -1,6 +1,15 @@
-//! The runs of systems: flows, or flows and kicks, from the initial state to the end.
+//! The runs of systems, flows or flows and kicks, and of learned maps: from the initial state to the end.
 
+use std::path::Path;
+use std::sync::Arc;
+
+use coadjoint::StepError;
+use coadjoint::groups::{Cayley, Chart, Exponential};
+use coadjoint::steps::advance;
+use coadjoint_codegen::lie;
 use coadjoint_codegen::smooth::Facts;
+use coadjoint_codegen::step::Invariants;
+use coadjoint_learn::{Generating, LearnError, Model, ModelFile};
 use coadjoint_program::Trajectories;
 
 use super::estimate::{ENDED, estimate};
@@ -8,6 +17,10 @@ use super::march::Subject;
 use super::recorder::{Outcome, Watched};
 use super::setup::Setup;
 use super::sink::Sink;
+use super::tally::Warning;
+use crate::engine::{
+    Charted, Elements, Motion, Numbers, Restore, Solves, Space, one_by_one, product_group,
+};
 use crate::error::RunError;
 use crate::load::Derived;
 
@@ -50,5 +63,75 @@ impl Derived {
     pub fn watched(&self) -> Watched<'_> {
         let Facts { algebra, coordinates, .. } = self.facts();
         Watched { algebra, coordinates, invariants: &self.invariants, attitude: true }
+    }
+}
+
+/// Follows a learned map, which is called `file` in messages and has its own step: the setup's schedule is that of
+/// [`Schedule::of_model`](super::Schedule::of_model).
+///
+/// # Errors
+/// Settings that make no sense, and why the run stopped.
+pub fn run_model(
+    file: &Path,
+    model: &ModelFile,
+    setup: &Setup,
+    sink: &mut dyn Sink,
+) -> Result<Outcome, RunError> {
+    let algebra = model.group.algebra()?;
+    let (expected, found) = (algebra.dim(), setup.momentum.len());
+    if found != expected {
+        return Err(LearnError::Shape { what: "the start".into(), expected, found }.into());
+    }
+    let coordinates: Vec<String> = (0..expected).map(|i| format!("mu[{i}]")).collect();
+    let (invariants, attitude) = (Invariants::of(&algebra), model.attitude);
+    let watched =
+        Watched { algebra: &algebra, coordinates: &coordinates, invariants: &invariants, attitude };
+    let warnings = if attitude { Vec::new() } else { vec![Warning::NoAttitude] };
+    let chart = if model.chart == "cayley" { lie::Chart::Cayley } else { lie::Chart::Exponential };
+    let group = Charted::new(file, product_group(file, &algebra)?, chart)?;
+    let motion: Box<dyn Motion + '_> = match &group {
+        Charted::Exponential(group) => Box::new(Learned::<_, Exponential>::new(group, model)),
+        Charted::Cayley(group) => Box::new(Learned::<_, Cayley>::new(group, model)),
+    };
+    let start = setup.start(file, motion.space())?;
+    let (mut outcome, _) =
+        Subject { setup, watched, warnings }.run(motion.as_ref(), &start, sink)?;
+    outcome.estimated_error = Err("not known: a learned map has steps of one size");
+    Ok(outcome)
+}
+
+struct Learned<'a, G: Restore, C: Chart<G>> {
+    elements: Elements<G>,
+    map: Generating<G, C, &'a Model>,
+}
+
+impl<'a, G: Restore, C: Chart<G>> Learned<'a, G, C> {
+    fn new(group: &Arc<G>, model: &'a ModelFile) -> Self {
+        let map = Generating::new((**group).clone(), &model.model);
+        Self { elements: Elements { group: group.clone(), compiled: None }, map }
+    }
+}
+
+impl<G: Restore, C: Chart<G> + Send + Sync> Motion for Learned<'_, G, C> {
+    fn space(&self) -> &dyn Space {
+        &self.elements
+    }
+
+    fn advance(&self, state: &mut Numbers, _: u64, count: u64) -> Result<Solves, (u64, StepError)> {
+        one_by_one(count, || {
+            let mut phase = self.elements.phase(state);
+            let report = advance(&self.map, &mut phase)?;
+            *state = self.elements.state(&phase);
+            Ok(Some((report.iterations, report.residual)))
+        })
+    }
+
+    /// A learned map has one step.
+    fn beside(&self, _: &Numbers, _: f64, size: f64) -> Result<Numbers, StepError> {
+        Err(StepError::InvalidStep { step: size })
+    }
+
+    fn ratio(&self, _: &[f64]) -> f64 {
+        0.0
     }
 }

@@ -13,8 +13,8 @@ use coadjoint_native::cards::{
 };
 use coadjoint_program::print::{DeviceLanguage, device_unit};
 use coadjoint_program::{Function, Graph, Id, Kernel, KernelParts, Precision, Programs, Stepper};
-use coadjoint_tests::golden;
 use coadjoint_tests::kernels::unlimited;
+use coadjoint_tests::sources::golden;
 use nalgebra::DMatrix;
 
 /// A step with its folded coefficients.
@@ -149,7 +149,7 @@ fn texts_are_the_committed_ones() {
     for (language, precision, file) in texts {
         let ready = ready(RIGID_BODY, 3, 0.1, precision);
         let about = "rigid_body, K = 3, h = 0.1";
-        golden::check(file, &device_unit(ready.kernel(), &ready.slots, language, about));
+        golden(file, &device_unit(ready.kernel(), &ready.slots, language, about));
     }
 }
 

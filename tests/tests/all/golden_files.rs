@@ -10,14 +10,15 @@ use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::{Build, emit};
 use coadjoint_learn::{ModelFile, problem};
-use coadjoint_tests::{emitted, golden};
+use coadjoint_tests::emitted;
+use coadjoint_tests::sources::golden;
 
 #[test]
 fn the_module_of_a_learned_model_is_the_committed_one() {
     let model = ModelFile::load(Path::new("reference/learned_body.json")).unwrap();
     let problem = problem(&model, "learned").unwrap();
     let integrator = Integrator::build(problem, TermLimit::default()).unwrap();
-    golden::check("learned.rs", &emit::file(&integrator, &emit::Options::for_problem("learned")));
+    golden("learned.rs", &emit::file(&integrator, &emit::Options::for_problem("learned")));
 }
 
 /// The build script emitted the same, byte for byte: another process, and another profile.
