@@ -58,9 +58,10 @@ fn runs(
     let read = |truncation| {
         let source = Source { truncation, ..source.clone() };
         let given = source.options(Parameters::Substituted);
-        let system = read_varying(&path.display().to_string(), &text, given, &[])?;
+        let name = path.display().to_string();
+        let system = read_varying(&name, &text, given, &[])?;
         match &options.until {
-            Some(function) => settings::with_end(&text, function, given),
+            Some(function) => settings::with_end(&name, &text, function, given),
             None => Ok(system),
         }
     };

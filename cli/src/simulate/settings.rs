@@ -12,7 +12,7 @@ use coadjoint_learn::ModelFile;
 use coadjoint_program::quoting::line;
 use coadjoint_run::number::shortest;
 use coadjoint_run::simulate::{Event, Scales, Schedule, Setup, Times};
-use coadjoint_run::{Derived, Flow, RunError, System};
+use coadjoint_run::{Derived, Flow, RunError, System, read_varying};
 use serde_json::{Map, Value, json};
 
 use super::target::{Place, Target, paths};
@@ -87,21 +87,28 @@ pub(crate) fn setup(options: &SimulateOptions, file: &Path, run: &Run) -> Result
     Ok(Setup { every, at, events, looks, backend, group_element, ..setup })
 }
 
-/// The system of this text with the event of `--until`, at which its run ends. Without it the text has no mistakes.
-pub(crate) fn with_end(text: &str, function: &str, options: Options) -> Result<System, CliError> {
+/// The system called `name` of this text with the event of `--until`, at which its run ends. Without it the text has no
+/// mistakes.
+pub(crate) fn with_end(
+    name: &str,
+    text: &str,
+    function: &str,
+    options: Options,
+) -> Result<System, CliError> {
     const QUOTE: &str = "'''";
     let refuse = |what: &str| CliError::Option(format!("--until {function}: {what}"));
     if function.contains(QUOTE) {
         return Err(refuse(&format!("no function has {QUOTE} in it")));
     }
     let text = format!("{text}\n[[event]]\nwhen = {QUOTE}{function}{QUOTE}\nstop = true\n");
-    read_either(&text, options, &[]).map_err(|mistakes| {
-        let said = |mistake: &Diagnostic| {
-            let help = mistake.help().map(|help| format!("\n  help: {help}"));
-            mistake.message() + &help.unwrap_or_default()
-        };
-        refuse(&mistakes.list().iter().map(said).collect::<Vec<_>>().join("; "))
-    })
+    let Err(mistakes) = read_either(&text, options, &[]) else {
+        return Ok(read_varying(name, &text, options, &[])?);
+    };
+    let said = |mistake: &Diagnostic| {
+        let help = mistake.help().map(|help| format!("\n  help: {help}"));
+        mistake.message() + &help.unwrap_or_default()
+    };
+    Err(refuse(&mistakes.list().iter().map(said).collect::<Vec<_>>().join("; ")))
 }
 
 /// Everything a run reads.
