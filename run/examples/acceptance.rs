@@ -6,13 +6,10 @@
 
 use std::process::ExitCode;
 
-use coadjoint_codegen::lie::{Chart, LieAlgebra, catalogue};
-use coadjoint_codegen::poly::Numeric;
+use coadjoint_codegen::lie::catalogue;
 use coadjoint_program::Trajectories;
-use coadjoint_run::engine::{
-    Charted, Compiled, Equations, Kept, Numbers, STEEP, identity, product_group,
-};
-use coadjoint_run::{Backend, integrator, polynomial, read};
+use coadjoint_run::engine::{Numbers, STEEP, identity};
+use coadjoint_run::{Backend, Derived, read};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -114,27 +111,23 @@ fn hamiltonian(group: &str, dim: usize, random: &mut ChaCha8Rng) -> (String, Opt
 }
 
 /// The exact flow, and what is compared with it.
-struct Truth {
-    velocity: Vec<Numeric>,
+struct Truth<'a> {
+    /// ∂H/∂μ.
+    velocity: &'a dyn Fn(&[f64]) -> Vec<f64>,
     structure: Vec<(usize, usize, usize, f64)>,
     /// The factor of each coordinate.
     factors: Vec<u32>,
     compact: bool,
 }
 
-impl Truth {
-    fn new(algebra: &LieAlgebra, velocity: Vec<Numeric>, compact: bool) -> Self {
-        let (structure, factors) = (algebra.constants(), algebra.factor_of_coordinates());
-        Self { velocity, structure, factors, compact }
-    }
-
+impl Truth<'_> {
     fn speed(&self, mu: &[f64]) -> f64 {
-        self.velocity.iter().map(|v| v.value(mu)).fold(0.0, f64::hypot)
+        (self.velocity)(mu).into_iter().fold(0.0, f64::hypot)
     }
 
     /// ad\*_{∂H/∂μ} μ
     fn field(&self, mu: &[f64]) -> Vec<f64> {
-        let omega: Vec<f64> = self.velocity.iter().map(|v| v.value(mu)).collect();
+        let omega = (self.velocity)(mu);
         let mut field = vec![0.0; mu.len()];
         for &(i, j, k, c) in &self.structure {
             field[j] += omega[i] * c * mu[k];
@@ -181,7 +174,7 @@ impl Truth {
 }
 
 /// A momentum whose step of unit time has h|Ω| up to [`LONGEST`] in the fastest factor; now and then along an axis.
-fn momentum(truth: &Truth, random: &mut ChaCha8Rng) -> Vec<f64> {
+fn momentum(truth: &Truth<'_>, random: &mut ChaCha8Rng) -> Vec<f64> {
     let dim = truth.factors.len();
     let mut mu: Vec<f64> = (0..dim).map(|_| random.random_range(-1.0..1.0)).collect();
     if random.random_bool(0.2) {
@@ -218,22 +211,13 @@ fn rows(name: &str, compact: bool, truncation: usize, rows: usize, seed: u64) ->
     let text = format!(
         "group = \"{name}\"\nhamiltonian = \"{energy}\"\n[integrator]\ntruncation = {truncation}\n"
     );
-    let system = read(name, &text).map_err(|error| said(&error))?;
-    let system = polynomial(name.as_ref(), system, "there is no kernel", "give another file");
-    let system = system.map_err(|error| said(&error))?;
-    let integrator = integrator(name.as_ref(), system.problem).map_err(|error| said(&error))?;
-    let problem = &integrator.problem;
-    let velocity = problem.hamiltonian.gradient(dim);
-    let velocity = velocity.iter().map(|rate| Numeric::new(rate, dim, &[])).collect();
-    let truth = Truth::new(&algebra, velocity, compact);
-    let group = product_group(name.as_ref(), &algebra).map_err(|error| said(&error))?;
-    let group = Charted::new(name.as_ref(), group, Chart::Exponential);
-    let group = group.map_err(|error| said(&error))?;
-    let (backend, kept) = (Backend::Interpreter, Kept::default());
-    let compiled = Compiled::new(&integrator, 1.0, backend, 1.0, Trajectories::One, &kept);
+    let derived = read(name, &text).and_then(Derived::of).map_err(|error| said(&error))?;
+    let energy_of = derived.invariants.hamiltonian.as_ref().ok_or_else(|| said(&"no energy"))?;
+    let (structure, factors) = (algebra.constants(), algebra.factor_of_coordinates());
+    let truth = Truth { velocity: &energy_of.gradient(dim), structure, factors, compact };
+    let compiled = derived.compiled(1.0, Backend::Interpreter, 1.0, Trajectories::One);
     let compiled = compiled.map_err(|error| said(&error))?.ok_or_else(|| said(&"no programs"))?;
-    let equations = Equations { integrator: &integrator, forces: None, parameters: Vec::new() };
-    let motion = group.steps(equations, 1.0, Some(compiled));
+    let motion = derived.steps(1.0, Some(&compiled)).map_err(|error| said(&error))?;
     let identity = motion.space().numbers(&identity(motion.space().size()));
     let mut tally = Tally::default();
     for _ in 0..rows {

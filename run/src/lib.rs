@@ -22,8 +22,8 @@ pub use backend::{Backend, Code, Used};
 pub use derivative::{Adjoint, Derivatives};
 pub use error::RunError;
 pub use load::{
-    Derived, Expansion, Flow, System, integrator, learned, polynomial, read, read_given,
-    read_group, read_varying,
+    Derived, Expansion, Flow, System, learned, polynomial, read, read_given, read_group,
+    read_varying,
 };
 
 /// The SHA-256 of a text in hexadecimal digits.

@@ -118,7 +118,7 @@ pub fn learned(model: &ModelFile) -> Result<System, RunError> {
 ///
 /// # Errors
 /// Where the series cannot be derived, or is too large.
-pub fn integrator(path: &Path, problem: Problem) -> Result<Integrator, RunError> {
+pub(crate) fn integrator(path: &Path, problem: Problem) -> Result<Integrator, RunError> {
     Integrator::build(problem, TermLimit::default()).map_err(RunError::of(path))
 }
 
@@ -262,7 +262,7 @@ impl Derived {
     ///
     /// # Errors
     /// Where the step makes no sense, or the backend that the user named cannot be had.
-    pub(crate) fn compiled(
+    pub fn compiled(
         &self,
         step: f64,
         backend: Backend,

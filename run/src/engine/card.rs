@@ -35,7 +35,7 @@ fn programs(
 ///
 /// # Errors
 /// Where they are not made of programs, or the device cannot be had.
-pub fn card(
+pub(crate) fn card(
     integrator: &Integrator,
     step_size: f64,
     device: Device,

@@ -29,7 +29,7 @@ pub struct Numbers {
 
 /// The compiled programs of one integrator, for later runs: programs do not depend on the size of a step.
 #[derive(Default)]
-pub struct Kept {
+pub(crate) struct Kept {
     programs: OnceLock<Arc<Programs>>,
     codes: Mutex<Vec<(Backend, Trajectories, Arc<Code>)>>,
 }
@@ -119,7 +119,7 @@ impl Compiled {
     ///
     /// # Errors
     /// Where the backend that the user named cannot be had.
-    pub fn new(
+    pub(crate) fn new(
         integrator: &Integrator,
         size: f64,
         backend: Backend,
@@ -165,7 +165,7 @@ impl Compiled {
     }
 
     /// The same steps with what is folded for another size or other values of the parameters.
-    pub fn with(&mut self, folded: Folded) {
+    pub(crate) fn with(&mut self, folded: Folded) {
         self.folded = folded;
     }
 
@@ -173,7 +173,7 @@ impl Compiled {
     ///
     /// # Errors
     /// Where a coefficient is not finite.
-    pub fn fold(
+    pub(crate) fn fold(
         &self,
         integrator: &Integrator,
         size: f64,
@@ -220,7 +220,7 @@ impl Compiled {
     }
 
     /// The backend that makes the steps.
-    pub fn code(&self) -> &Code {
+    pub(crate) fn code(&self) -> &Code {
         &self.code.0
     }
 
@@ -230,12 +230,12 @@ impl Compiled {
     }
 
     /// The programs.
-    pub fn kernel(&self) -> &Kernel {
+    pub(crate) fn kernel(&self) -> &Kernel {
         self.programs.step.kernel()
     }
 
     /// The spatial momentum Ad\*_g μ of a state.
-    pub fn spatial_momentum(&self, state: &Numbers) -> Vec<f64> {
+    pub(crate) fn spatial_momentum(&self, state: &Numbers) -> Vec<f64> {
         self.programs.spatial.momentum(&state.g, &state.mu)
     }
 
@@ -244,7 +244,7 @@ impl Compiled {
     ///
     /// # Errors
     /// How many steps were made, and why the next one was not; the state is then that before it.
-    pub fn advance(
+    pub(crate) fn advance(
         &self,
         numbers: &mut Numbers,
         steps: u64,
@@ -271,12 +271,12 @@ impl Compiled {
     }
 
     /// The numbers of the element with this matrix, row by row.
-    pub fn element_of(&self, matrix: &[f64]) -> Vec<f64> {
+    pub(crate) fn element_of(&self, matrix: &[f64]) -> Vec<f64> {
         self.programs.step.element_of(matrix)
     }
 
     /// The matrix of an element, row by row.
-    pub fn matrix_of(&self, g: &[f64]) -> Vec<f64> {
+    pub(crate) fn matrix_of(&self, g: &[f64]) -> Vec<f64> {
         self.kernel().programs.matrix.run(g, &[])
     }
 

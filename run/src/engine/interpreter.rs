@@ -61,7 +61,7 @@ pub(super) fn coefficients(
 
 /// The truncated series of an integrator for one step size, on any group with its algebra; solved as its plan says.
 #[derive(Clone, Debug)]
-pub struct Interpreter<'a, G, C> {
+pub(crate) struct Interpreter<'a, G, C> {
     pub(super) integrator: &'a Integrator,
     pub(super) group: G,
     /// The coefficients for the step size, as programs of it read them; see [`FoldTable::new`].
@@ -73,7 +73,7 @@ pub struct Interpreter<'a, G, C> {
 
 impl<'a, G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> Interpreter<'a, G, C> {
     /// Folds the coefficients for the step size and the values of the parameters that are kept.
-    pub fn new(
+    pub(crate) fn new(
         integrator: &'a Integrator,
         group: G,
         step: f64,
@@ -93,7 +93,7 @@ impl<'a, G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> Interpreter<'a, G, C> {
 
     /// The ratio by which steps are judged where it may be above [`STEEP`]: of the last two terms of ∂S at p, or that which
     /// the rate at which motions part stands for; 0 where it is known to be at most [`STEEP`] and p need not be looked at.
-    pub fn ratio(&self, p: &G::Vector) -> f64
+    pub(crate) fn ratio(&self, p: &G::Vector) -> f64
     where
         G: LieGroup<Scalar = f64>,
     {

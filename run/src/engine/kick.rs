@@ -25,11 +25,12 @@ pub struct Forces {
 }
 
 /// Makes a step of a state.
-pub type Map<'a, G> = Box<dyn Fn(&mut Phase<G>) -> Result<Solves, StepError> + Send + Sync + 'a>;
+pub(crate) type Map<'a, G> =
+    Box<dyn Fn(&mut Phase<G>) -> Result<Solves, StepError> + Send + Sync + 'a>;
 
 /// The step of this size by the generic solver: a flow, or flows and kicks. It serves where programs refuse a step, and
 /// where a system has none.
-pub fn map<'a, G: Group + 'a, C: Chart<G> + Send + Sync + 'a>(
+pub(crate) fn map<'a, G: Group + 'a, C: Chart<G> + Send + Sync + 'a>(
     integrator: &'a Integrator,
     forces: Option<&'a Forces>,
     group: &G,
@@ -48,7 +49,7 @@ pub fn map<'a, G: Group + 'a, C: Chart<G> + Send + Sync + 'a>(
 
 impl Forces {
     /// Derives the torque.
-    pub fn new(potential: Potential, splitting: Splitting) -> Self {
+    pub(crate) fn new(potential: Potential, splitting: Splitting) -> Self {
         Self { kick: Kick::build(potential), splitting }
     }
 
@@ -60,7 +61,7 @@ impl Forces {
     }
 
     /// The step of flows and kicks.
-    pub fn step<'a, G: Group + 'a, C: Chart<G> + Send + Sync + 'a>(
+    pub(crate) fn step<'a, G: Group + 'a, C: Chart<G> + Send + Sync + 'a>(
         &'a self,
         integrator: &'a Integrator,
         group: &G,

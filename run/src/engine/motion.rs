@@ -130,7 +130,7 @@ pub(crate) fn advise(error: StepError, h: f64, mut works: impl FnMut(f64) -> boo
 
 /// The equations of a motion: a flow, kicks where there are forces, and the values of the parameters that are kept.
 #[derive(Clone, Debug)]
-pub struct Equations<'a> {
+pub(crate) struct Equations<'a> {
     /// The flow.
     pub integrator: &'a Integrator,
     /// The forces.
@@ -141,7 +141,7 @@ pub struct Equations<'a> {
 
 /// A group known at run time, with its chart.
 #[derive(Debug)]
-pub enum Charted {
+pub(crate) enum Charted {
     /// With the exponential.
     Exponential(Arc<DirectProduct<MatrixGroup>>),
     /// With the Cayley map.
@@ -153,7 +153,7 @@ impl Charted {
     ///
     /// # Errors
     /// Where the group does not have the chart.
-    pub fn new(
+    pub(crate) fn new(
         file: &Path,
         group: DirectProduct<MatrixGroup>,
         chart: lie::Chart,
@@ -183,7 +183,7 @@ impl Charted {
     }
 
     /// The steps of this size: by programs where there are any.
-    pub fn steps<'a>(
+    pub(crate) fn steps<'a>(
         &self,
         equations: Equations<'a>,
         size: f64,

@@ -17,7 +17,7 @@ use super::space::Group;
 const SPACING: f64 = 0.25;
 
 /// The second derivatives of a smooth Hamiltonian, and those of the generating functions of its steps.
-pub struct Response<'a> {
+pub(crate) struct Response<'a> {
     smooth: &'a Smooth,
     symbols: Arc<[f64]>,
     /// μ, t, the signals, v ↦ ∂²H/∂μ² v.
@@ -30,7 +30,7 @@ pub struct Response<'a> {
 
 impl<'a> Response<'a> {
     /// For these values of the parameters that the system keeps, from which the symbols have theirs.
-    pub fn new(smooth: &'a Smooth, symbols: Arc<[f64]>, parameters: &[f64]) -> Self {
+    pub(crate) fn new(smooth: &'a Smooth, symbols: Arc<[f64]>, parameters: &[f64]) -> Self {
         let inputs: Vec<Argument> = (0..smooth.algebra.dim()).map(Argument::Input).collect();
         let slots: Vec<Argument> = (0..symbols.len()).map(Argument::Slot).collect();
         let slope = |number: usize| {
@@ -46,7 +46,7 @@ impl<'a> Response<'a> {
     }
 
     /// q, the number of parameters.
-    pub fn parameters(&self) -> usize {
+    pub(crate) fn parameters(&self) -> usize {
         self.slopes.len()
     }
 
@@ -57,7 +57,7 @@ impl<'a> Response<'a> {
     ///
     /// # Errors
     /// Where two solutions meet.
-    pub fn of<G: Group, const M: usize>(
+    pub(crate) fn of<G: Group, const M: usize>(
         &self,
         group: &G,
         solution: &Solution<DVector<f64>, M>,

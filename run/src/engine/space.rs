@@ -24,7 +24,7 @@ impl<G> Group for G where
 }
 
 /// The group whose Lie algebra this is, factor by factor for a direct product.
-pub fn product_group(
+pub(crate) fn product_group(
     path: &Path,
     algebra: &LieAlgebra,
 ) -> Result<DirectProduct<MatrixGroup>, RunError> {

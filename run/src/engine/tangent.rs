@@ -15,7 +15,7 @@ use super::linear::{Linear, columns};
 use super::space::Group;
 
 /// The parts of a step of one size, with what their derivatives need.
-pub struct Tangent<'a, G, C> {
+pub(crate) struct Tangent<'a, G, C> {
     flows: Vec<Flow<'a, G, C>>,
     kicks: Option<Kicks<'a, G>>,
     /// p, v ↦ S_pp v.
@@ -57,7 +57,7 @@ impl<'a, G: Group + 'a, C: Chart<G>> Tangent<'a, G, C> {
     ///
     /// # Errors
     /// Where a coefficient is not finite.
-    pub fn new(
+    pub(crate) fn new(
         integrator: &'a Integrator,
         forces: Option<&'a Forces>,
         group: &G,
@@ -96,7 +96,7 @@ impl<'a, G: Group + 'a, C: Chart<G>> Tangent<'a, G, C> {
     ///
     /// # Errors
     /// Where there is no step.
-    pub fn linear(&self, mut phase: Phase<G>) -> Result<Linear, StepError> {
+    pub(crate) fn linear(&self, mut phase: Phase<G>) -> Result<Linear, StepError> {
         let parameters = self.flows.first().map_or(0, |flow| flow.by_parameters.len());
         let mut total = Linear::identity(phase.momentum.len(), parameters);
         for (number, flow) in self.flows.iter().enumerate() {
