@@ -42,6 +42,7 @@ pub struct Names {
 
 impl Names {
     /// Adds a second name of something, which messages do not list; nothing where the name is known already.
+    #[cfg(feature = "system")]
     pub(crate) fn alias(&mut self, name: String, meaning: Name) {
         self.known.entry(name).or_insert(meaning);
     }
