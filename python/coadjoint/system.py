@@ -71,6 +71,7 @@ class System:
         inputs: Mapping[str, Any] | None = None,
         units: Mapping[str, str] | None = None,
         potential: str | sympy.Expr | None = None,
+        torque: Iterable[str | sympy.Expr] | None = None,
         truncation: int | None = None,
         chart: str | None = None,
         solver: str | None = None,
@@ -89,9 +90,10 @@ class System:
             coordinates = _arrays.listed(coordinates, "coordinates")
         arguments = [(key, value) for key, value in locals().items() if key not in ("self", "__class__")]
         name = _arrays.text(name, "name")
+        torque = None if torque is None else list(torque)
         given = tuple(pair for pair in arguments if pair[1] is not None and pair != ("name", "system"))
         functions = _functions(hamiltonian, gradient)
-        known = _text.symbols(None if functions else hamiltonian, potential, *(coordinates or ()))
+        known = _text.symbols(None if functions else hamiltonian, potential, *(torque or ()), *(coordinates or ()))
         called = [] if coordinates is None else _text.names(coordinates, "coordinates")
         shown = _text.mapping(units, "units")
         each: _arrays.Units = [shown.get(own, shown.get("momentum")) for own in called] or shown.get("momentum")
@@ -112,6 +114,7 @@ class System:
             "coordinates": _text.strings(called) if called else None,
             "hamiltonian": None if functions else formula("" if hamiltonian is None else hamiltonian, "hamiltonian"),
             "potential": formula(potential, "potential"),
+            "torque": None if torque is None else _text.strings([_text.expression(own, "torque") for own in torque]),
         }
         tables = {
             "algebra": {} if whole else _text.algebra(group),

@@ -597,7 +597,7 @@ impl Core {
     ) -> PyResult<String> {
         if self.system.potential.is_some() {
             let what =
-                "a system with a potential is not judged: between its kicks the motion is free";
+                "a system with a potential or a torque is not judged: between its kicks the motion is free";
             return Err(refused(py, what.to_owned()));
         }
         let (name, mut system) = (self.name.clone(), self.system.clone());

@@ -127,3 +127,15 @@ def test_inputs_are_arrays() -> None:
     assert np.abs(system.simulate().momentum[-1] - expected).max() < 1e-12
     with pytest.raises(InputError, match="the input `u` goes from time 0 to 4"):
         system.simulate(time=5)
+
+
+def test_torques_are_lists_of_expressions() -> None:
+    x, y, z, c = sympy.symbols("x y z c")
+    system = ca.System(
+        "SO3", "(x^2 + y^2 + z^2)/4", coordinates="x y z", torque=[-c * x, "-c*y", -c * z], parameters={"c": 0.3},
+        step=0.01, momentum=START, time=2,
+    )
+    run = system.simulate()
+    assert np.abs(run.momentum[-1] - np.exp(-0.6) * np.array(START)).max() < 1e-5
+    with pytest.raises(TypeError, match="a torque acts"):
+        bool(run.largest_drift.energy < 1)

@@ -145,10 +145,9 @@ fn laws_of<G: Group, C: Chart<G> + Send + Sync>(
     if let Some(forces) = &series.forces {
         let make = |h| forces.step::<G, C>(integrator, &group, h);
         let expected = forces.splitting.order().min(integrator.order() as u32);
-        laws.extend(
-            kicked(h, make, expected.into(), &group, (&points, &starts))
-                .map_err(RunError::at_start)?,
-        );
+        let hamiltonian = forces.kick.potential.alone().is_none();
+        let tried = (hamiltonian, &points[..], &starts[..]);
+        laws.extend(kicked(h, make, expected.into(), &group, tried).map_err(RunError::at_start)?);
     }
     Ok((laws, ratio))
 }
@@ -191,22 +190,24 @@ fn laws_of_steps(
     Ok(laws)
 }
 
-/// The laws that are left to the whole step where a potential breaks the symmetry.
+/// The laws that are left to the whole step where a potential breaks the symmetry; where a torque does that is not Hamiltonian,
+/// the order alone.
 fn kicked<'a, G: Group>(
     h: f64,
     make: impl Fn(f64) -> Result<Map<'a, G>, StepError>,
     expected: f64,
     group: &G,
-    (points, starts): (&[Phase<G>], &[Phase<G>]),
+    (hamiltonian, points, starts): (bool, &[Phase<G>], &[Phase<G>]),
 ) -> Result<Vec<Law>, StepError> {
     let (there, back) = (make(h)?, make(-h)?);
     let (mut symplectic, mut symmetric) = (None, 0.0_f64);
-    for point in points {
-        let defect = laws::symplectic_defect_of(group, point, &mut |state| there(state).map(drop))?;
+    for point in points.iter().filter(|_| hamiltonian) {
+        let defect =
+            laws::symplectic_defect_of(group, point, &mut |state| there(state, 0.0).map(drop))?;
         symplectic = defect.map(|defect| maximum(symplectic.unwrap_or(0.0), defect));
         let mut state = point.clone();
-        there(&mut state)?;
-        back(&mut state)?;
+        there(&mut state, 0.0)?;
+        back(&mut state, h)?;
         let difference = (&state.momentum - &point.momentum).amax() / point.momentum.amax();
         symmetric = maximum(symmetric, difference);
     }
@@ -220,11 +221,12 @@ fn kicked<'a, G: Group>(
     let symmetric = law("symmetric+V", statement, symmetric, 1e-11);
     let order = measured(h, expected, group, starts, |h, steps, state| {
         let step = make(h)?;
-        (0..steps).try_for_each(|_| step(state).map(drop))
+        (0..steps).try_for_each(|number| step(state, f64::from(number) * h).map(drop))
     });
     let statement = "flows and kicks: that of the splitting";
     let order = Law { name: "order+V", statement, ..order };
-    Ok(symplectic.into_iter().chain([symmetric, order]).collect())
+    let symmetric = hamiltonian.then_some(symmetric);
+    Ok(symplectic.into_iter().chain(symmetric).chain([order]).collect())
 }
 
 /// Steps of the coarsest run.

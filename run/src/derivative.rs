@@ -53,7 +53,8 @@ impl<'a> Derivatives<'a> {
     }
 
     fn steps(&self) -> Result<&dyn Differentiable, RunError> {
-        let what = "no derivatives are known of learned maps and of functions of the user's";
+        let what =
+            "no derivatives are known of learned maps, of functions of the user's and of torques";
         self.motion.differentiable().ok_or_else(|| RunError::Option(what.to_owned()))
     }
 

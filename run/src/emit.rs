@@ -85,6 +85,7 @@ pub fn header(
             (integrator, HeaderOptions { only_step: Some(model.step), ..style }, None)
         }
         Source::System(system, choice) => {
+            system.writable().map_err(RunError::of(path))?;
             let system = polynomial(path, *system, "there is no header of it", INSTEAD)?;
             let units = &system.units;
             let of = |i| units.coordinate(i).map(str::to_owned);
@@ -130,6 +131,7 @@ pub fn kernel(
         }
         Source::System(system, choice) => {
             let step = step.or(system.run.step).ok_or_else(|| RunError::no_step(path))?;
+            system.writable().map_err(RunError::of(path))?;
             let system = polynomial(path, *system, "there is no kernel of it", INSTEAD)?;
             (with_kicks(path, system.problem, system.potential)?, step, choice)
         }

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use coadjoint_codegen::potential::{Force, Potential};
 use coadjoint_codegen::signal::{Columns, Signal, SignalError};
 use coadjoint_codegen::smooth::Hamiltonian;
 use coadjoint_codegen::system::System;
@@ -15,8 +16,15 @@ use crate::number::shortest;
 /// # Errors
 /// The file, and the row and the column where it is wrong.
 pub fn fill(system: &Path, read: &mut System<Hamiltonian>) -> Result<(), RunError> {
-    let Hamiltonian::Smooth(smooth) = &mut read.problem else { return Ok(()) };
-    for signal in &mut smooth.signals {
+    let of_energy = match &mut read.problem {
+        Hamiltonian::Smooth(smooth) => &mut smooth.signals[..],
+        Hamiltonian::Polynomial(_) => &mut [],
+    };
+    let of_torque = match &mut read.potential {
+        Some((Potential { force: Force::Smooth(programs), .. }, _)) => &mut programs.signals[..],
+        _ => &mut [],
+    };
+    for signal in of_energy.iter_mut().chain(of_torque) {
         if let Some(columns) = &signal.columns {
             let folder = system.parent().unwrap_or(Path::new(""));
             *signal = of_file(&signal.name, columns, &folder.join(&columns.file))?;

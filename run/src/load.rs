@@ -48,7 +48,8 @@ pub fn read_varying(
     let mut read = read.map_err(|mistakes| RunError::Input(mistakes.render(name, text)))?;
     inputs::fill(Path::new(name), &mut read)?;
     if let (Some(parameter), true) = (varied.first(), read.potential.is_some()) {
-        let what = "parameters of a system with a potential do not vary from row to row";
+        let what =
+            "parameters of a system with a potential or a torque do not vary from row to row";
         return Err(RunError::Input(format!("{name}: column {parameter}: {what}")));
     }
     Ok(read)
@@ -225,7 +226,11 @@ impl Derived {
     /// The first that has not.
     pub fn reaches(&self, end: f64) -> Result<(), RunError> {
         match &self.flow {
-            Flow::Series(_) => Ok(()),
+            Flow::Series(series) => {
+                let torque =
+                    series.forces.as_ref().and_then(|forces| forces.kick.potential.alone());
+                inputs::reach(&self.file, torque.map_or(&[], |torque| &torque.signals), end)
+            }
             Flow::Collocation(smooth, _) => inputs::reach(&self.file, &smooth.signals, end),
         }
     }
@@ -244,6 +249,12 @@ impl Derived {
             Flow::Series(series) => Some(series),
             Flow::Collocation(..) => None,
         }
+    }
+
+    /// Whether states move alike at all times and without those before them, so that many may move side by side.
+    pub fn alike(&self) -> bool {
+        let moves = |forces: &Forces| forces.kick.potential.moves();
+        self.series().is_some_and(|series| !series.forces.as_ref().is_some_and(moves))
     }
 
     /// The group that the equations are on.

@@ -1,29 +1,122 @@
-//! Potentials V(g), polynomials in the matrix entries of the group element, and what follows from
-//! them exactly: the body torque −g⁻¹dV(g), the symmetry that is left, the Casimirs that survive.
+//! Potentials V(g), functions of the matrix entries of the group element, and what follows from
+//! them: the body torque −g⁻¹dV(g), the symmetry that is left, the Casimirs that survive. A torque may also have no potential.
 
 use std::collections::BTreeMap;
 
-use num_traits::Zero;
+use coadjoint_program::{Argument, Graph, Id, Program};
+use num_traits::{ToPrimitive, Zero};
 
 use crate::lie::{Echelon, LieAlgebra, RationalMatrix};
 use crate::number::{Rational, integer};
-use crate::poly::Polynomial;
-use crate::problem::{Parameter, Symbol};
+use crate::poly::{Numeric, Polynomial};
+use crate::problem::{Parameter, Symbol, values};
+use crate::signal::Signal;
 
-/// A potential on a Lie group.
+/// A force, as its kicks are made.
+#[derive(Clone, Debug)]
+pub enum Force {
+    /// That of a potential V, a polynomial over ℚ in the entries of the group element's matrix, row by row (the first `size`²
+    /// variables), and the [`Symbol`]s (the variables after them).
+    Polynomial(Polynomial),
+    /// That of another smooth function, or a torque without potential.
+    Smooth(Box<Programs>),
+}
+
+/// A force as programs.
 ///
-/// V is a polynomial over ℚ in the entries of the group element's matrix, row by row (the first
-/// `size`² variables), and the [`Symbol`]s (the variables after them). The matrix is that of the
-/// algebra's basis, or the adjoint matrix where only brackets are known.
+/// Their inputs are the entries of the group element's matrix, row by row; without a potential, after them the momentum, the
+/// time, and the values of the signals. Their slots are the [`Symbol`]s.
+#[derive(Clone, Debug)]
+pub struct Programs {
+    /// V, where the torque has a potential.
+    pub value: Option<Program>,
+    /// The body torque.
+    pub torque: Program,
+    /// As [`Smooth::watched`](crate::smooth::Smooth::watched).
+    pub watched: Program,
+    /// The texts of the expressions watched.
+    pub expressions: Vec<String>,
+    /// Whether the torque depends on the momentum.
+    pub of_momentum: bool,
+    /// Whether it depends on the time.
+    pub moves: bool,
+    /// Its inputs u(t).
+    pub signals: Vec<Signal>,
+}
+
+impl Programs {
+    /// Of a potential, by programs for V, its derivatives in the entries, and what is watched, whose inputs are the entries and
+    /// the time, of which they do not depend.
+    #[must_use]
+    pub fn of_potential(
+        algebra: &LieAlgebra,
+        [value, gradient, watched]: [&Program; 3],
+        expressions: Vec<String>,
+    ) -> Self {
+        let size = algebra.matrix_size();
+        let entries = || -> (Graph, Vec<Id>) {
+            let graph = Graph::new();
+            let mut inputs: Vec<Id> = (0..size * size).map(|at| graph.input(at)).collect();
+            inputs.push(graph.zero());
+            (graph, inputs)
+        };
+        let autonomous = |program: &Program| {
+            let (graph, inputs) = entries();
+            let outputs = graph.call(program, &inputs);
+            graph.finish(size * size, &outputs)
+        };
+        let (graph, g) = entries();
+        let slopes = graph.call(gradient, &g);
+        // (g e)_ij = Σ_l g_il e_lj.
+        let along = |e: &RationalMatrix| {
+            let mut sum = graph.zero();
+            for (l, j, value) in e.entries() {
+                let factor = graph.constant(-value.to_f64().unwrap_or(f64::NAN));
+                for i in 0..size {
+                    let scaled = graph.mul(factor, g[i * size + l]);
+                    sum = graph.times_plus(scaled, slopes[i * size + j], sum);
+                }
+            }
+            sum
+        };
+        let outputs: Vec<Id> = algebra.matrices().iter().map(along).collect();
+        let (of_momentum, moves, signals) = (false, false, Vec::new());
+        let torque = graph.finish(size * size, &outputs);
+        let (value, watched) = (Some(autonomous(value)), autonomous(watched));
+        Self { value, torque, watched, expressions, of_momentum, moves, signals }
+    }
+
+    /// The inputs of the programs for these entries of the matrix, this momentum and this time.
+    #[must_use]
+    pub fn inputs(&self, entries: &[f64], mu: &[f64], time: f64) -> Vec<f64> {
+        let mut inputs = entries.to_vec();
+        if self.value.is_none() {
+            inputs.extend_from_slice(mu);
+            inputs.push(time);
+            inputs.extend(self.signals.iter().map(|signal| signal.at(time)));
+        }
+        inputs
+    }
+
+    /// V's derivatives in the entries.
+    fn slopes(&self, entries: usize) -> Option<Program> {
+        let arguments: Vec<Argument> = (0..entries).map(Argument::Input).collect();
+        Some(self.value.as_ref()?.gradient(&arguments))
+    }
+}
+
+/// A potential on a Lie group, or a torque without one.
+///
+/// The matrix of a group element is that of the algebra's basis, or the adjoint matrix where only brackets are known.
 #[derive(Clone, Debug)]
 pub struct Potential {
     /// The name of the potential.
     pub name: String,
     /// The Lie algebra 𝔤.
     pub algebra: LieAlgebra,
-    /// The polynomial V.
-    pub energy: Polynomial,
-    /// The opaque coefficients of `energy`.
+    /// V, or the torque.
+    pub force: Force,
+    /// The opaque coefficients of the force.
     pub symbols: Vec<Symbol>,
     /// The parameters the symbols are made of.
     pub parameters: Vec<Parameter>,
@@ -38,26 +131,42 @@ impl Potential {
         self.algebra.matrix_size()
     }
 
-    /// The body torque: component k is −d/ds V(g·exp(s e_k)) at s = 0, which is
+    /// The torque without potential, where it is one.
+    #[must_use]
+    pub fn alone(&self) -> Option<&Programs> {
+        match &self.force {
+            Force::Smooth(programs) if programs.value.is_none() => Some(programs),
+            _ => None,
+        }
+    }
+
+    /// Whether kicks depend on the time.
+    #[must_use]
+    pub fn moves(&self) -> bool {
+        self.alone().is_some_and(|torque| torque.moves)
+    }
+
+    /// The body torque of a polynomial V: component k is −d/ds V(g·exp(s e_k)) at s = 0, which is
     /// −Σ ∂V/∂g_ij (g e_k)_ij.
     #[must_use]
-    pub fn torque(&self) -> Vec<Polynomial> {
+    pub fn torque(&self, energy: &Polynomial) -> Vec<Polynomial> {
         // (g e)_ij = Σ_l g_il e_lj.
         let motion = |e: &RationalMatrix, i: usize, j: usize| {
             let column = e.entries().filter(|&(_, c, _)| c == j);
             column.map(|(l, _, value)| ((i, l), -value.clone())).collect()
         };
-        self.algebra.matrices().iter().map(|e| self.along(|i, j| motion(e, i, j))).collect()
+        self.algebra.matrices().iter().map(|e| self.along(energy, |i, j| motion(e, i, j))).collect()
     }
 
     /// Σ ∂V/∂g_ij m_ij with m_ij linear in g, given by its terms ((row, column), coefficient).
     fn along(
         &self,
+        energy: &Polynomial,
         motion: impl Fn(usize, usize) -> Vec<((usize, usize), Rational)>,
     ) -> Polynomial {
         let size = self.size();
         let mut terms = Vec::new();
-        for (exponents, value) in self.energy.terms() {
+        for (exponents, value) in energy.terms() {
             // A variable is an entry of the matrix, number row · size + column.
             for at in (0..size * size).filter(|&at| exponents[at] > 0) {
                 for ((row, column), by) in motion(at / size, at % size) {
@@ -69,26 +178,52 @@ impl Potential {
                 }
             }
         }
-        Polynomial::from_terms(self.energy.variables(), terms)
+        Polynomial::from_terms(energy.variables(), terms)
     }
 }
 
 /// The maximum number of multiplications in an elimination.
 const OPERATIONS: u64 = 10_000_000;
+/// The size of rounding in sums that vanish, relative to their terms.
+const ROUNDING: f64 = 1e-10;
+/// Terms of an exponential.
+const TERMS: usize = 30;
 
 impl Potential {
+    /// A basis of the ξ ∈ 𝔤 with ⟨J_L, ξ⟩ conserved, their largest coordinate being 1: of a polynomial exactly, of another V by
+    /// its slopes at random elements of the group. Of a torque without potential there are none.
+    #[must_use]
+    pub fn directions(&self) -> Vec<Vec<f64>> {
+        let found = match &self.force {
+            Force::Polynomial(energy) => {
+                let float = |x: &Rational| x.to_f64().unwrap_or(f64::NAN);
+                self.symmetries(energy).iter().map(|xi| xi.iter().map(float).collect()).collect()
+            }
+            Force::Smooth(programs) => self.level(programs),
+        };
+        let scaled = |xi: Vec<f64>| {
+            let size = xi.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
+            xi.iter().map(|x| x / size).collect()
+        };
+        found.into_iter().map(scaled).collect()
+    }
+
     /// A basis of the ξ ∈ 𝔤 with V(exp(sξ)g) = V(g), found as polynomials in the entries of any
     /// matrix g: by Noether's theorem ⟨J_L, ξ⟩ is conserved, by kicks exactly. Symmetries that
     /// rest on relations between the entries, such as orthogonality, are not found.
     #[must_use]
-    pub fn symmetries(&self) -> Vec<Vec<Rational>> {
+    pub fn symmetries(&self, energy: &Polynomial) -> Vec<Vec<Rational>> {
         // (e g)_ij = Σ_l e_il g_lj.
         let motion = |e: &RationalMatrix, i: usize, j: usize| {
             let row = e.entries().filter(|&(r, _, _)| r == i);
             row.map(|(_, l, value)| ((l, j), value.clone())).collect()
         };
-        let slopes: Vec<Polynomial> =
-            self.algebra.matrices().iter().map(|e| self.along(|i, j| motion(e, i, j))).collect();
+        let slopes: Vec<Polynomial> = self
+            .algebra
+            .matrices()
+            .iter()
+            .map(|e| self.along(energy, |i, j| motion(e, i, j)))
+            .collect();
         let mut rows: BTreeMap<Vec<u32>, BTreeMap<u32, Rational>> = BTreeMap::new();
         for (k, slope) in slopes.iter().enumerate() {
             for (exponents, value) in slope.terms() {
@@ -111,11 +246,14 @@ impl Potential {
             .map_or_else(|_| Vec::new(), |kernel| kernel.into_iter().map(dense).collect())
     }
 
-    /// Whether kicks by V conserve this function C of the momentum: Σ_k ∂C/∂μ_k τ_k(g) = 0 for all μ
-    /// and g, τ the body torque.
+    /// Whether kicks conserve this function C of the momentum: Σ_k ∂C/∂μ_k τ_k = 0 for all μ and g, τ the body torque; where
+    /// that is no polynomial, as far as random states and times tell.
     #[must_use]
     pub fn keeps(&self, casimir: &Polynomial) -> bool {
-        let torque = self.torque();
+        let torque = match &self.force {
+            Force::Polynomial(energy) => self.torque(energy),
+            Force::Smooth(programs) => return self.seems_to_keep(programs, casimir),
+        };
         let mut sums: BTreeMap<(Vec<u32>, Vec<u32>), Rational> = BTreeMap::new();
         for (k, torque) in torque.iter().enumerate() {
             for (mu, slope) in casimir.derivative(k).terms() {
@@ -126,4 +264,136 @@ impl Potential {
         }
         sums.values().all(Zero::is_zero)
     }
+
+    /// The ξ along which V does not change at random elements, where enough of them are in its domain.
+    fn level(&self, programs: &Programs) -> Vec<Vec<f64>> {
+        let (n, size) = (self.algebra.dim(), self.size());
+        let Some(slopes) = programs.slopes(size * size) else { return Vec::new() };
+        let (symbols, generators) = (values(&self.symbols), self.generators());
+        // Σ ∂V/∂g_ij (e g)_ij for each e.
+        let row = |g: Vec<f64>| -> Vec<f64> {
+            let slopes = slopes.run(&g, &symbols);
+            let along = |e: &Vec<f64>| -> f64 {
+                product(e, &g, size).iter().zip(&slopes).map(|(a, b)| a * b).sum()
+            };
+            generators.iter().map(along).collect()
+        };
+        let rows = self.elements(&generators, 2 * n + 5).into_iter().map(row);
+        let rows: Vec<Vec<f64>> = rows.filter(|row| row.iter().all(|x| x.is_finite())).collect();
+        if rows.len() < n + 2 { Vec::new() } else { kernel(rows, n) }
+    }
+
+    fn seems_to_keep(&self, programs: &Programs, casimir: &Polynomial) -> bool {
+        let (n, generators, symbols) =
+            (self.algebra.dim(), self.generators(), values(&self.symbols));
+        let slopes: Vec<Numeric> =
+            (0..n).map(|k| Numeric::new(&casimir.derivative(k), n, &[])).collect();
+        let mut random = random();
+        let mut tried = 0;
+        for g in self.elements(&generators, n + 5) {
+            let mu: Vec<f64> = (0..n).map(|_| random()).collect();
+            let mut inputs = g;
+            if programs.value.is_none() {
+                inputs.extend_from_slice(&mu);
+                inputs.extend((0..=programs.signals.len()).map(|_| random()));
+            }
+            let torque = programs.torque.run(&inputs, &symbols);
+            let terms = slopes.iter().zip(&torque).map(|(slope, torque)| slope.value(&mu) * torque);
+            let (sum, size) = terms.fold((0.0, 0.0), |(sum, size), x| (sum + x, size + x.abs()));
+            if sum.is_finite() && sum.abs() > ROUNDING * size {
+                return false;
+            }
+            tried += usize::from(sum.is_finite());
+        }
+        tried > n
+    }
+
+    fn generators(&self) -> Vec<Vec<f64>> {
+        let size = self.size();
+        let dense = |e: &RationalMatrix| {
+            let mut matrix = vec![0.0; size * size];
+            for (i, j, value) in e.entries() {
+                matrix[i * size + j] = value.to_f64().unwrap_or(f64::NAN);
+            }
+            matrix
+        };
+        self.algebra.matrices().iter().map(dense).collect()
+    }
+
+    /// Random elements of the group, row by row; none where they would take long.
+    fn elements(&self, generators: &[Vec<f64>], count: usize) -> Vec<Vec<f64>> {
+        let size = self.size();
+        if (count * TERMS * size.pow(3)) as u64 > 10 * OPERATIONS {
+            return Vec::new();
+        }
+        let mut random = random();
+        let mut element = || {
+            let mut x = vec![0.0; size * size];
+            for e in generators {
+                let factor = random();
+                x.iter_mut().zip(e).for_each(|(x, e)| *x += factor * e);
+            }
+            let one: Vec<f64> =
+                (0..size * size).map(|at| f64::from(u8::from(at / size == at % size))).collect();
+            // 1 + x (1 + x/2 (1 + x/3 (…)))
+            (1..=TERMS).rev().fold(one.clone(), |sum, k| {
+                let next = product(&x, &sum, size);
+                next.iter().zip(&one).map(|(next, one)| one + next / k as f64).collect()
+            })
+        };
+        (0..count).map(|_| element()).collect()
+    }
+}
+
+/// The product of two square matrices, row by row.
+fn product(a: &[f64], b: &[f64], size: usize) -> Vec<f64> {
+    let entry = |at: usize| -> f64 {
+        (0..size).map(|l| a[at / size * size + l] * b[l * size + at % size]).sum()
+    };
+    (0..size * size).map(entry).collect()
+}
+
+/// Numbers between −1 and 1, the same at every call (D. E. Knuth's linear congruences, MMIX).
+fn random() -> impl FnMut() -> f64 {
+    let mut state = 1_u64;
+    move || {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        f64::from((state >> 32) as u32) / f64::from(1_u32 << 31) - 1.0
+    }
+}
+
+/// A basis of the vectors of `n` coordinates that all rows take to zero, but for rounding.
+fn kernel(mut rows: Vec<Vec<f64>>, n: usize) -> Vec<Vec<f64>> {
+    let largest = |rows: &[Vec<f64>]| rows.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let scale = largest(&rows);
+    let mut pivots: Vec<usize> = Vec::new();
+    loop {
+        let done = pivots.len();
+        let places = (done..rows.len()).flat_map(|i| (0..n).map(move |j| (i, j)));
+        let size = |&(i, j): &(usize, usize)| rows[i][j].abs();
+        let place = places.max_by(|a, b| size(a).total_cmp(&size(b)));
+        let Some((i, j)) = place.filter(|place| size(place) > ROUNDING * scale) else { break };
+        rows.swap(done, i);
+        let pivot: Vec<f64> = rows[done].iter().map(|x| x / rows[done][j]).collect();
+        for (other, row) in rows.iter_mut().enumerate() {
+            let factor = row[j];
+            match other == done {
+                true => row.clone_from(&pivot),
+                false => row.iter_mut().zip(&pivot).for_each(|(x, pivot)| *x -= factor * pivot),
+            }
+            if other != done {
+                row[j] = 0.0;
+            }
+        }
+        pivots.push(j);
+    }
+    let free = (0..n).filter(|j| !pivots.contains(j));
+    let vector = |j: usize| {
+        let mut vector = vec![0.0; n];
+        vector[j] = 1.0;
+        pivots.iter().zip(&rows).for_each(|(&pivot, row)| vector[pivot] = -row[j]);
+        vector
+    };
+    free.map(vector).collect()
 }

@@ -40,8 +40,7 @@ pub(crate) fn rk45(
     let torque = torque.transpose().map_err(|source| RunError::Step { time: 0.0, source })?;
     let (n, size) = (facts.algebra.dim(), group.matrix_size());
     let Some(energy) = &system.invariants.hamiltonian else {
-        let what =
-            "--compare: the Hamiltonian depends on time, and the comparison takes none that does";
+        let what = "--compare: the Hamiltonian depends on time, or a torque acts, and the comparison takes neither";
         return Err(CliError::Option(what.to_owned()));
     };
     let gradient = energy.gradient(n);
@@ -51,13 +50,14 @@ pub(crate) fn rk45(
     let state: Vec<f64> = start.mu.iter().chain(&start.g).copied().collect();
 
     // μ̇ = ad*_ξ μ + τ(g) and ġ = g·ξ with ξ = ∂H_red/∂μ.
-    let flow = |_t: f64, y: &Vec<f64>, rate: &mut Vec<f64>| {
+    let flow = |t: f64, y: &Vec<f64>, rate: &mut Vec<f64>| {
         let mu = DVector::from_column_slice(&y[..n]);
         let g = DMatrix::from_row_slice(size, size, &y[n..]);
         let xi = DVector::from_vec(gradient(&y[..n]));
         let mut force = group.ad_star(&xi, &mu);
         if let Some(torque) = &torque {
-            force += torque.torque(&group.restore(&|i, j| g[(i, j)]));
+            let torque = torque.torque(&group.restore(&|i, j| g[(i, j)]), &mu, t);
+            force += torque.unwrap_or_else(|_| DVector::repeat(n, f64::NAN));
         }
         rate[..n].copy_from_slice(force.as_slice());
         let moved = g * matrix_of(group, &xi);

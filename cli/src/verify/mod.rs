@@ -74,7 +74,8 @@ fn judge(
     output: &Path,
 ) -> Result<Found, CliError> {
     let refuse = |what: &str| Err(CliError::Option(format!("{}: {what}", output.display())));
-    let kicked = "a system with a potential is not judged: between its kicks the motion is free";
+    let kicked =
+        "a system with a potential or a torque is not judged: between its kicks the motion is free";
     for (name, what) in [
         (
             "tuned",

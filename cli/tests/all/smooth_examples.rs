@@ -81,3 +81,88 @@ fn a_pulse_turns_a_qubit_over_with_the_known_probability() {
     assert!(probability > 0.7);
     assert!((end[2] - (1.0 - 2.0 * probability)).abs() < 1e-11, "{end:?} {probability}");
 }
+
+/// The ring turns at the rate 11 cos θ/(4π sin² θ), and Σμ stays.
+#[test]
+fn a_ring_of_twelve_vortices_turns_at_the_known_rate() {
+    let end = end("vortex_ring.toml");
+    let angle = 11.0 * 0.8 / (4.0 * PI * 0.36) * 3.2;
+    for (vortex, found) in end.chunks(3).enumerate() {
+        let (sin, cos) = (angle + PI * vortex as f64 / 6.0).sin_cos();
+        assert!(distance(found, &[0.6 * cos, 0.6 * sin, 0.8]) < 1e-8, "{vortex}: {found:?}");
+    }
+    let sum = |i: usize| end.chunks(3).map(|mu| mu[i]).sum::<f64>();
+    assert!(distance(&[sum(0), sum(1), sum(2)], &[0.0, 0.0, 9.6]) < 1e-12, "{end:?}");
+}
+
+fn cross(a: &[f64], b: &[f64]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// Steps of the classical method of Runge and Kutta to this time.
+fn runge_kutta<const N: usize>(
+    mut state: [f64; N],
+    (time, steps): (f64, u32),
+    rate: impl Fn(f64, &[f64; N]) -> [f64; N],
+) -> [f64; N] {
+    let h = time / f64::from(steps);
+    let beside = |y: &[f64; N], k: &[f64; N], by: f64| std::array::from_fn(|i| y[i] + by * k[i]);
+    for step in 0..steps {
+        let t = f64::from(step) * h;
+        let k1 = rate(t, &state);
+        let k2 = rate(t + h / 2.0, &beside(&state, &k1, h / 2.0));
+        let k3 = rate(t + h / 2.0, &beside(&state, &k2, h / 2.0));
+        let k4 = rate(t + h, &beside(&state, &k3, h));
+        state =
+            std::array::from_fn(|i| state[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]));
+    }
+    state
+}
+
+/// Π' = Π × I⁻¹(Π − h(t)), h by Lagrange's formula.
+#[test]
+fn wheels_turn_a_satellite_as_its_own_equations_say() {
+    let found = end("reaction_wheels.toml --step 0.02");
+    let tables = [[0.0, 0.4, 0.2, 0.0], [0.0, -0.3, 0.1, 0.5], [0.0, 0.2, 0.6, 0.3]];
+    let cubic = |values: &[f64; 4], t: f64| -> f64 {
+        let term = |k: usize| {
+            let others = (0..4).filter(|j| *j != k);
+            let factor = |j: usize| (t / 10.0 - j as f64) / (k as f64 - j as f64);
+            values[k] * others.map(factor).product::<f64>()
+        };
+        (0..4).map(term).sum()
+    };
+    let inertia = [1.0, 1.5, 2.0];
+    let expected = runge_kutta([0.3, 0.2, 0.5], (30.0, 30_000), |t, mu| {
+        cross(mu, &[0, 1, 2].map(|i: usize| (mu[i] - cubic(&tables[i], t)) / inertia[i]))
+    });
+    assert!(distance(&found, &expected) < 1e-11, "{found:?} {expected:?}");
+}
+
+/// In body axes: q' = p/m − Ω × q, Π' = Π × Ω + q × ∇V, p' = p × Ω − ∇V.
+#[test]
+fn a_satellite_on_an_ellipse_moves_as_its_own_equations_say() {
+    let report = json("simulate examples/elliptic_satellite.toml --time 5 --step 0.005");
+    let inertia = [0.01, 0.03, 0.035];
+    let start = [1.0, 0.0, 0.0, 0.005, 0.01, 0.04, 0.0, 0.9, 0.1];
+    let expected = runge_kutta(start, (5.0, 50_000), |_, state| {
+        let (q, pi, p) = (&state[..3], &state[3..6], &state[6..]);
+        let omega = [0, 1, 2].map(|i| pi[i] / inertia[i]);
+        let r = q.iter().map(|q| q * q).sum::<f64>().sqrt();
+        let (trace, long) = (0.075, (0..3).map(|i| inertia[i] * q[i] * q[i]).sum::<f64>());
+        let along = 1.0 / r.powi(3) + 1.5 * trace / r.powi(5) - 7.5 * long / r.powi(7);
+        let slope = [0, 1, 2].map(|i| q[i] * along + 3.0 * inertia[i] * q[i] / r.powi(5));
+        let ([a, b, c], torque) =
+            ([cross(&omega, q), cross(pi, &omega), cross(p, &omega)], cross(q, &slope));
+        std::array::from_fn(|i| match i / 3 {
+            0 => p[i] - a[i],
+            1 => b[i - 3] + torque[i - 3],
+            _ => c[i - 6] - slope[i - 6],
+        })
+    });
+    let found = numbers(&report["momentum"]);
+    assert!(distance(&found, &expected[3..]) < 1e-10, "{found:?} {expected:?}");
+    assert_eq!(report["conserved_momenta"], 3);
+    let drift = |name: &str| report["drift"][name].as_f64().unwrap();
+    assert!(drift("spatial_momentum") < 1e-13 && drift("energy") < 1e-11, "{report}");
+}

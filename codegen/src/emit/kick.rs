@@ -31,7 +31,7 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
     let slots = Literal::usize_unsuffixed(kick.coefficients.slots().len());
     let table = fold_item(krate, &FoldTable::of_kick(kick));
 
-    let energy = scalar_function(&kick.energy, options, "g");
+    let energy = kick.energy.as_ref().map(|energy| scalar_function(energy, options, "g"));
     let torque = vector_function(&kick.torque, vector, options, "g");
     let cost = kick.torque.cost();
     let summary = [

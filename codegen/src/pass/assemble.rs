@@ -10,7 +10,7 @@ use crate::expr::{Arena, ExprId, Node};
 use crate::lie::{Chart, LieAlgebra};
 use crate::number::Rational;
 use crate::poly::Polynomial;
-use crate::potential::Potential;
+use crate::potential::{Force, Potential, Programs};
 #[cfg(feature = "system")]
 use crate::problem::values;
 use crate::problem::{FrameChoice, Method, Parameter, Problem, Symbol};
@@ -157,7 +157,7 @@ fn assemble_smooth(
             let mut table = Table::new();
             let inputs: Vec<String> = signals.iter().map(|signal| signal.name.clone()).collect();
             let names = [&coordinates[..], &energy.scalar_names(), &inputs];
-            let lowered = lower(&energy.arena, root, names, &mut table, diagnostics)?;
+            let lowered = lower(&energy.arena, &[root], names, &mut table, diagnostics)?;
             if lowered.gradient.nodes().iter().all(|node| *node == coadjoint_program::Node::Zero) {
                 diagnostics.report(place, Mistake::NoDependence);
                 return None;
@@ -261,7 +261,8 @@ pub(crate) fn function(
     diagnostics: &Diagnostics,
 ) -> Option<(coadjoint_program::Program, Vec<f64>)> {
     let (root, _) = energy.root?;
-    let lowered = lower(&energy.arena, root, [names, &[], &[]], &mut Table::new(), diagnostics)?;
+    let names = [names, &[], &[]];
+    let lowered = lower(&energy.arena, &[root], names, &mut Table::new(), diagnostics)?;
     Some((lowered.value, values(&lowered.symbols)))
 }
 
@@ -286,16 +287,69 @@ pub(crate) fn assemble_potential(
         diagnostics.report_other(span, message, &help);
     }
     let Read { mut table, sum, found } = Read::new(&energy);
-    for found in found {
+    let (of_series, others): (Vec<_>, Vec<_>) =
+        found.into_iter().partition(|found| found.mistake.is_of_series());
+    for found in others {
         diagnostics.report(found.span, found.mistake.in_potential());
     }
     if diagnostics.len() > before {
         return None;
     }
-    let (algebra, size) = (algebra?, size?);
-    let (polynomial, symbols) = exact(sum?, size * size, &mut table, &energy.scalar_names());
+    let (algebra, size, names) = (algebra?, size?, energy.scalar_names());
+    let (force, symbols) = if of_series.is_empty() {
+        let (polynomial, symbols) = exact(sum?, size * size, &mut table, &names);
+        (Force::Polynomial(polynomial), symbols)
+    } else {
+        let entries = entries(size);
+        let names = [&entries[..], &names, &[]];
+        let (root, place) = energy.root?;
+        let found = Diagnostics::new();
+        let lowered = lower(&energy.arena, &[root], names, &mut Table::new(), &found);
+        for found in found.list() {
+            diagnostics.report(found.span, found.mistake.in_potential());
+        }
+        let Lowered { value, gradient, watched, expressions, symbols } = lowered?;
+        if gradient.nodes().iter().all(|node| *node == coadjoint_program::Node::Zero) {
+            diagnostics.report(place, Mistake::NoDependence.in_potential());
+            return None;
+        }
+        let programs = [&value, &gradient, &watched];
+        (Force::Smooth(Box::new(Programs::of_potential(&algebra, programs, expressions))), symbols)
+    };
     let Energy { parameters, source, .. } = energy;
-    Some(Potential { name, algebra, energy: polynomial, symbols, parameters, source })
+    Some(Potential { name, algebra, force, symbols, parameters, source })
+}
+
+/// The names of the entries of a matrix, row by row.
+pub(crate) fn entries(size: usize) -> Vec<String> {
+    (0..size * size).map(|at| format!("g[{}][{}]", at / size, at % size)).collect()
+}
+
+/// Checks what was read and turns it into a torque without potential, whose components are `roots`; its coordinates are the
+/// entries of the matrix, then the momentum.
+#[cfg(feature = "system")]
+pub(crate) fn assemble_torque(
+    algebra: LieAlgebra,
+    coordinates: &[String],
+    signals: Vec<Signal>,
+    (energy, roots): (Energy, Vec<ExprId>),
+    diagnostics: &Diagnostics,
+) -> Option<Potential> {
+    let size = algebra.matrix_size();
+    let names = [entries(size), coordinates.to_vec()].concat();
+    let inputs: Vec<String> = signals.iter().map(|signal| signal.name.clone()).collect();
+    let names = [&names[..], &energy.scalar_names(), &inputs];
+    let lowered = lower(&energy.arena, &roots, names, &mut Table::new(), diagnostics)?;
+    let Lowered { value: torque, watched, expressions, symbols, .. } = lowered;
+    let (entries, moves) = (size * size, energy.moves());
+    let of_momentum = energy.arena.iter().any(
+        |(_, node, _)| matches!(node, Node::Coordinate(i) if (entries..entries + coordinates.len()).contains(i)),
+    );
+    let value = None;
+    let programs = Programs { value, torque, watched, expressions, of_momentum, moves, signals };
+    let force = Force::Smooth(Box::new(programs));
+    let Energy { parameters, source, .. } = energy;
+    Some(Potential { name: "torque".to_owned(), algebra, force, symbols, parameters, source })
 }
 
 /// The polynomial in `count` variables and the symbols, and the symbols.

@@ -10,6 +10,6 @@ mod sums;
 
 pub(crate) use assemble::{Draft, Energy, assemble, assemble_either, assemble_potential, linear};
 #[cfg(feature = "system")]
-pub(crate) use assemble::{assemble_given, constant, function};
+pub(crate) use assemble::{assemble_given, assemble_torque, constant, entries, function};
 pub(crate) use choice::Choice;
 pub use frame::in_other_frame;

@@ -34,16 +34,16 @@ enum Value {
     Number(Id),
 }
 
-/// Lowers the expression `root` in coordinates, scalar parameters and inputs with these names; `None` if something was
-/// wrong, which is then reported.
+/// Lowers the expressions `roots` in coordinates, scalar parameters and inputs with these names, with the gradient of their
+/// sum; `None` if something was wrong, which is then reported.
 pub(super) fn lower(
     arena: &Arena,
-    root: ExprId,
+    roots: &[ExprId],
     names: [&[String]; 3],
     table: &mut Table,
     diagnostics: &Diagnostics,
 ) -> Option<Lowered> {
-    let needed = needed(arena, root);
+    let needed = needed(arena, roots);
     let [coordinates, scalars, signals] = names;
     let mut pass = Pass {
         time: coordinates.len(),
@@ -55,17 +55,19 @@ pub(super) fn lower(
         values: Vec::new(),
         texts: texts(arena, names),
     };
-    for (id, node, span) in arena.iter().take(root.index() + 1) {
+    for (id, node, span) in arena.iter() {
         let value = if needed[id.index()] { pass.node(id, node, span) } else { None };
         pass.values.push(value);
     }
-    let root = pass.values.pop().flatten()?;
-    let root = pass.number(&root);
+    let roots: Option<Vec<Id>> =
+        roots.iter().map(|&root| Some(pass.take(root)?).map(|root| pass.number(&root))).collect();
+    let roots = roots?;
     let Pass { graph, table, slots, watched, texts, .. } = pass;
     let n = coordinates.len();
     let inputs: Vec<Id> = (0..n).map(|i| graph.input(i)).collect();
     let one = graph.constant(1.0);
-    let gradient = graph.pull_back(&[(root, one)], &inputs);
+    let weighted: Vec<_> = roots.iter().map(|&root| (root, one)).collect();
+    let gradient = graph.pull_back(&weighted, &inputs);
     let finish = |outputs: &[Id]| graph.finish(n + 1 + signals.len(), outputs);
     let pairs: Vec<Id> = watched.iter().flat_map(|&(_, argument, test)| [argument, test]).collect();
     let mut numbered: Vec<_> = slots.into_iter().collect();
@@ -76,7 +78,7 @@ pub(super) fn lower(
         Symbol { expr, text }
     });
     Some(Lowered {
-        value: finish(&[root]),
+        value: finish(&roots),
         gradient: finish(&gradient),
         watched: finish(&pairs),
         expressions: watched.iter().map(|&(id, ..)| texts[id.index()].0.clone()).collect(),
@@ -84,11 +86,11 @@ pub(super) fn lower(
     })
 }
 
-/// Which nodes `root` is made of.
-fn needed(arena: &Arena, root: ExprId) -> Vec<bool> {
+/// Which nodes these are made of.
+fn needed(arena: &Arena, roots: &[ExprId]) -> Vec<bool> {
     let mut needed = vec![false; arena.len()];
-    needed[root.index()] = true;
-    let nodes: Vec<_> = arena.iter().take(root.index() + 1).collect();
+    roots.iter().for_each(|root| needed[root.index()] = true);
+    let nodes: Vec<_> = arena.iter().collect();
     for (id, node, _) in nodes.into_iter().rev() {
         if needed[id.index()] {
             node.operands().into_iter().flatten().for_each(|id| needed[id.index()] = true);

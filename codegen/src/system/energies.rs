@@ -4,14 +4,15 @@ use super::initial::copies;
 use super::parameters::Parameters;
 use super::table::Table;
 use crate::diagnostic::Span;
-use crate::expr::Node;
+use crate::expr::{Arena, ExprId, Node};
 use crate::lie::LieAlgebra;
-use crate::parse::{Name, Names};
-use crate::pass::Energy;
+use crate::parse::{Name, Names, text};
+use crate::pass::{Energy, entries};
 use crate::signal::Signal;
 
 const COORDINATES: &str = "coordinates = [\"x\", \"y\", \"z\"]";
 const HAMILTONIAN: &str = "hamiltonian = \"x^2/2 + y^2/4\"";
+const TORQUE: &str = "torque = [\"-c*x\", \"-c*y\", \"-c*z\"]";
 const POTENTIAL: &str = "potential = \"m*g[2][2]\"";
 
 /// Reads `hamiltonian`, in these coordinates; without any it would be full of unknown names.
@@ -41,13 +42,64 @@ pub(super) fn hamiltonian(
         return Energy::default();
     }
     let energy = root.energy("hamiltonian", HAMILTONIAN, &names, kept).unwrap_or_default();
+    energy
+}
+
+/// Reports inputs that none of these has.
+pub(super) fn check_inputs(root: &Table<'_>, inputs: &[(Signal, Span)], energies: &[&Energy]) {
     for (i, (signal, place)) in inputs.iter().enumerate() {
-        if !energy.arena.iter().any(|(_, node, _)| *node == Node::Signal(i)) {
-            let what = format!("the input `{}` does not occur in the Hamiltonian", signal.name);
+        let has =
+            |energy: &&Energy| energy.arena.iter().any(|(_, node, _)| *node == Node::Signal(i));
+        if !energies.iter().any(has) {
+            let what = format!(
+                "the input `{}` does not occur in the Hamiltonian or a torque",
+                signal.name
+            );
             root.diagnostics.report_other(*place, what, "name it there, or leave it out");
         }
     }
-    energy
+}
+
+/// Reads `torque`, if the file has one and its group is known: a list of expressions in the entries of the group element's
+/// matrix, the momentum, the time and the inputs, one for each coordinate.
+pub(super) fn torque(
+    root: &Table<'_>,
+    algebra: Option<&LieAlgebra>,
+    coordinates: &[(String, Span)],
+    parameters: &Parameters,
+    inputs: &[(Signal, Span)],
+) -> Option<(Energy, Vec<ExprId>)> {
+    let (list, place) = root.strings("torque", "a list of expressions", TORQUE)?;
+    let entries = entries(algebra?.matrix_size());
+    if let Some((_, place)) = root.string("potential", POTENTIAL).filter(|_| root.has("torque")) {
+        let message = "both `potential` and `torque` are given";
+        let help = "keep one, or write the torque of the potential, -g⁻¹dV, into `torque`";
+        root.diagnostics.report_other(place, message, help);
+    }
+    let (found, needed) = (list.len(), coordinates.len());
+    if found != needed {
+        let message = format!("`torque` has {found} components, and the momentum {needed}");
+        root.diagnostics.report_other(place, message, &format!("write for example {TORQUE}"));
+        return None;
+    }
+    let entry = |name: &String| (name.clone(), Span::Whole);
+    let all: Vec<_> = entries.iter().map(entry).chain(coordinates.iter().cloned()).collect();
+    let mut names = Names::of_coordinates(&all, root.diagnostics);
+    let kept = parameters.add_to(&mut names, root.diagnostics);
+    for i in 0..needed {
+        names.alias(format!("mu[{i}]"), Name::Coordinate(entries.len() + i));
+    }
+    for (i, (signal, place)) in inputs.iter().enumerate() {
+        names.add(&signal.name, Name::Signal(i), *place, root.diagnostics);
+    }
+    names.alias("t".to_owned(), Name::Time);
+    let mut arena = Arena::new();
+    let parse = |(text, place): &(String, Span)| {
+        text::parse(text, root.offset(*place, text), &[], &names, &mut arena, root.diagnostics)
+    };
+    let roots = list.iter().map(parse).collect();
+    let source = list.iter().map(|(text, _)| &text[..]).collect::<Vec<_>>().join(", ");
+    Some((Energy { arena, root: None, parameters: kept, source }, roots))
 }
 
 /// The names of the coordinates, and where they are given; those of the generators, or mu[0], mu[1], … where none are
@@ -82,9 +134,8 @@ pub(super) fn potential(
     parameters: &Parameters,
 ) -> Option<Energy> {
     root.string("potential", POTENTIAL)?;
-    let size = algebra?.matrix_size();
-    let entry = |at: usize| (format!("g[{}][{}]", at / size, at % size), Span::Whole);
-    let entries: Vec<_> = (0..size * size).map(entry).collect();
+    let names = entries(algebra?.matrix_size());
+    let entries: Vec<_> = names.into_iter().map(|name| (name, Span::Whole)).collect();
     let mut names = Names::of_coordinates(&entries, root.diagnostics);
     let kept = parameters.add_to(&mut names, root.diagnostics);
     root.energy("potential", POTENTIAL, &names, kept)

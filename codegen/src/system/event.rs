@@ -5,7 +5,7 @@ use coadjoint_program::Program;
 use super::table::Table;
 use crate::lie::LieAlgebra;
 use crate::parse::{Name, Names};
-use crate::pass::function;
+use crate::pass::{entries, function};
 
 const EVENT: &str = "[[event]] with when = \"g[2][2]\"";
 const WHEN: &str = "when = \"g[2][2]\"";
@@ -37,9 +37,7 @@ pub(super) fn read(
     let Some((list, _)) = root.array("event", EVENT) else { return Vec::new() };
     let Some(algebra) = algebra else { return Vec::new() };
     let size = algebra.matrix_size();
-    let entries = (0..size * size).map(|at| format!("g[{}][{}]", at / size, at % size));
-    let mut inputs = coordinates.to_vec();
-    inputs.extend(entries);
+    let inputs = [coordinates.to_vec(), entries(size)].concat();
     let mut names = Names::default();
     for (place, name) in inputs.iter().enumerate() {
         names.known(name, Name::Coordinate(place));

@@ -65,9 +65,11 @@ use crate::lie::{LieAlgebra, catalogue};
 use crate::parse::Names;
 use crate::pass::{
     Choice, Draft, Energy, assemble, assemble_either, assemble_given, assemble_potential,
+    assemble_torque,
 };
 use crate::potential::Potential;
 use crate::problem::{Parameter, Problem};
+use crate::signal::Signal;
 use crate::smooth::{Given, Hamiltonian};
 use table::Table;
 
@@ -85,7 +87,7 @@ const DEFAULT_NAME: &str = "system";
 pub struct System<H = Problem> {
     /// The system.
     pub problem: H,
-    /// The potential V(g), if the file has one, and the splitting to compose its kicks by.
+    /// The potential V(g), or the torque, if the file has one, and the splitting to compose its kicks by.
     pub potential: Option<(Potential, Splitting)>,
     /// Where to start, how far and in which steps; each as far as the file says.
     pub run: Run,
@@ -101,6 +103,11 @@ impl System<Hamiltonian> {
     /// # Errors
     /// Why not: code has no inputs, and would read others than these.
     pub fn writable(&self) -> Result<(), String> {
+        if self.potential.as_ref().is_some_and(|(potential, _)| potential.alone().is_some()) {
+            let what =
+                "no code is written of a torque: `simulate`, `ensemble` and Python make its kicks";
+            return Err(what.to_owned());
+        }
         let signals = match &self.problem {
             Hamiltonian::Smooth(smooth) => &smooth.signals[..],
             Hamiltonian::Polynomial(_) => &[],
@@ -246,6 +253,7 @@ fn system<H>(
         "coordinates",
         "hamiltonian",
         "potential",
+        "torque",
         "parameters",
         "inputs",
         "units",
@@ -265,6 +273,13 @@ fn system<H>(
             Energy { source: name.to_owned(), parameters, ..Energy::default() }
         }
     };
+    let torque = energies::torque(&root, algebra.as_ref(), &coordinates, &parameters, &inputs);
+    // Of a wrong torque it is not known.
+    if torque.is_some() || !root.has("torque") {
+        let torque = torque.as_ref().map(|(torque, _)| torque);
+        let energies: Vec<_> = torque.into_iter().chain([&hamiltonian]).collect();
+        energies::check_inputs(&root, &inputs, &energies);
+    }
     let coordinates: Vec<String> = coordinates.into_iter().map(|(name, _)| name).collect();
     let units = units::read(&root, &coordinates);
     let integrator = root.table("integrator");
@@ -281,7 +296,14 @@ fn system<H>(
     let potential = potential.and_then(|energy| {
         assemble_potential("potential".to_owned(), algebra.clone(), None, energy, diagnostics)
     });
-    let signals = inputs.into_iter().map(|(signal, _)| signal).collect();
+    let signals: Vec<Signal> = inputs.into_iter().map(|(signal, _)| signal).collect();
+    let potential = match (torque, &algebra) {
+        (Some(read), Some(algebra)) => {
+            let (algebra, signals) = (algebra.clone(), signals.clone());
+            assemble_torque(algebra, &coordinates, signals, read, diagnostics)
+        }
+        _ => potential,
+    };
     let draft =
         Draft { name, algebra, coordinates, coordinates_span, hamiltonian, signals, choice };
     let problem = (kind.assemble)(draft, diagnostics)?;
@@ -289,7 +311,9 @@ fn system<H>(
         let what = "steps are made by collocation, and with it there is none";
         let potential = root.get("potential").map(table::span);
         let velocity = velocity.map(|(_, place)| place);
-        for (key, place) in [("potential", potential), ("angular_velocity", velocity)] {
+        let torque = root.get("torque").map(table::span);
+        let keys = [("potential", potential), ("torque", torque), ("angular_velocity", velocity)];
+        for (key, place) in keys {
             if let Some(place) = place {
                 let help = format!("leave `{key}` out");
                 diagnostics.report_other(place, format!("`{key}`: {what}"), &help);
@@ -301,8 +325,10 @@ fn system<H>(
     if let Some(velocity) = velocity {
         run.momentum = initial::momentum(known, &velocity, &root);
     }
-    let potential =
-        potential.map(|potential| (potential, splitting::choose(splitting, known, diagnostics)));
+    let potential = potential.map(|potential| {
+        let splitting = splitting::choose(splitting, known, &potential, diagnostics);
+        (potential, splitting)
+    });
     Some(System { problem, potential, run, units, parameters: parameters.all() })
 }
 

@@ -4,12 +4,13 @@ use coadjoint_program::splitting::Splitting;
 
 use super::table::Table;
 use crate::diagnostic::{Diagnostics, Span, nearest};
+use crate::potential::Potential;
 use crate::problem::Problem;
 
 /// Reads `splitting`; it means nothing without a potential, which is a mistake.
 pub(super) fn read(root: &Table<'_>, integrator: Option<&Table<'_>>) -> Option<(Splitting, Span)> {
     let (name, place) = integrator?.string("splitting", "splitting = \"rkn4\"")?;
-    if !root.has("potential") {
+    if !root.has("potential") && !root.has("torque") {
         let message = "a splitting composes flows with the kicks of a potential, and there is none";
         let help =
             "remove it, or give potential = \"…\" in the entries g[0][0], … of the group element";
@@ -25,14 +26,23 @@ pub(super) fn read(root: &Table<'_>, integrator: Option<&Table<'_>>) -> Option<(
     Some((found?, place))
 }
 
-/// The splitting asked for, if the Hamiltonian allows it, or else the one of order 4 that it
-/// allows.
+/// The splitting asked for, if the Hamiltonian and the kicks allow it, or else the one of order 4 that they allow; Strang's
+/// where kicks depend on the momentum.
 pub(super) fn choose(
     asked: Option<(Splitting, Span)>,
     problem: &Problem,
+    potential: &Potential,
     diagnostics: &Diagnostics,
 ) -> Splitting {
     let quadratic = problem.is_quadratic();
+    if potential.alone().is_some_and(|torque| torque.of_momentum) {
+        if let Some((splitting, place)) = asked.filter(|(asked, _)| *asked != Splitting::Strang) {
+            let name = splitting.name();
+            let message = format!("`{name}` is for torques that do not depend on the momentum");
+            diagnostics.report_other(place, message, "use \"strang\" here, of order 2");
+        }
+        return Splitting::Strang;
+    }
     match asked {
         Some((splitting, place)) => {
             if !quadratic && matches!(splitting, Splitting::Rkn4 | Splitting::Rkn6) {

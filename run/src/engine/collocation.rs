@@ -69,7 +69,7 @@ impl Energy<DVector<f64>> for Interpreted<'_> {
 }
 
 /// A text that stays, since errors hold texts that do. Each is kept once.
-fn kept(text: &str) -> &'static str {
+pub(super) fn kept(text: &str) -> &'static str {
     static TEXTS: Mutex<BTreeSet<&str>> = Mutex::new(BTreeSet::new());
     // A thread that panicked has added whole texts, if any.
     let mut texts = TEXTS.lock().unwrap_or_else(PoisonError::into_inner);

@@ -1,6 +1,7 @@
 //! Steps as straight-line programs: evaluated, or as machine code.
 
 use std::array::from_fn;
+use std::borrow::Cow;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use coadjoint::StepError;
@@ -80,6 +81,8 @@ impl Kept {
 /// What the programs of a step read for one size and one set of parameters.
 #[derive(Clone, Debug)]
 pub struct Folded {
+    /// The size of a step.
+    size: f64,
     /// The coefficients.
     slots: Vec<f64>,
     /// The |μ| up to which the ratio of the last two terms of the series is at most [`STEEP`]; 0 where it is not known.
@@ -200,6 +203,7 @@ impl Compiled {
         match step.fold_rows(size, &symbols, STEEP) {
             Ok((slots, quiet)) => {
                 let own = |lane: usize| Folded {
+                    size,
                     slots: slots.iter().map(|slot| slot[lane]).collect(),
                     quiet: quiet[lane],
                 };
@@ -239,28 +243,34 @@ impl Compiled {
         self.programs.spatial.momentum(&state.g, &state.mu)
     }
 
-    /// Makes `steps` steps. Steps that the programs refuse are made by `rescue`, which makes one step by other means (its
-    /// iterations and residual), or says why there is none.
+    /// Makes `steps` steps after the first ones. Steps that the programs refuse are made by `rescue`, which makes
+    /// the step after so many by other means (its iterations and residual), or says why there is none.
     ///
     /// # Errors
     /// How many steps were made, and why the next one was not; the state is then that before it.
     pub(crate) fn advance(
         &self,
         numbers: &mut Numbers,
-        steps: u64,
-        mut rescue: impl FnMut(&mut Numbers) -> Result<Solves, StepError>,
+        [first, steps]: [u64; 2],
+        mut rescue: impl FnMut(&mut Numbers, u64) -> Result<Solves, StepError>,
     ) -> Result<Outcome, (u64, StepError)> {
         let mut total = Outcome::default();
+        let (moves, mut slots) = (self.programs.step.moves(), Cow::Borrowed(self.coefficients()));
         while total.steps < steps {
             let asked = (steps - total.steps).min(self.code().at_a_time());
-            let asked = if self.framed { 1 } else { asked };
+            let asked = if self.framed || moves { 1 } else { asked };
+            let number = first + total.steps;
+            if moves {
+                let size = self.folded.size;
+                self.programs.step.set_time(slots.to_mut(), size, number as f64 * size);
+            }
             let Numbers { g, mu } = numbers;
-            let made =
-                self.code().stepper(self.kernel()).advance(self.coefficients(), g, mu, asked);
+            let made = self.code().stepper(self.kernel()).advance(&slots, g, mu, asked);
             total.steps += made.steps;
             note(&mut total, made.corrections, made.residual);
             if made.steps < asked {
-                let solves = rescue(numbers).map_err(|error| (total.steps, error))?;
+                let solves = rescue(numbers, first + total.steps);
+                let solves = solves.map_err(|error| (total.steps, error))?;
                 if let Some((iterations, residual)) = solves {
                     note(&mut total, iterations, residual);
                 }
@@ -299,12 +309,13 @@ fn fold(
     parameters: &[f64],
 ) -> Result<Folded, StepError> {
     if integrator.kicks.is_some() {
-        return Ok(Folded { slots: coefficients(integrator, step, size, parameters)?, quiet: 0.0 });
+        let slots = coefficients(integrator, step, size, parameters)?;
+        return Ok(Folded { size, slots, quiet: 0.0 });
     }
     let symbols = symbols(&integrator.problem, parameters);
     let folded = step.fold_rows(size, &symbols, STEEP);
     let (slots, quiet) = folded.map_err(|error| refusal(error, size, &symbols))?;
-    Ok(Folded { slots, quiet })
+    Ok(Folded { size, slots, quiet })
 }
 
 fn note(total: &mut Outcome, corrections: u32, residual: f64) {

@@ -1,18 +1,18 @@
 //! A potential run by the interpreter, and its kicks between flows: what programs refuse, and what has none.
 
 use coadjoint::groups::Chart;
-use coadjoint::steps::{Kicked, advance};
-use coadjoint::{Phase, StepError};
+use coadjoint::steps::{Flows, advance};
+use coadjoint::{Phase, Scalar, StepError};
 use coadjoint_codegen::graph::Program;
 use coadjoint_codegen::integrator::{FoldTable, Integrator, Kick};
-use coadjoint_codegen::potential::Potential;
+use coadjoint_codegen::potential::{Force, Potential};
 use coadjoint_codegen::problem::values;
 use coadjoint_codegen::system::Splitting;
 use nalgebra::{DMatrix, DVector};
 
+use super::collocation::kept;
 use super::compiled::Solves;
-use super::interpreter::Interpreter;
-use super::interpreter::refusal;
+use super::interpreter::{Interpreter, refusal};
 use super::space::{Group, entries_of};
 
 /// The kicks of a potential.
@@ -24,9 +24,9 @@ pub struct Forces {
     pub splitting: Splitting,
 }
 
-/// Makes a step of a state.
+/// Makes a step of a state from this time.
 pub(crate) type Map<'a, G> =
-    Box<dyn Fn(&mut Phase<G>) -> Result<Solves, StepError> + Send + Sync + 'a>;
+    Box<dyn Fn(&mut Phase<G>, f64) -> Result<Solves, StepError> + Send + Sync + 'a>;
 
 /// The step of this size by the generic solver: a flow, or flows and kicks. It serves where programs refuse a step, and
 /// where a system has none.
@@ -41,7 +41,7 @@ pub(crate) fn map<'a, G: Group + 'a, C: Chart<G> + Send + Sync + 'a>(
         return forces.step::<G, C>(integrator, group, size);
     }
     let step = Interpreter::<G, C>::new(integrator, group.clone(), size, parameters)?;
-    Ok(Box::new(move |phase| {
+    Ok(Box::new(move |phase, _| {
         let report = advance(&step, phase)?;
         Ok(Some((report.iterations, report.residual)))
     }))
@@ -69,13 +69,15 @@ impl Forces {
     ) -> Result<Map<'a, G>, StepError> {
         let torque = Torque::new(&self.kick, group.clone())?;
         let flow = |part| Interpreter::<G, C>::new(integrator, group.clone(), part, &[]);
-        let torque = move |_: f64, g: &G::Element| torque.torque(g);
-        let step = Kicked::new(self.splitting, step, torque, flow)?;
-        Ok(Box::new(move |phase| step.advance(phase, 0.0).map(|()| None)))
+        let flows = Flows::new(self.splitting, step, flow)?;
+        Ok(Box::new(move |phase, time| {
+            let kick = |state: &mut _, time, length| torque.kick(state, time, length);
+            flows.advance(phase, time, kick).map(|()| None)
+        }))
     }
 }
 
-/// The body torque −g⁻¹dV(g) of a potential, on a run-time group.
+/// The body torque −g⁻¹dV(g) of a potential, or one without, on a run-time group.
 #[derive(Debug)]
 pub struct Torque<'a, G> {
     kick: &'a Kick,
@@ -93,10 +95,49 @@ impl<'a, G: Group> Torque<'a, G> {
         Ok(Self { kick, group, slots })
     }
 
-    /// −g⁻¹dV(g).
-    pub fn torque(&self, g: &G::Element) -> DVector<f64> {
+    /// The torque in a state at this time.
+    ///
+    /// # Errors
+    /// Where an expression in it is not defined.
+    pub fn torque(
+        &self,
+        g: &G::Element,
+        mu: &DVector<f64>,
+        time: f64,
+    ) -> Result<DVector<f64>, StepError> {
         let entries = entries_of(&self.group, g);
-        DVector::from_vec(self.kick.torque.run(&entries, &self.slots))
+        let Force::Smooth(programs) = &self.kick.potential.force else {
+            return Ok(DVector::from_vec(self.kick.torque.run(&entries, &self.slots)));
+        };
+        let inputs = programs.inputs(&entries, mu.as_slice(), time);
+        let torque = DVector::from_vec(self.kick.torque.run(&inputs, &self.slots));
+        if torque.iter().all(|entry| entry.is_finite()) {
+            return Ok(torque);
+        }
+        let watched = programs.watched.run(&inputs, &self.slots);
+        let (pairs, _) = watched.as_chunks::<2>();
+        let undefined = |[argument, test]: &[f64; 2]| argument.is_finite() && !test.is_finite();
+        Err(pairs.iter().position(undefined).map_or(StepError::NonFiniteState, |number| {
+            let expression = kept(&programs.expressions[number]);
+            StepError::Undefined { expression, argument: pairs[number][0], time, at: None }
+        }))
+    }
+
+    /// A kick of this length; where the torque depends on μ, that of its value in the middle.
+    ///
+    /// # Errors
+    /// As [`Torque::torque`].
+    pub fn kick(&self, state: &mut Phase<G>, time: f64, length: f64) -> Result<(), StepError> {
+        let Phase { group_element, momentum } = state;
+        let kicked = |torque: &DVector<f64>, length| {
+            torque.zip_map(momentum, |torque, mu| torque.times_plus(length, mu))
+        };
+        let mut torque = self.torque(group_element, momentum, time)?;
+        if self.kick.potential.alone().is_some_and(|torque| torque.of_momentum) {
+            torque = self.torque(group_element, &kicked(&torque, 0.5 * length), time)?;
+        }
+        *momentum = kicked(&torque, length);
+        Ok(())
     }
 
     /// The derivative of the torque in ξ = g⁻¹δg, by that of its program and the matrices of the algebra's basis.

@@ -230,7 +230,7 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Steps<'a, G, C> {
     }
 
     /// The error of the next step of a state, with a step size that works there.
-    fn advise(&self, error: StepError, phase: &Phase<G>) -> StepError {
+    fn advise(&self, error: StepError, phase: &Phase<G>, time: f64) -> StepError {
         // A thread that panicked has left whole steps, if any.
         let mut shorter = self.shorter.lock().unwrap_or_else(PoisonError::into_inner);
         let mut place = 0;
@@ -240,12 +240,13 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Steps<'a, G, C> {
             }
             place += 1;
             let step = shorter.get(place - 1).and_then(Option::as_ref);
-            step.is_some_and(|step| step(&mut phase.clone()).is_ok())
+            step.is_some_and(|step| step(&mut phase.clone(), time).is_ok())
         })
     }
 
     /// A step by the generic solver. The error of one that cannot be made names a size that works.
-    fn rescue(&self, state: &mut Numbers) -> Result<Solves, StepError> {
+    fn rescue(&self, state: &mut Numbers, number: u64) -> Result<Solves, StepError> {
+        let time = number as f64 * self.size;
         let step = match self.generic.get() {
             Some(step) => step,
             None => {
@@ -254,7 +255,7 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Steps<'a, G, C> {
             }
         };
         let mut phase = self.elements.phase(state);
-        let solved = step(&mut phase).map_err(|error| self.advise(error, &phase))?;
+        let solved = step(&mut phase, time).map_err(|error| self.advise(error, &phase, time))?;
         *state = self.elements.state(&phase);
         Ok(solved)
     }
@@ -265,19 +266,34 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Motion for Steps<'a, G
         &self.elements
     }
 
-    fn advance(&self, state: &mut Numbers, _: u64, count: u64) -> Result<Solves, (u64, StepError)> {
+    fn advance(
+        &self,
+        state: &mut Numbers,
+        first: u64,
+        count: u64,
+    ) -> Result<Solves, (u64, StepError)> {
         let Some(compiled) = &self.elements.compiled else {
-            return one_by_one(count, || self.rescue(state));
+            let mut numbers = first..;
+            return one_by_one(count, || self.rescue(state, numbers.next().unwrap_or(first)));
         };
-        let made = compiled.advance(state, count, |state| self.rescue(state))?;
+        let rescue = |state: &mut Numbers, number| self.rescue(state, number);
+        let made = compiled.advance(state, [first, count], rescue)?;
         // A bound, which may be far below what rounding leaves.
         Ok(Some((made.corrections, made.residual.max(f64::EPSILON))))
     }
 
-    fn beside(&self, state: &Numbers, _: f64, size: f64) -> Result<Numbers, StepError> {
+    fn beside(&self, state: &Numbers, time: f64, size: f64) -> Result<Numbers, StepError> {
         let mut phase = self.elements.phase(state);
-        self.map(size)?(&mut phase)?;
+        self.map(size)?(&mut phase, time)?;
         Ok(self.elements.state(&phase))
+    }
+
+    fn one_at(&self, state: &mut Numbers, time: f64) -> Result<(), StepError> {
+        if self.equations.forces.is_some_and(|forces| forces.kick.potential.moves()) {
+            *state = self.beside(state, time, self.size)?;
+            return Ok(());
+        }
+        self.advance(state, 0, 1).map(drop).map_err(|(_, error)| error)
     }
 
     fn ratio(&self, mu: &[f64]) -> f64 {
@@ -295,12 +311,16 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Motion for Steps<'a, G
         flow.as_ref().map_or(0.0, ratio)
     }
 
+    /// Of torques without potential no derivatives are known.
     fn differentiable(&self) -> Option<&dyn Differentiable> {
-        Some(self)
+        let alone =
+            self.equations.forces.is_some_and(|forces| forces.kick.potential.alone().is_some());
+        (!alone).then_some(self)
     }
 
     fn lanes(&self) -> Option<&Compiled> {
-        self.elements.compiled.as_deref()
+        let moves = self.equations.forces.is_some_and(|forces| forces.kick.potential.moves());
+        self.elements.compiled.as_deref().filter(|_| !moves)
     }
 }
 

@@ -101,12 +101,12 @@ impl<'a, G: Group + 'a, C: Chart<G>> Tangent<'a, G, C> {
         let mut total = Linear::identity(phase.momentum.len(), parameters);
         for (number, flow) in self.flows.iter().enumerate() {
             if let Some(kicks) = &self.kicks {
-                total = total.then(&kicks.linear(number, &mut phase, parameters));
+                total = total.then(&kicks.linear(number, &mut phase, parameters)?);
             }
             total = total.then(&self.flow(flow, &mut phase)?);
         }
         if let Some(kicks) = &self.kicks {
-            total = total.then(&kicks.linear(self.flows.len(), &mut phase, parameters));
+            total = total.then(&kicks.linear(self.flows.len(), &mut phase, parameters)?);
         }
         Ok(total)
     }
@@ -166,11 +166,16 @@ impl<'a, G: Group> Kicks<'a, G> {
     }
 
     /// Makes kick `number`; its derivative.
-    fn linear(&self, number: usize, phase: &mut Phase<G>, parameters: usize) -> Linear {
+    fn linear(
+        &self,
+        number: usize,
+        phase: &mut Phase<G>,
+        parameters: usize,
+    ) -> Result<Linear, StepError> {
         let (g, length) = (&phase.group_element, self.lengths[number]);
         let slope = self.torque.slope(&self.slope, &self.generators, g);
-        let torque = self.torque.torque(g);
+        let torque = self.torque.torque(g, &phase.momentum, 0.0)?;
         phase.momentum += torque * length;
-        Linear::of_kick(&slope, length, parameters)
+        Ok(Linear::of_kick(&slope, length, parameters))
     }
 }

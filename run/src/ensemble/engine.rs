@@ -181,11 +181,13 @@ impl<'a> Engine<'a> {
     pub fn new(system: &'a Derived, step: f64, how: How) -> Result<Self, RunError> {
         // Lanes have their coefficients in common.
         let alike = system.facts().parameters.is_empty();
-        let (trajectories, work) = if alike && system.series().is_some() {
+        let (trajectories, work) = if alike && system.alike() {
             (Trajectories::Lanes, how.work)
         } else if how.device.is_some() {
             let what = match alike {
-                true => "--device: steps by collocation are not made on devices",
+                true => {
+                    "--device: steps by collocation, or with torques that depend on time, are not made on devices"
+                }
                 false => "--device: parameters that vary from row to row are not made on devices",
             };
             return Err(RunError::Option(what.to_owned()));
@@ -294,8 +296,8 @@ impl<'a> Engine<'a> {
                 Err(reason) => rows.rejected.push(Rejected { row, step: 0, reason }),
             }
         }
-        // Steps by collocation go by those before them, so that each row has its own.
-        let ways = if layout.parameters.is_empty() && self.system.series().is_some() {
+        // Steps by collocation go by those before them, so that each row has its own; so it has where times differ.
+        let ways = if layout.parameters.is_empty() && self.system.alike() {
             self.march(before.clone(), course, watch)?
         } else {
             let own = places.iter().map(|place| &rows.values[place * width..][state..width]);

@@ -134,8 +134,8 @@ impl Beside<'_> {
     fn follow(&self, state: &mut Numbers, first: u64, count: u64) -> Result<(), (u64, StepError)> {
         match self.other.lanes() {
             Some(programs) if self.own > self.others => {
-                let refused = |_: &mut Numbers| Err(StepError::InvalidStep { step: f64::NAN });
-                programs.advance(state, count, refused).map(drop)
+                let refused = |_: &mut Numbers, _| Err(StepError::InvalidStep { step: f64::NAN });
+                programs.advance(state, [first, count], refused).map(drop)
             }
             _ => self.other.advance(state, first, count).map(drop),
         }

@@ -77,10 +77,14 @@ impl Watched<'_> {
             self.invariants;
         let spatial = match directions.as_deref() {
             _ if !self.attitude => Some("not known: the data leave the attitude open"),
-            Some([]) => Some("not conserved: the potential breaks the symmetry"),
+            Some([]) if potential.is_some() => {
+                Some("not conserved: the potential breaks the symmetry")
+            }
+            Some([]) => Some("not conserved: a torque acts"),
             _ => None,
         };
-        let none = if potential.is_some() { "none that the kicks keep" } else { "none known" };
+        let kicked = directions.is_some();
+        let none = if kicked { "none that the kicks keep" } else { "none known" };
         let energy = no_energy.unwrap_or("not known: a learned map has no Hamiltonian");
         [spatial, casimirs.is_empty().then_some(none), hamiltonian.is_none().then_some(energy)]
     }

@@ -46,11 +46,64 @@ use crate::step::advance;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Kicked<S: Integrator, F> {
+    flows: Flows<S>,
+    torque: F,
+}
+
+/// The flows of a step, between which anything may be done with a state.
+#[derive(Clone, Debug)]
+pub struct Flows<S: Integrator> {
     splitting: Splitting,
     step: ScalarOf<S>,
-    torque: F,
     /// The first half of the splitting's.
     flows: [Option<S>; Splitting::MAX_FLOWS],
+}
+
+impl<S: Integrator> Flows<S> {
+    /// As in [`Kicked::new`].
+    ///
+    /// # Errors
+    /// The error of `flow`.
+    pub fn new(
+        splitting: Splitting,
+        step: ScalarOf<S>,
+        mut flow: impl FnMut(ScalarOf<S>) -> Result<S, StepError>,
+    ) -> Result<Self, StepError> {
+        let mut flows = [const { None }; Splitting::MAX_FLOWS];
+        let different = splitting.flows().len().div_ceil(2);
+        for (place, part) in flows.iter_mut().zip(splitting.flows().take(different)) {
+            *place = Some(flow(step * ScalarOf::<S>::of(part))?);
+        }
+        Ok(Self { splitting, step, flows })
+    }
+
+    /// Advances the state, given at `time`, by one step; `kick` is given the state, the time, and the length of the kick.
+    ///
+    /// # Errors
+    /// [`StepError`] as for [`advance`], and that of `kick`; `phase` is then left as it was.
+    pub fn advance(
+        &self,
+        phase: &mut Phase<S::Group>,
+        mut time: ScalarOf<S>,
+        mut kick: impl FnMut(&mut Phase<S::Group>, ScalarOf<S>, ScalarOf<S>) -> Result<(), StepError>,
+    ) -> Result<(), StepError> {
+        let mut state = phase.clone();
+        let (mut parts, stages) = (self.splitting.flows(), self.splitting.flows().len());
+        for (stage, length) in self.splitting.kicks().enumerate() {
+            kick(&mut state, time, self.step * ScalarOf::<S>::of(length))?;
+            let Some(part) = parts.next() else { break };
+            if let Some(Some(flow)) = self.flows.get(stage.min(stages - 1 - stage)) {
+                advance(flow, &mut state)?;
+                time += self.step * ScalarOf::<S>::of(part);
+            }
+        }
+        let dim = state.momentum.dim();
+        if (0..dim).any(|i| !state.momentum[i].all_finite()) {
+            return Err(StepError::NonFiniteState);
+        }
+        *phase = state;
+        Ok(())
+    }
 }
 
 impl<S, F> Kicked<S, F>
@@ -67,19 +120,14 @@ where
         splitting: Splitting,
         step: ScalarOf<S>,
         torque: F,
-        mut flow: impl FnMut(ScalarOf<S>) -> Result<S, StepError>,
+        flow: impl FnMut(ScalarOf<S>) -> Result<S, StepError>,
     ) -> Result<Self, StepError> {
-        let mut flows = [const { None }; Splitting::MAX_FLOWS];
-        let different = splitting.flows().len().div_ceil(2);
-        for (place, part) in flows.iter_mut().zip(splitting.flows().take(different)) {
-            *place = Some(flow(step * ScalarOf::<S>::of(part))?);
-        }
-        Ok(Self { splitting, step, torque, flows })
+        Ok(Self { flows: Flows::new(splitting, step, flow)?, torque })
     }
 
     /// The step size.
     pub fn step(&self) -> ScalarOf<S> {
-        self.step
+        self.flows.step
     }
 
     /// Advances the state, given at `time`, by one step.
@@ -88,31 +136,12 @@ where
     /// [`StepError`] as for [`advance`], and for a torque that is not finite; `phase` is then left
     /// as it was.
     pub fn advance(&self, phase: &mut Phase<S::Group>, time: ScalarOf<S>) -> Result<(), StepError> {
-        let mut state = phase.clone();
-        let mut time = time;
-        let (mut parts, stages) = (self.splitting.flows(), self.splitting.flows().len());
-        for (stage, kick) in self.splitting.kicks().enumerate() {
-            self.kick(&mut state, time, kick);
-            let Some(part) = parts.next() else { break };
-            if let Some(Some(flow)) = self.flows.get(stage.min(stages - 1 - stage)) {
-                advance(flow, &mut state)?;
-                time += self.step * ScalarOf::<S>::of(part);
-            }
-        }
-        let dim = state.momentum.dim();
-        if (0..dim).any(|i| !state.momentum[i].all_finite()) {
-            return Err(StepError::NonFiniteState);
-        }
-        *phase = state;
-        Ok(())
-    }
-
-    /// The kick of this part of the step.
-    fn kick(&self, state: &mut Phase<S::Group>, time: ScalarOf<S>, part: f64) {
-        let torque = (self.torque)(time, &state.group_element);
-        let length = self.step * ScalarOf::<S>::of(part);
-        let mu = &state.momentum;
-        state.momentum =
-            VectorOf::<S>::from_entries(mu.dim(), |i| torque[i].times_plus(length, mu[i]));
+        self.flows.advance(phase, time, |state, time, length| {
+            let torque = (self.torque)(time, &state.group_element);
+            let mu = &state.momentum;
+            state.momentum =
+                VectorOf::<S>::from_entries(mu.dim(), |i| torque[i].times_plus(length, mu[i]));
+            Ok(())
+        })
     }
 }

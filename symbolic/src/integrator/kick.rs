@@ -2,25 +2,29 @@
 
 use coadjoint_program::splitting::Splitting;
 
+use num_traits::One;
+
 use super::Integrator;
-use super::coefficients::Coefficients;
+use super::coefficients::{Coefficients, Contribution};
 use super::lower::{collect, value_program, vector_program};
 use crate::graph::Program;
-use crate::potential::Potential;
+use crate::number::Rational;
+use crate::potential::{Force, Potential};
 
 /// Everything a back end needs to write or run kicks.
 ///
-/// Programs read the entries of the group element's matrix as inputs, row by row, and folded
-/// coefficients as slots. The coefficients hold no power of the step size.
+/// Programs read the entries of the group element's matrix as inputs, row by row (without a potential also what
+/// [`Programs`](crate::potential::Programs) says), and folded coefficients as slots. The coefficients hold no power of the
+/// step size.
 #[derive(Clone, Debug)]
 pub struct Kick {
     /// The potential.
     pub potential: Potential,
     /// The coefficients of the torque and of the potential.
     pub coefficients: Coefficients,
-    /// g ↦ V(g).
-    pub energy: Program,
-    /// g ↦ the body torque −g⁻¹dV(g).
+    /// g ↦ V(g), where there is a potential.
+    pub energy: Option<Program>,
+    /// g ↦ the body torque −g⁻¹dV(g), or g, μ, t, the signals ↦ a torque without potential.
     pub torque: Program,
 }
 
@@ -30,15 +34,31 @@ impl Kick {
     pub fn build(potential: Potential) -> Self {
         let entries = potential.size() * potential.size();
         let mut coefficients = Coefficients::default();
-        let energy = collect(&mut coefficients, entries, [(0, &potential.energy)]);
+        let polynomial = match &potential.force {
+            Force::Polynomial(polynomial) => polynomial,
+            Force::Smooth(programs) => {
+                // Slot j is symbol j.
+                for symbol in 0..potential.symbols.len() {
+                    let mut symbol_powers = vec![0; potential.symbols.len()];
+                    symbol_powers[symbol] = 1;
+                    let (factor, step_power) = (Rational::one(), 0);
+                    let term = Contribution { factor, step_power, symbol_powers };
+                    let base = coefficients.add_base(vec![term]);
+                    coefficients.slot(base, 1);
+                }
+                let (energy, torque) = (programs.value.clone(), programs.torque.clone());
+                return Self { potential, coefficients, energy, torque };
+            }
+        };
+        let energy = collect(&mut coefficients, entries, [(0, polynomial)]);
         let energy = value_program(&mut coefficients, entries, &energy);
         let components: Vec<_> = potential
-            .torque()
+            .torque(polynomial)
             .iter()
             .map(|component| collect(&mut coefficients, entries, [(0, component)]))
             .collect();
         let torque = vector_program(&mut coefficients, entries, &components);
-        Self { potential, coefficients, energy, torque }
+        Self { potential, coefficients, energy: Some(energy), torque }
     }
 }
 

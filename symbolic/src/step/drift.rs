@@ -1,10 +1,10 @@
 //! How far conserved quantities have moved since the start of a run: the one definition of a drift.
 
-use num_traits::ToPrimitive;
+use coadjoint_program::Program;
 
 use crate::lie::{LieAlgebra, watched_casimirs};
 use crate::poly::Numeric;
-use crate::potential::Potential;
+use crate::potential::{Force, Potential};
 use crate::problem::{Problem, values};
 use crate::smooth::{Hamiltonian, Smooth};
 
@@ -120,7 +120,38 @@ pub struct Invariants {
     /// Why an energy that is known is not conserved.
     pub no_energy: Option<&'static str>,
     /// V(g), as a function of the entries of the matrix of g.
-    pub potential: Option<Numeric>,
+    pub potential: Option<PotentialEnergy>,
+}
+
+/// A potential as a function of the entries of the matrix of g, row by row.
+#[derive(Clone, Debug)]
+pub enum PotentialEnergy {
+    /// A polynomial.
+    Polynomial(Numeric),
+    /// Another function, and its slots.
+    Smooth(Program, Vec<f64>),
+}
+
+impl PotentialEnergy {
+    /// V(g).
+    #[must_use]
+    pub fn value(&self, g: &[f64]) -> f64 {
+        match self {
+            Self::Polynomial(polynomial) => polynomial.value(g),
+            Self::Smooth(program, slots) => {
+                program.run(g, slots).first().copied().unwrap_or(f64::NAN)
+            }
+        }
+    }
+
+    /// The sum of the absolute values of a polynomial's terms; of other functions the absolute value.
+    #[must_use]
+    pub fn magnitude(&self, g: &[f64]) -> f64 {
+        match self {
+            Self::Polynomial(polynomial) => polynomial.magnitude(g),
+            Self::Smooth(..) => self.value(g).abs(),
+        }
+    }
 }
 
 impl Invariants {
@@ -146,21 +177,24 @@ impl Invariants {
         };
         let kept = watched_casimirs(algebra).into_iter();
         let kept = kept.filter(|casimir| potential.keeps(casimir));
-        let direction = |xi: Vec<crate::number::Rational>| {
-            let xi: Vec<f64> = xi.iter().map(|x| x.to_f64().unwrap_or(f64::NAN)).collect();
-            let size = xi.iter().fold(0.0, |size, x| maximum(size, x.abs()));
-            xi.iter().map(|x| x / size).collect()
+        let symbols = values(&potential.symbols);
+        let value = match &potential.force {
+            Force::Polynomial(energy) => {
+                let entries = potential.size().pow(2);
+                Some(PotentialEnergy::Polynomial(Numeric::new(energy, entries, &symbols)))
+            }
+            Force::Smooth(programs) => {
+                programs.value.clone().map(|value| PotentialEnergy::Smooth(value, symbols))
+            }
         };
         Self {
-            directions: Some(potential.symmetries().into_iter().map(direction).collect()),
+            directions: Some(potential.directions()),
             casimirs: kept.map(|casimir| Numeric::new(&casimir, dim, &[])).collect(),
-            hamiltonian: Some(hamiltonian),
-            no_energy: None,
-            potential: Some(Numeric::new(
-                &potential.energy,
-                potential.size().pow(2),
-                &values(&potential.symbols),
-            )),
+            hamiltonian: value.is_some().then_some(hamiltonian),
+            no_energy: value
+                .is_none()
+                .then_some("not conserved: a torque acts, which is not Hamiltonian"),
+            potential: value,
         }
     }
 
@@ -179,14 +213,14 @@ impl Invariants {
                 Some(directions) => directions.iter().map(along).collect(),
             },
             casimirs: self.casimirs.iter().map(|casimir| casimir.value(mu)).collect(),
-            energy: self.energy(mu, matrix, Energy::value, Numeric::value),
+            energy: self.energy(mu, matrix, Energy::value, PotentialEnergy::value),
         }
     }
 
     /// The start of a run from that state.
     pub fn start(&self, mu: &[f64], spatial: &[f64], matrix: impl Fn() -> Vec<f64>) -> Start {
         let conserved = self.conserved(mu, spatial, &matrix);
-        let magnitude = self.energy(mu, matrix, Energy::magnitude, Numeric::magnitude);
+        let magnitude = self.energy(mu, matrix, Energy::magnitude, PotentialEnergy::magnitude);
         let magnitude = magnitude.unwrap_or(0.0);
         let casimirs = self.casimirs.iter();
         let scales = Scales {
@@ -202,7 +236,7 @@ impl Invariants {
         mu: &[f64],
         matrix: impl Fn() -> Vec<f64>,
         of_kinetic: fn(&Energy, &[f64]) -> f64,
-        of: fn(&Numeric, &[f64]) -> f64,
+        of: fn(&PotentialEnergy, &[f64]) -> f64,
     ) -> Option<f64> {
         let kinetic = of_kinetic(self.hamiltonian.as_ref()?, mu);
         Some(self.potential.as_ref().map_or(kinetic, |v| kinetic + of(v, &matrix())))

@@ -28,6 +28,7 @@ use crate::expr::ParameterExpr;
 use crate::graph::{Graph, Id, Program};
 use crate::integrator::{FoldTable, Integrator};
 use crate::lie::{Chart, LieAlgebra, catalogue};
+use crate::signal::Signal;
 use crate::step::rotation::Rotation;
 use crate::step::solving::Scheme;
 use crate::step::tables::Tables;
@@ -35,7 +36,7 @@ use crate::step::translations::Translations;
 use motion::{Motion, Plane};
 use product::{Part, Product};
 
-pub use drift::{Conserved, Drift, Energy, Invariants, Scales, Start, nudge};
+pub use drift::{Conserved, Drift, Energy, Invariants, PotentialEnergy, Scales, Start, nudge};
 pub use error::{MOST_OF_TABLES, StepError};
 #[cfg(feature = "spatial")]
 pub use spatial::Spatial;
@@ -50,6 +51,8 @@ pub struct Step {
     radius_at: usize,
     /// Where there are kicks.
     splitting: Option<Splitting>,
+    /// The signals of kicks that depend on the time.
+    signals: Option<Vec<Signal>>,
 }
 
 impl Step {
@@ -98,7 +101,10 @@ impl Step {
         let fold = FoldTable::placed(integrator, |at| (at <= radius_at).then_some(at));
         let symbols = integrator.problem.symbols.iter().map(|symbol| symbol.expr.clone()).collect();
         let splitting = integrator.kicks.as_ref().map(|kicks| kicks.splitting);
-        Ok(Self { kernel, group, fold, symbols, radius_at, splitting })
+        let moving = integrator.kicks.as_ref().map(|kicks| &kicks.kick.potential);
+        let moving = moving.and_then(|potential| potential.alone()).filter(|torque| torque.moves);
+        let signals = moving.map(|torque| torque.signals.clone());
+        Ok(Self { kernel, group, fold, symbols, radius_at, splitting, signals })
     }
 
     /// The programs.
@@ -119,11 +125,35 @@ impl Step {
         // After the last kick there is no flow.
         let flows = splitting.flows().chain(splitting.flows().next());
         let mut all = Vec::new();
-        for (kick, flow) in splitting.kicks().zip(flows) {
+        let each = self.kernel.slots_of_flow();
+        for (number, (kick, flow)) in splitting.kicks().zip(flows).enumerate() {
             all.extend(self.fold.fold(step * flow, &symbols)?);
             all.push(step * kick);
+            // The places of the time and of signals, as far as they are read.
+            all.resize((number + 1) * each, f64::NAN);
         }
         Ok(all)
+    }
+
+    /// Whether a step depends on the time, which [`Step::set_time`] then sets.
+    #[must_use]
+    pub fn moves(&self) -> bool {
+        self.signals.is_some()
+    }
+
+    /// Puts the times of the kicks, and the values of the signals there, among the coefficients of a step of this size that begins
+    /// at this time.
+    pub fn set_time(&self, slots: &mut [f64], step: f64, time: f64) {
+        let (Some(splitting), Some(signals)) = (self.splitting, &self.signals) else { return };
+        let flows = splitting.flows().chain([0.0]);
+        let mut time = time;
+        for (slots, flow) in slots.chunks_mut(self.kernel.slots_of_flow().max(1)).zip(flows) {
+            let values = std::iter::once(time).chain(signals.iter().map(|signal| signal.at(time)));
+            // Of those that the programs read.
+            let places = slots.iter_mut().skip(self.radius_at + 2);
+            places.zip(values).for_each(|(slot, value)| *slot = value);
+            time += step * flow;
+        }
     }
 
     /// The coefficients of a flow, of rows side by side, for the values of the symbols; and the |μ| up to which the last two

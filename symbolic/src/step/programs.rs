@@ -7,7 +7,7 @@ use num_traits::ToPrimitive;
 use super::solving::{ROUNDINGS, Scheme, inputs, squares_of_series, tolerance};
 use super::vector::{all_at_most, finite};
 use crate::graph::{Graph, Id, Program};
-use crate::integrator::{Integrator, Kicks};
+use crate::integrator::{Integrator, Kick, Kicks};
 use crate::lie;
 use crate::poly::Polynomial;
 use crate::step::StepError;
@@ -56,16 +56,33 @@ pub(crate) fn kernel(
     }
 }
 
-/// g, μ ↦ μ + l·τ(g), with the torque τ and the length l of the kick.
+/// g, μ ↦ μ + l·τ(g), with the torque τ and the length l of the kick. A torque without potential reads the time and the
+/// signals from the slots after the length; where it depends on μ, the kick is that of its value in the middle.
 fn kick(kicks: &Kicks, group: &Product, length: usize) -> Program {
     let (n, m) = (group.dim(), group.element());
     let graph = Graph::new();
     let (g, mu) = (inputs(&graph, 0, m), inputs(&graph, m, n));
     let matrix = group.matrix(&graph, &g);
-    let torque = graph.call_from(&kicks.kick.torque, matrix.entries(), kicks.first);
+    let Kicks { kick: Kick { potential, torque: program, .. }, first, .. } = kicks;
+    let mut arguments = matrix.entries().to_vec();
+    if let Some(alone) = potential.alone() {
+        arguments.extend_from_slice(&mu);
+        arguments.extend((1..=1 + alone.signals.len()).map(|i| graph.slot(length + i)));
+    }
+    let mut torque = graph.call_from(program, &arguments, *first);
     let length = graph.slot(length);
-    let mut kicked = |(&torque, &mu): (&Id, &Id)| graph.times_plus(torque, length, mu);
-    let outputs: Vec<Id> = torque.iter().zip(&mu).map(&mut kicked).collect();
+    let kicked = |torque: &[Id], length| -> Vec<Id> {
+        torque.iter().zip(&mu).map(|(&torque, &mu)| graph.times_plus(torque, length, mu)).collect()
+    };
+    if potential.alone().is_some_and(|alone| alone.of_momentum) {
+        let half = graph.constant(0.5);
+        let half = graph.mul(half, length);
+        let middle = kicked(&torque, half);
+        let from = matrix.entries().len();
+        arguments[from..from + n].copy_from_slice(&middle);
+        torque = graph.call_from(program, &arguments, *first);
+    }
+    let outputs = kicked(&torque, length);
     graph.finish(m + n, &outputs)
 }
 
@@ -157,8 +174,10 @@ fn watch(integrator: &Integrator, group: &Product) -> Program {
     let mut casimirs = lie::watched_casimirs(&integrator.problem.algebra);
     if let Some(Kicks { kick, first, .. }) = &integrator.kicks {
         let matrix = group.matrix(&graph, &g);
-        for energy in graph.call_from(&kick.energy, matrix.entries(), *first) {
-            outputs[0] = graph.add(outputs[0], energy);
+        if let Some(energy) = &kick.energy {
+            for energy in graph.call_from(energy, matrix.entries(), *first) {
+                outputs[0] = graph.add(outputs[0], energy);
+            }
         }
         casimirs.retain(|casimir| kick.potential.keeps(casimir));
     }

@@ -8,7 +8,7 @@ use coadjoint_symbolic::integrator::{FoldTable, Integrator, Kick};
 use coadjoint_symbolic::lie::{Chart, catalogue};
 use coadjoint_symbolic::number::{integer, ratio};
 use coadjoint_symbolic::poly::Polynomial;
-use coadjoint_symbolic::potential::Potential;
+use coadjoint_symbolic::potential::{Force, Potential};
 use coadjoint_symbolic::problem::{FrameChoice, Problem, Symbol};
 use coadjoint_symbolic::step::Step;
 
@@ -39,7 +39,7 @@ fn body() -> (Integrator, Kick) {
     let potential = Potential {
         name: "field".into(),
         algebra,
-        energy: Polynomial::from_factors(10, energy),
+        force: Force::Polynomial(Polynomial::from_factors(10, energy)),
         symbols: vec![Symbol { expr: root, text: "sqrt(2)".into() }],
         parameters: Vec::new(),
         source: String::new(),

@@ -8,7 +8,7 @@ use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::{Integrator, Kick};
 use coadjoint_codegen::number::{Rational, integer};
 use coadjoint_codegen::poly::Polynomial;
-use coadjoint_codegen::potential::Potential;
+use coadjoint_codegen::potential::{Force, Potential};
 use coadjoint_codegen::step::Step;
 use coadjoint_codegen::system::{Options, Parameters, System, read};
 use coadjoint_program::Stepper;
@@ -122,11 +122,12 @@ fn the_torque_is_minus_the_derivative_of_the_potential() {
         let entries = |g: &_| -> Vec<f64> {
             (0..size * size).map(|at| group.matrix_entry(g, at / size, at % size)).collect()
         };
-        for (k, torque) in potential.torque().iter().enumerate() {
+        let Force::Polynomial(energy) = &potential.force else { panic!("no polynomial") };
+        for (k, torque) in potential.torque(energy).iter().enumerate() {
             let value = |s: f64| {
                 let mut turn = DVector::zeros(n);
                 turn[k] = s;
-                potential.energy.evaluate(&entries(&group.compose(&g, &group.exp(&turn))))
+                energy.evaluate(&entries(&group.compose(&g, &group.exp(&turn))))
             };
             // B. Fornberg, Math. Comp. 51 (1988) 699, table 1.
             let weights = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
@@ -143,7 +144,9 @@ fn the_torque_is_minus_the_derivative_of_the_potential() {
 }
 
 fn kernel(file: &str) -> Vec<Vec<Rational>> {
-    of_file(file).symmetries()
+    let potential = of_file(file);
+    let Force::Polynomial(energy) = &potential.force else { panic!("no polynomial") };
+    potential.symmetries(energy)
 }
 
 #[test]
