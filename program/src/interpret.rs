@@ -4,10 +4,9 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use crate::graph::{Node, Program};
-use crate::kernel::Kernel;
+use crate::kernel::{Kernel, Outcome, Stepper, WIDTH};
 use crate::number::{Lanes, Number, Packed};
 use crate::schedule::{Block, Kept, Kind, Part, Places, Statement, Test, Variable};
-use crate::stepper::{Outcome, Stepper, WIDTH};
 
 impl Stepper for Kernel {
     fn advance(&self, slots: &[f64], g: &mut [f64], mu: &mut [f64], steps: u64) -> Outcome {

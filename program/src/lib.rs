@@ -42,8 +42,6 @@ pub mod quoting;
 #[cfg(feature = "programs")]
 pub mod schedule;
 pub mod splitting;
-#[cfg(feature = "programs")]
-mod stepper;
 
 #[cfg(feature = "programs")]
 pub use derivative::Argument;
@@ -52,8 +50,8 @@ pub use graph::{Cost, Function, Graph, Id, Node, Program};
 #[cfg(feature = "programs")]
 pub use interpret::Attempt;
 #[cfg(feature = "programs")]
-pub use kernel::{Kernel, KernelParts, Precision, ProgramError, Programs};
+pub use kernel::{
+    Kernel, KernelParts, Outcome, Precision, ProgramError, Programs, Stepper, Trajectories, WIDTH,
+};
 #[cfg(feature = "programs")]
 pub use schedule::BLOCK;
-#[cfg(feature = "programs")]
-pub use stepper::{Outcome, Stepper, Trajectories, WIDTH};

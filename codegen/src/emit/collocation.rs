@@ -6,8 +6,8 @@ use quote::{format_ident, quote};
 
 use super::hygiene::fresh;
 use super::program::{Body, Field, Scope, body};
+use crate::emit::group::Types;
 use crate::emit::item::{Arguments, Items, arguments};
-use crate::emit::types::Types;
 use crate::emit::{Options, allow, parameter};
 use crate::graph::Program;
 use crate::lie::Chart;

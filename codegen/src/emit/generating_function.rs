@@ -5,7 +5,7 @@ use quote::{format_ident, quote};
 
 use super::program::{Body, Field, Scope, body};
 use crate::emit::Options;
-use crate::emit::types::Types;
+use crate::emit::group::Types;
 use crate::graph::Program;
 use crate::integrator::{FoldTable, Integrator, Predictor};
 use crate::problem::Solver;

@@ -8,10 +8,10 @@ use quote::{format_ident, quote};
 use crate::emit::generating_function::{
     generating_function, scalar_function, solver, without_programs,
 };
+use crate::emit::group::Types;
 use crate::emit::hygiene::fresh;
 use crate::emit::programs::{MOST_OPERATIONS, programs, step_operations};
 use crate::emit::table::{fold_item, last_item};
-use crate::emit::types::Types;
 use crate::emit::{Options, allow, header, identifier, parameter};
 use crate::integrator::{FoldTable, Integrator};
 use crate::problem::{Parameter, Shape};

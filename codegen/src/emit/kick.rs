@@ -6,8 +6,8 @@ use quote::quote;
 
 use super::generating_function::{scalar_function, vector_function};
 use super::table::fold_item;
+use crate::emit::group::Types;
 use crate::emit::item::{Arguments, arguments};
-use crate::emit::types::Types;
 use crate::emit::{Options, allow, parameter};
 use crate::integrator::{FoldTable, Kick};
 use crate::lie::Chart;

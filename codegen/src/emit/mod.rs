@@ -18,7 +18,6 @@ mod program;
 mod programs;
 mod steps;
 mod table;
-mod types;
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};

@@ -48,7 +48,7 @@ pub(super) fn load(
     let advance = advance.map(|assembled| define(module, "advance", assembled)).transpose()?;
     let lanes = lanes.map(|assembled| define(module, "lanes", assembled)).transpose()?;
     module.finalize_definitions().map_err(failed)?;
-    // SAFETY: code that `function::build` makes for one trajectory has this signature and the system's calling convention.
+    // SAFETY: code that `steps::build` makes for one trajectory has this signature and the system's calling convention.
     let advance = advance.map(|id| unsafe {
         std::mem::transmute::<*const u8, AdvanceFunction>(module.get_finalized_function(id))
     });

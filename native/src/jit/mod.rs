@@ -6,7 +6,6 @@
 
 mod code;
 mod coder;
-mod function;
 mod host;
 mod steps;
 
@@ -26,8 +25,8 @@ pub use host::JitError;
 pub fn compile(kernel: &Kernel, trajectories: Trajectories) -> Result<Entry, JitError> {
     let isa = isa()?;
     let config = isa.frontend_config();
-    let one = || assemble(&isa, function::build(kernel, Form::Number, config)?);
-    let pairs = || assemble(&isa, function::build(kernel, Form::Pair, config)?);
+    let one = || assemble(&isa, steps::build(kernel, Form::Number, config)?);
+    let pairs = || assemble(&isa, steps::build(kernel, Form::Pair, config)?);
     let (advance, lanes) = match trajectories {
         Trajectories::One => (Some(one()?), None),
         Trajectories::Lanes => (None, Some(pairs()?)),

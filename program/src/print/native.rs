@@ -6,10 +6,9 @@ use alloc::string::String;
 use super::c::C;
 use super::function::function;
 use super::vectors::{PREAMBLE, Vectors};
-use crate::kernel::Kernel;
+use crate::kernel::{Kernel, Trajectories, WIDTH};
 use crate::print::c::signatures;
 use crate::print::steps::{LoopStyle, steps};
-use crate::stepper::{Trajectories, WIDTH};
 
 /// The version of what [`native_unit`] exports. It changes with the loop, the functions' parameters and the meaning of
 /// the array of sizes.

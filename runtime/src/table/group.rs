@@ -437,3 +437,243 @@ impl<K: Tables> TableGroup<K> {
         defect
     }
 }
+
+/// Square roots taken at most; more than enough for any finite element near which log exists.
+const ROOTS: u32 = 64;
+/// Iterations for one square root; quadratic, so that 20 reach rounding from far away.
+const ROOT_ITERATIONS: u32 = 20;
+
+impl<K: Tables> TableGroup<K> {
+    pub(super) fn logarithm(&self, g: &Element<K>) -> Option<K::Vector> {
+        if self.algebra().facts.dependent.is_some() {
+            return None;
+        }
+        let dim = self.algebra().dim;
+        let mut x = self.coordinates_of(&self.matrix_logarithm(g)?);
+        // The roots lose a few digits; one or two Newton steps in the group bring them back:
+        // g = exp(r)·exp(x) and x + (d^R exp_x)⁻¹ r is the better logarithm.
+        let one = K::Scalar::of(1.0);
+        for _ in 0..2 {
+            let back = self.exp(&K::Vector::from_entries(dim, |i| -x[i]));
+            let rest = square::multiply(self.algebra().size, g, &back);
+            let rest = square::plus_scaled(self.algebra().size, &rest, -one, &self.unit_matrix());
+            let r = self.coordinates_of(&rest);
+            // Row j of d^R exp_x: the transpose applied to a basis vector.
+            let mut turn = K::Vector::zero_matrix(dim);
+            for j in 0..dim {
+                let row = self.dexp_transpose(&x, &K::Vector::unit(dim, j));
+                for i in 0..dim {
+                    turn[(j, i)] = row[i];
+                }
+            }
+            let better = K::Vector::solve(&turn, &r);
+            x = K::Vector::from_entries(dim, |i| x[i] + better[i]);
+        }
+        // Only a logarithm that gives g back is one.
+        let size = self.algebra().size;
+        let again = self.exp(&x);
+        let difference = square::plus_scaled(size, &again, -one, g);
+        let scale = square::largest_entry(size, g) + one;
+        let tolerance = K::Scalar::epsilon().simd_sqrt() * scale;
+        square::largest_entry(size, &difference).simd_le(tolerance).all().then_some(x)
+    }
+
+    /// The principal logarithm of a matrix to about half the digits or better; `None` where the
+    /// square roots do not converge (an eigenvalue on the negative axis).
+    fn matrix_logarithm(&self, g: &Element<K>) -> Option<Element<K>> {
+        let size = self.algebra().size;
+        let one = K::Scalar::of(1.0);
+        let unit = self.unit_matrix();
+        let mut root = g.clone();
+        let mut scale = one;
+        let mut roots = 0;
+        let rest = loop {
+            let rest = square::plus_scaled(size, &root, -one, &unit);
+            let norm = square::row_sum_norm(size, &rest);
+            if norm.simd_le(K::Scalar::of(0.3)).all() {
+                break rest;
+            }
+            if roots == ROOTS || !norm.all_finite() {
+                return None;
+            }
+            root = self.square_root(&root);
+            scale += scale;
+            roots += 1;
+        };
+        // log A = 2 artanh((A − 1)(A + 1)⁻¹)
+        let sum = square::plus_scaled(size, &root, one, &unit);
+        let z = square::multiply(size, &rest, &square::invert(size, &sum).0);
+        let square = square::multiply(size, &z, &z);
+        let mut power = z.clone();
+        let mut total = z;
+        for k in 1..20 {
+            power = square::multiply(size, &power, &square);
+            let factor = K::Scalar::of(1.0 / (2 * k + 1) as f64);
+            total = square::plus_scaled(size, &total, factor, &power);
+        }
+        Some(square::scale(size, &total, scale + scale))
+    }
+
+    fn square_root(&self, a: &Element<K>) -> Element<K> {
+        let size = self.algebra().size;
+        let (one, half) = (K::Scalar::of(1.0), K::Scalar::of(0.5));
+        let unit = self.unit_matrix();
+        let mut m = a.clone();
+        let mut root = a.clone();
+        for _ in 0..ROOT_ITERATIONS {
+            let inverse = square::invert(size, &m).0;
+            let factor = square::plus_scaled(size, &unit, one, &inverse);
+            root = square::scale(size, &square::multiply(size, &root, &factor), half);
+            // M ← ½ (1 + ½ (M + M⁻¹))
+            let sum = square::plus_scaled(size, &m, one, &inverse);
+            m = square::scale(size, &square::plus_scaled(size, &unit, half, &sum), half);
+            let change = square::plus_scaled(size, &m, -one, &unit);
+            let limit = K::Scalar::epsilon() * K::Scalar::of(8.0);
+            if square::largest_entry(size, &change).simd_le(limit).all() {
+                break;
+            }
+        }
+        root
+    }
+}
+
+/// Up to this norm of A one Taylor series is used.
+const TAYLOR: f64 = 1.5;
+/// Up to this norm of A, sub-steps are.
+const SUBSTEPS: f64 = 48.0;
+/// Terms of a Taylor series for norms up to [`TAYLOR`]; rounding needs about 20 in f64.
+const TAYLOR_TERMS: usize = 30;
+
+/// Square matrices of the algebra's dimension.
+pub(crate) type Matrix<K> = <<K as Tables>::Vector as Coordinates<<K as Tables>::Scalar>>::Matrix;
+
+/// φ(A)μ and exp(A)μ.
+pub(crate) struct Action<V> {
+    pub phi: V,
+    pub exp: V,
+}
+
+/// How a norm is dealt with.
+enum Regime {
+    SubSteps(u32),
+    Doublings(u32),
+    NotFinite,
+}
+
+impl<K: Tables> TableGroup<K> {
+    /// A bound of ‖ad_xᵀ‖ in the maximum norm.
+    fn ad_norm(&self, x: &K::Vector) -> K::Scalar {
+        let mut rows = K::Vector::zeros(self.algebra().dim);
+        let mut poison = K::Scalar::of(0.0);
+        for &(i, j, _, c) in self.algebra().structure {
+            rows[j] = x[i].simd_abs().times_plus(K::Scalar::of(c.abs()), rows[j]);
+        }
+        for i in 0..self.algebra().dim {
+            // The maximum of lanes may drop a NaN; this does not.
+            poison += x[i] * K::Scalar::of(0.0);
+        }
+        rows.largest_entry() + poison
+    }
+
+    fn regime(&self, x: &K::Vector) -> Regime {
+        let norm = self.ad_norm(x);
+        let largest = norm.largest_lane();
+        if largest <= TAYLOR {
+            Regime::SubSteps(1)
+        } else if largest <= SUBSTEPS {
+            let mut steps = 1;
+            while TAYLOR * f64::from(steps) < largest {
+                steps += 1;
+            }
+            Regime::SubSteps(steps)
+        } else {
+            square::halvings(norm, 1.0).map_or(Regime::NotFinite, Regime::Doublings)
+        }
+    }
+
+    fn not_a_number(&self) -> K::Vector {
+        K::Vector::from_entries(self.algebra().dim, |_| K::Scalar::of(f64::NAN))
+    }
+
+    fn scaled(&self, x: &K::Vector, factor: K::Scalar) -> K::Vector {
+        K::Vector::from_entries(self.algebra().dim, |i| x[i] * factor)
+    }
+
+    /// ad_xᵀ μ
+    pub(super) fn ad_transpose(&self, x: &K::Vector, mu: &K::Vector) -> K::Vector {
+        let mut result = K::Vector::zeros(self.algebra().dim);
+        for &(i, j, k, c) in self.algebra().structure {
+            result[j] = (x[i] * K::Scalar::of(c)).times_plus(mu[k], result[j]);
+        }
+        result
+    }
+
+    /// φ(A)μ by its Taylor series, ‖A‖ ≤ [`TAYLOR`].
+    fn phi_series(&self, x: &K::Vector, mu: &K::Vector) -> K::Vector {
+        let dim = self.algebra().dim;
+        let rounding = K::Scalar::epsilon() * K::Scalar::of(0.125);
+        let mut term = mu.clone();
+        let mut sum = mu.clone();
+        for k in 1..TAYLOR_TERMS {
+            let factor = K::Scalar::of(1.0 / (k + 1) as f64);
+            term = self.scaled(&self.ad_transpose(x, &term), factor);
+            sum = K::Vector::from_entries(dim, |i| sum[i] + term[i]);
+            // ‖A‖/(k + 2) < 1, so that later terms are smaller.
+            if term.largest_entry().simd_le(sum.largest_entry() * rounding).all() {
+                break;
+            }
+        }
+        sum
+    }
+
+    /// φ(A)μ and exp(A)μ, A = ad_xᵀ.
+    pub(super) fn act(&self, x: &K::Vector, mu: &K::Vector) -> Action<K::Vector> {
+        let dim = self.algebra().dim;
+        match self.regime(x) {
+            Regime::NotFinite => Action { phi: self.not_a_number(), exp: self.not_a_number() },
+            Regime::Doublings(count) => {
+                let (exp, phi) = self.action_matrices(x, count);
+                Action { phi: mu.left_multiply(&phi), exp: mu.left_multiply(&exp) }
+            }
+            Regime::SubSteps(steps) => {
+                let part = K::Scalar::of(1.0 / f64::from(steps));
+                let x = self.scaled(x, part);
+                let mut phi = K::Vector::zeros(dim);
+                let mut exp = mu.clone();
+                for _ in 0..steps {
+                    let average = self.phi_series(&x, &exp);
+                    let change = self.ad_transpose(&x, &average);
+                    phi = K::Vector::from_entries(dim, |i| average[i].times_plus(part, phi[i]));
+                    exp = K::Vector::from_entries(dim, |i| exp[i] + change[i]);
+                }
+                Action { phi, exp }
+            }
+        }
+    }
+
+    /// exp(A) and φ(A) as matrices, by `count` doublings.
+    fn action_matrices(&self, x: &K::Vector, count: u32) -> (Matrix<K>, Matrix<K>) {
+        let dim = self.algebra().dim;
+        let one = K::Scalar::of(1.0);
+        let x = self.scaled(x, square::half_power(count));
+        let mut a = K::Vector::zero_matrix(dim);
+        for &(i, j, k, c) in self.algebra().structure {
+            a[(j, k)] = x[i].times_plus(K::Scalar::of(c), a[(j, k)]);
+        }
+        let unit = square::identity(dim, &a);
+        let mut phi = unit.clone();
+        let mut term = unit.clone();
+        for k in 1..TAYLOR_TERMS {
+            term = square::multiply(dim, &a, &term);
+            term = square::scale(dim, &term, K::Scalar::of(1.0 / (k + 1) as f64));
+            phi = square::plus_scaled(dim, &phi, one, &term);
+        }
+        let mut exp = square::plus_scaled(dim, &unit, one, &square::multiply(dim, &a, &phi));
+        for _ in 0..count {
+            let sum = square::plus_scaled(dim, &exp, one, &unit);
+            phi = square::scale(dim, &square::multiply(dim, &sum, &phi), K::Scalar::of(0.5));
+            exp = square::multiply(dim, &exp, &exp);
+        }
+        (exp, phi)
+    }
+}

@@ -1,6 +1,5 @@
 //! Matrix groups given by tables: structure constants, and a matrix basis where one is known.
 
-mod action;
 mod algebra;
 mod catalogue;
 mod domain;
@@ -8,7 +7,6 @@ mod domain;
 mod dynamic;
 mod fixed;
 mod group;
-mod logarithm;
 mod tables;
 
 pub use algebra::{BasisEntry, CasimirTerm, StructureConstant};

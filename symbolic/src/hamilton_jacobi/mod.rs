@@ -5,13 +5,11 @@
 
 mod chart;
 mod error;
-mod online;
 mod predict;
 
-use crate::hamilton_jacobi::chart::{Inverse, Side};
-use crate::hamilton_jacobi::online::{Composition, Work, identity, reciprocal};
 use crate::lie::{Chart, LieAlgebra};
 use crate::poly::Polynomial;
+use chart::{Composition, Inverse, Side, Work, identity, reciprocal};
 
 pub use error::{DeriveError, TermLimit};
 pub(crate) use predict::PredictorRows;

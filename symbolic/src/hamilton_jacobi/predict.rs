@@ -4,9 +4,10 @@
 //! μ̇ = ad*_ξ μ and ẋ = (d^L τ_x)⁻¹ ξ with ξ = ∂H/∂μ(μ(t)), and then p = (d^R τ_x)^T μ′. So p follows
 //! without composing with S; it agrees with the solution for the truncated S through t^{K+1}.
 
-use super::chart::{Inverse, Powers, Side, bilinear, sandwich};
-use super::online::{Composition, Series, Work, identity, reciprocal};
 use super::{DeriveError, TermLimit};
+use crate::hamilton_jacobi::chart::{
+    Composition, Inverse, Powers, Series, Side, Work, bilinear, identity, reciprocal, sandwich,
+};
 use crate::lie::{Chart, CubicEntry, LieAlgebra, cubic};
 use crate::number::{Rational, ratio};
 use crate::poly::Polynomial;

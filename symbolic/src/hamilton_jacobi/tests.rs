@@ -1,7 +1,6 @@
 //! The defining equations, checked as identities of polynomials.
 
-use super::chart::{Inverse, Side};
-use super::online::{Composition, Series, Work};
+use crate::hamilton_jacobi::chart::{Composition, Inverse, Series, Side, Work};
 use crate::hamilton_jacobi::{TermLimit, derive, derive_orders, predictor};
 use crate::lie::{Chart, LieAlgebra, catalogue};
 use crate::number::{integer, ratio};

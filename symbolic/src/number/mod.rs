@@ -2,11 +2,9 @@
 
 mod coefficients;
 mod field;
-mod words;
 
-pub(crate) use coefficients::Coefficients;
+pub(crate) use coefficients::{Coefficients, Sum, Words, bits, lcm};
 pub(crate) use field::{Field, Residue, reconstruct};
-pub(crate) use words::{Sum, Words, bits, lcm};
 
 /// An exact rational number, always in lowest terms with a positive denominator.
 pub type Rational = num_rational::BigRational;

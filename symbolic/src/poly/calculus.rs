@@ -1,8 +1,7 @@
 //! Sums, products, powers and derivatives.
 
-use super::monomial::{Factors, Packing};
-use super::polynomial::{Keys, Polynomial};
 use crate::number::{Coefficients, Rational, integer};
+use crate::poly::polynomial::{Factors, Keys, Packing, Polynomial};
 use crate::poly::product::{Product, sum_of_products};
 use num_traits::{One, Zero};
 use std::ops::{Add, Mul, Neg, Sub};

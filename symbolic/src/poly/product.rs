@@ -6,8 +6,7 @@ use num_traits::{One, ToPrimitive, Zero};
 
 use crate::cancel;
 use crate::number::{Coefficients, Rational, Sum, Words, bits, lcm};
-use crate::poly::monomial::{Factors, Key};
-use crate::poly::polynomial::{Keys, Polynomial};
+use crate::poly::polynomial::{Factors, Key, Keys, Polynomial};
 
 /// Why a sum was not computed.
 #[derive(Clone, Copy, Debug)]

@@ -17,7 +17,6 @@ mod solving;
 #[cfg(feature = "spatial")]
 mod spatial;
 mod tables;
-mod translations;
 mod vector;
 
 use coadjoint_program::fold::{FoldError, Values};
@@ -32,9 +31,8 @@ use crate::signal::Signal;
 use crate::step::rotation::Rotation;
 use crate::step::solving::Scheme;
 use crate::step::tables::Tables;
-use crate::step::translations::Translations;
 use motion::{Motion, Plane};
-use product::{Part, Product};
+use product::{Part, Product, Translations};
 
 pub use drift::{Conserved, Drift, Energy, Invariants, PotentialEnergy, Scales, Start, nudge};
 pub use error::{MOST_OF_TABLES, StepError};

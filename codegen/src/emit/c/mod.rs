@@ -4,11 +4,9 @@
 //! nothing. It folds the coefficients by the operations of [`coadjoint_program::fold`], has no globals, allocates nothing,
 //! and every loop in it has an end that is known beforehand.
 
-mod comment;
 mod dialect;
 mod fold;
 mod names;
-mod options;
 mod parameter;
 mod programs;
 mod reference;
@@ -18,8 +16,7 @@ use crate::emit::c::names::Names;
 use crate::integrator::Integrator;
 use crate::step::Step;
 
-pub use names::prefix;
-pub use options::{HeaderError, HeaderOptions, Language, MOST_OPERATIONS};
+pub use names::{HeaderError, HeaderOptions, Language, MOST_OPERATIONS, prefix};
 
 /// The header of an integrator, to be saved as `PREFIX.h` (`PREFIX.hpp` for C++).
 ///
@@ -36,7 +33,7 @@ pub fn header(integrator: &Integrator, options: &HeaderOptions) -> Result<String
     let names = Names::new(&integrator.problem, options);
     let fold = fold::Folding::new(integrator, &step)?;
     let text = [
-        comment::opening(integrator, &step, &fold, &names, options),
+        reference::opening(integrator, &step, &fold, &names, options),
         reference::types(integrator, &step, &fold, &names, options),
         names.fill(template::HELPERS),
         programs::functions(&step, &fold, &names),
