@@ -1,6 +1,8 @@
 //! The errors of a run.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 use coadjoint::StepError;
 
@@ -104,4 +106,17 @@ impl RunError {
             Self::Learn(error) => error.is_input(),
         }
     }
+}
+
+/// A text that stays, since errors hold texts that do. Each is kept once.
+pub(crate) fn kept(text: &str) -> &'static str {
+    static TEXTS: Mutex<BTreeSet<&str>> = Mutex::new(BTreeSet::new());
+    // A thread that panicked has added whole texts, if any.
+    let mut texts = TEXTS.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(known) = texts.get(text) {
+        return known;
+    }
+    let text = text.to_owned().leak();
+    texts.insert(text);
+    text
 }

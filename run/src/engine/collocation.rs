@@ -1,6 +1,5 @@
 //! Steps by collocation, for Hamiltonians that are no polynomials: the gradient is interpreted.
 
-use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use coadjoint::collocation::{Collocation, Energy, Undefined};
@@ -15,6 +14,7 @@ use super::linear::{Differentiable, Linear};
 use super::motion::{Motion, Varied, advise, one_by_one};
 use super::response::Response;
 use super::space::{Elements, Space};
+use crate::error::kept;
 
 /// The steps of this size of a smooth system, for these values of the parameters that it keeps.
 ///
@@ -66,19 +66,6 @@ impl Energy<DVector<f64>> for Interpreted<'_> {
         let (number, argument) = self.smooth.undefined(&self.symbols, time, mu.as_slice())?;
         Some(Undefined { expression: kept(&self.smooth.expressions[number]), argument })
     }
-}
-
-/// A text that stays, since errors hold texts that do. Each is kept once.
-pub(super) fn kept(text: &str) -> &'static str {
-    static TEXTS: Mutex<BTreeSet<&str>> = Mutex::new(BTreeSet::new());
-    // A thread that panicked has added whole texts, if any.
-    let mut texts = TEXTS.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(known) = texts.get(text) {
-        return known;
-    }
-    let text = text.to_owned().leak();
-    texts.insert(text);
-    text
 }
 
 /// The group of all steps by collocation.

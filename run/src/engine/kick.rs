@@ -10,10 +10,10 @@ use coadjoint_codegen::problem::values;
 use coadjoint_codegen::system::Splitting;
 use nalgebra::{DMatrix, DVector};
 
-use super::collocation::kept;
 use super::compiled::Solves;
 use super::interpreter::{Interpreter, refusal};
 use super::space::{Group, entries_of};
+use crate::error::kept;
 
 /// The kicks of a potential.
 #[derive(Debug)]
