@@ -127,7 +127,7 @@ fn named(rows: &[BadRow]) -> Vec<(usize, String)> {
 /// The training data, and test data where there are any.
 pub enum Source<'a> {
     /// Tables whose columns are those of [`Recording`].
-    Tables(Table, Option<Table>),
+    Tables(Box<Table>, Option<Box<Table>>),
     /// Pairs of momenta made by any method, to find the Poisson map nearest to it.
     Momenta(&'a MomentumPairs),
 }
@@ -138,7 +138,8 @@ impl Source<'_> {
     /// # Errors
     /// As [`open`].
     pub fn files(data: &Path, test: Option<&Path>) -> Result<Self, LearnError> {
-        Ok(Self::Tables(open(data)?, test.map(open).transpose()?))
+        let read = |path: &Path| open(path).map(Box::new);
+        Ok(Self::Tables(read(data)?, test.map(read).transpose()?))
     }
 }
 
@@ -184,7 +185,7 @@ impl Visitor for Learner<'_> {
             let what = "the start".into();
             return Err(LearnError::Shape { what, expected: dim, found: start.len() });
         }
-        let read = |table| Recording::read(table, dim, size);
+        let read = |table: Box<Table>| Recording::read(*table, dim, size);
         let (recording, test) = match source {
             Source::Tables(data, test) => (read(data)?, test.map(read).transpose()?),
             Source::Momenta(pairs) => {

@@ -108,7 +108,8 @@ pub fn learn<'py>(
             control.total.store(total as u64, Ordering::Relaxed);
             control.done.store(step as u64, Ordering::Relaxed);
         };
-        let table = |columns| table::Table::of_columns(Path::new("the data"), columns);
+        let table =
+            |columns| table::Table::of_columns(Path::new("the data"), columns).map(Box::new);
         let source = Source::Tables(table(data)?, test.map(table).transpose()?);
         let (file, summary) = coadjoint_learn::learn(&request, source, &mut told)?;
         let unwritten = |error: &dyn std::fmt::Display| RunError::Option(error.to_string());

@@ -156,7 +156,7 @@ mod tests {
         let cubic = |t: f64| 0.3 - t + 0.7 * t * t - 0.2 * t * t * t;
         let parabola = |t: f64| 0.3 - t + 0.7 * t * t;
         let line = |t: f64| 0.3 - t;
-        let times = vec![-1.0, 0.2, 0.5, 1.7, 1.8, 4.0];
+        let times = [-1.0, 0.2, 0.5, 1.7, 1.8, 4.0];
         let cases: [(usize, &dyn Fn(f64) -> f64); 4] =
             [(6, &cubic), (4, &cubic), (3, &parabola), (2, &line)];
         for (count, function) in cases {

@@ -3,6 +3,9 @@
 use super::problem::{Problem, State};
 use crate::timing::Failure;
 
+/// The state at the end of a problem, by steps of this size or to this tolerance.
+pub type Run = fn(&Problem, f64) -> Result<State, Failure>;
+
 /// A method for one problem.
 pub struct Method {
     /// Its name, unique among the methods.
@@ -13,18 +16,12 @@ pub struct Method {
     pub order: Option<u32>,
     /// Steps, or tolerances, from the cheapest to the most accurate.
     pub settings: Vec<f64>,
-    pub(super) run: fn(&Problem, f64) -> Result<State, Failure>,
+    pub(super) run: Run,
 }
 
 impl Method {
     /// A method of fixed steps about a time scale.
-    pub fn stepping(
-        name: String,
-        family: &'static str,
-        order: u32,
-        scale: f64,
-        run: fn(&Problem, f64) -> Result<State, Failure>,
-    ) -> Self {
+    pub fn stepping(name: String, family: &'static str, order: u32, scale: f64, run: Run) -> Self {
         // Finer than the differences that count, or luck would decide them.
         let step = |k| scale * 2f64.powf(-f64::from(k) / 8.0);
         let settings = (-16..88).map(step).collect();

@@ -2,11 +2,9 @@
 
 use coadjoint::{Phase, SE3, SO3, lie_poisson};
 
-use super::method::{Method, equal_steps};
+use super::method::{Method, Run, equal_steps};
 use super::problem::{Kind, Problem, State, Vector, matrix};
 use crate::timing::Failure;
-
-type Run = fn(&Problem, f64) -> Result<State, Failure>;
 
 /// A free body.
 macro_rules! free {

@@ -4,7 +4,7 @@ use coadjoint::collocation::Collocation;
 use coadjoint::{LieGroup, Phase, SE3, SO3};
 use nalgebra::{Vector3, Vector6};
 
-use super::method::{Method, equal_steps};
+use super::method::{Method, Run, equal_steps};
 use super::problem::{Kind, Problem, State, matrix};
 use crate::timing::Failure;
 
@@ -36,7 +36,7 @@ pub fn six(q: &Vector6<f64>) -> Vector6<f64> {
 
 /// The methods with 4, 5 and 6 nodes.
 pub fn methods(problem: &Problem) -> Vec<Method> {
-    let runs: [fn(&Problem, f64) -> Result<State, Failure>; 3] = match problem.kind {
+    let runs: [Run; 3] = match problem.kind {
         Kind::Root | Kind::Spin => [body::<4>, body::<5>, body::<6>],
         Kind::Six => [motion::<4>, motion::<5>, motion::<6>],
         _ => return Vec::new(),

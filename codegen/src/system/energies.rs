@@ -41,8 +41,7 @@ pub(super) fn hamiltonian(
         root.string("hamiltonian", HAMILTONIAN);
         return Energy::default();
     }
-    let energy = root.energy("hamiltonian", HAMILTONIAN, &names, kept).unwrap_or_default();
-    energy
+    root.energy("hamiltonian", HAMILTONIAN, &names, kept).unwrap_or_default()
 }
 
 /// Reports inputs that none of these has.

@@ -232,14 +232,14 @@ impl MomentumFunction for DenseNetwork {
         let mut moved = Vec::with_capacity(layers.hidden.len());
         for (layer, value) in layers.hidden.iter().zip(&passes.values) {
             let z = &layer.matrix * &tangent;
-            tangent = times(z.clone(), &value.map(|a| slope(a)));
+            tangent = times(z.clone(), &value.map(slope));
             moved.push(z);
         }
         let mut change = DMatrix::zeros(layers.last.len(), dim);
         for (k, layer) in layers.hidden.iter().enumerate().rev() {
             let (value, by_value) = (&passes.values[k], &passes.by_value[k]);
             let bend = value.zip_map(by_value, |a, by| bend(a) * by);
-            let slope = value.map(|a| slope(a));
+            let slope = value.map(slope);
             change = &layer.transpose * (times(change, &slope) + times(moved[k].clone(), &bend));
         }
         let width = &self.scaling.half_width;

@@ -243,8 +243,8 @@ impl Compiled {
         self.programs.spatial.momentum(&state.g, &state.mu)
     }
 
-    /// Makes `steps` steps after the first ones. Steps that the programs refuse are made by `rescue`, which makes
-    /// the step after so many by other means (its iterations and residual), or says why there is none.
+    /// Makes `steps` steps after those already made. A step that the programs refuse is made by `rescue`, which is given the number
+    /// of steps before it, and returns its iterations and residual or says why there is no step.
     ///
     /// # Errors
     /// How many steps were made, and why the next one was not; the state is then that before it.
