@@ -142,11 +142,13 @@ def flag(value: Any, what: str) -> bool:
 
 
 def listed(values: Any, what: str) -> list[Any]:
-    """The entries of a list or of whatever else has some."""
+    """The entries of a list or of whatever else has some; the characters of a text are none."""
     try:
-        return list(values)
+        if not isinstance(values, (str, bytes)):
+            return list(values)
     except TypeError:
-        raise InputError(f"{what}={values!r}: a list is needed") from None
+        pass
+    raise InputError(f"{what}={values!r}: a list is needed")
 
 
 def vector(value: Any, what: str, length: int | None = None, unit: Units = None) -> Floats:

@@ -90,7 +90,7 @@ class System:
             coordinates = _arrays.listed(coordinates, "coordinates")
         arguments = [(key, value) for key, value in locals().items() if key not in ("self", "__class__")]
         name = _arrays.text(name, "name")
-        torque = None if torque is None else list(torque)
+        torque = None if torque is None else _arrays.listed(torque, "torque")
         given = tuple(pair for pair in arguments if pair[1] is not None and pair != ("name", "system"))
         functions = _functions(hamiltonian, gradient)
         known = _text.symbols(None if functions else hamiltonian, potential, *(torque or ()), *(coordinates or ()))

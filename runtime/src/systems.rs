@@ -1,7 +1,7 @@
 //! Systems people study, ready to integrate (feature `systems`).
 //!
 //! Each is the plain function of its Hamiltonian and, beside it, the integrator that
-//! [`lie_poisson`](crate::lie_poisson) makes of it. The files of `examples/` hold the same systems
+//! [`lie_poisson`] makes of it. The files of `examples/` hold the same systems
 //! with numbers, and say what is known about them in closed form. Free and symmetric bodies are
 //! integrated in the comoving frame.
 //!
@@ -156,7 +156,7 @@ pub fn toda_lattice(mu: [f64; 7]) -> f64 {
 ///
 /// `inertia`: principal moments, kg m²; `rate`: the orbital rate n, 1/s; `earth`: the unit vector to
 /// the Earth in space at the time of the kick. The torque is 3n² r × Ir; beside the flow of
-/// [`FreeBody`](super::FreeBody) it makes a satellite, whose small pitch oscillations have the rate
+/// [`FreeBody`] it makes a satellite, whose small pitch oscillations have the rate
 /// n √(3 (I₂ − I₁)/I₃), axis 1 being the radius and 3 the orbit normal.
 /// P. C. Hughes, *Spacecraft Attitude Dynamics* (1986), § 9.1.
 #[potential(group = SO3)]

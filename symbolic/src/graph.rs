@@ -198,7 +198,7 @@ pub trait Arithmetic: Copy + Add<Output = Self> + Mul<Output = Self> + Zero {}
 impl<T: Copy + Add<Output = T> + Mul<Output = T> + Zero> Arithmetic for T {}
 
 /// Evaluates every node into `scratch`, where [`Program::outputs`] then point. For programs of sums and products, as
-/// [`lower`](super::lower) makes them; other operations read as 0.
+/// [`lower`] makes them; other operations read as 0.
 ///
 /// Always inlined, so that lanes get the instruction set of the caller.
 #[inline(always)]

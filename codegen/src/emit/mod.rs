@@ -142,7 +142,7 @@ fn literals(terms: Option<usize>) -> String {
     })
 }
 
-/// Whether an integrator is small enough for [`file`](super::file) and [`items`](super::items):
+/// Whether an integrator is small enough for [`file`](file()) and [`items`]:
 /// larger ones are written all the same, but take the compiler very long.
 ///
 /// # Errors

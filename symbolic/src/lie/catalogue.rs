@@ -211,7 +211,7 @@ pub fn names() -> &'static [&'static str] {
     ]
 }
 
-/// The description of a group of the catalogue, by its name in the form of [`names`](super::names): without
+/// The description of a group of the catalogue, by its name in the form of [`names`]: without
 /// parentheses. `None` for products and for unknown names.
 ///
 /// ```
