@@ -16,7 +16,6 @@ const MAX_STEPS: u32 = 100_000_000;
 pub fn method() -> Option<Method> {
     Some(Method {
         name: "DOP853 (ode_solvers)".to_owned(),
-        family: "DOP853",
         order: None,
         settings: (24..=128).map(|k| 10f64.powf(-f64::from(k) / 8.0)).collect(),
         run,

@@ -12,7 +12,6 @@ use crate::timing::Failure;
 pub fn method(problem: &Problem) -> Option<Method> {
     (problem.kind == Kind::Free).then(|| Method {
         name: "exact (Jacobi)".to_owned(),
-        family: "exact (Jacobi)",
         order: None,
         settings: vec![1.0],
         run,

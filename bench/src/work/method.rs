@@ -10,8 +10,6 @@ pub type Run = fn(&Problem, f64) -> Result<State, Failure>;
 pub struct Method {
     /// Its name, unique among the methods.
     pub name: String,
-    /// The name under which its kin are drawn as one curve.
-    pub family: &'static str,
     /// The order of accuracy, where it has one and takes a fixed step.
     pub order: Option<u32>,
     /// Steps, or tolerances, from the cheapest to the most accurate.
@@ -21,11 +19,11 @@ pub struct Method {
 
 impl Method {
     /// A method of fixed steps about a time scale.
-    pub fn stepping(name: String, family: &'static str, order: u32, scale: f64, run: Run) -> Self {
+    pub fn stepping(name: String, order: u32, scale: f64, run: Run) -> Self {
         // Finer than the differences that count, or luck would decide them.
         let step = |k| scale * 2f64.powf(-f64::from(k) / 8.0);
         let settings = (-16..88).map(step).collect();
-        Self { name, family, order: Some(order), settings, run }
+        Self { name, order: Some(order), settings, run }
     }
 
     /// Runs it from the start to the end of the problem.

@@ -10,7 +10,7 @@ use crate::timing::Failure;
 /// The method, for a free body.
 pub fn method(problem: &Problem) -> Option<Method> {
     let name = "DMV10, Newton".to_owned();
-    (problem.kind == Kind::Free).then(|| Method::stepping(name, "DMV", 10, problem.time_scale, run))
+    (problem.kind == Kind::Free).then(|| Method::stepping(name, 10, problem.time_scale, run))
 }
 
 fn run(problem: &Problem, step: f64) -> Result<State, Failure> {

@@ -166,7 +166,7 @@ pub fn methods(problem: &Problem) -> Vec<Method> {
     let method = |&(truncation, comoving, pace, run): &(u32, bool, f64, Run)| {
         let frame = if comoving { "comoving, " } else { "" };
         let name = format!("coadjoint, {frame}K = {truncation}");
-        Method::stepping(name, "coadjoint", truncation + 1, pace * problem.time_scale, run)
+        Method::stepping(name, truncation + 1, pace * problem.time_scale, run)
     };
     list.iter().map(method).collect()
 }

@@ -43,7 +43,7 @@ pub fn methods(problem: &Problem) -> Vec<Method> {
     };
     let method = |(nodes, run)| {
         let name = format!("collocation, {nodes} nodes");
-        Method::stepping(name, "collocation", 2 * nodes, problem.time_scale, run)
+        Method::stepping(name, 2 * nodes, problem.time_scale, run)
     };
     (4_u32..).zip(runs).map(method).collect()
 }

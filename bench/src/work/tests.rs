@@ -19,7 +19,7 @@ const SHORT: [&str; 5] = ["free-body-a", "free-body-b", "heavy-top", "kirchhoff"
 
 /// The last of our methods: the longest series in the best frame.
 fn best(problem: &Problem) -> Method {
-    methods(problem).into_iter().rfind(|method| method.family == "coadjoint").unwrap()
+    methods(problem).into_iter().rfind(|method| method.name.starts_with("coadjoint")).unwrap()
 }
 
 #[test]
@@ -57,11 +57,12 @@ fn shorter_runs_end_where_others_say() {
 fn ours_and_dop853_reach_the_references() {
     for problem in SHORT.map(named) {
         for method in methods(&problem) {
-            let setting = match (method.order, method.family) {
-                (_, "coadjoint") if method.name != best(&problem).name => continue,
-                (Some(_), _) => 0.125 * problem.time_scale,
-                (None, "DOP853") => 1e-13,
-                (None, _) => 1.0,
+            let is = |name| method.name.starts_with(name);
+            let setting = match method.order {
+                _ if is("coadjoint") && method.name != best(&problem).name => continue,
+                Some(_) => 0.125 * problem.time_scale,
+                None if is("DOP853") => 1e-13,
+                None => 1.0,
             };
             let error = method.run(&problem, setting).unwrap();
             let error = error.error(&problem.reference, problem.scale);
@@ -142,7 +143,8 @@ fn the_exact_solution_holds_on_both_sides_of_the_separatrix() {
 #[test]
 fn published_errors_of_the_discrete_moser_veselov_algorithm() {
     let problem = named("free-body-a");
-    let method = methods(&problem).into_iter().find(|method| method.family == "DMV").unwrap();
+    let method =
+        methods(&problem).into_iter().find(|method| method.name.starts_with("DMV")).unwrap();
     // Of order 10 on body A at T = 1000.
     for (step, expected) in [(0.5, 1.7e-6), (0.354, 4.9e-8)] {
         let error = method.run(&problem, step).unwrap().error(&problem.reference, problem.scale);
