@@ -11,6 +11,7 @@ use crate::number::{Rational, integer};
 use crate::poly::{Numeric, Polynomial};
 use crate::problem::{Parameter, Symbol, values};
 use crate::signal::Signal;
+use crate::smooth::undefined;
 
 /// A force, as its kicks are made.
 #[derive(Clone, Debug)]
@@ -96,6 +97,13 @@ impl Programs {
             inputs.extend(self.signals.iter().map(|signal| signal.at(time)));
         }
         inputs
+    }
+
+    /// The text of the first expression that is not defined for these inputs, and its argument there.
+    #[must_use]
+    pub fn undefined(&self, inputs: &[f64], symbols: &[f64]) -> Option<(&str, f64)> {
+        let (number, argument) = undefined(&self.watched.run(inputs, symbols))?;
+        Some((&self.expressions[number], argument))
     }
 
     /// V's derivatives in the entries.

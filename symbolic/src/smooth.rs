@@ -149,12 +149,17 @@ impl Smooth {
     /// The first expression that is not defined, or has no derivative, at (t, μ), by its number, and its argument there.
     #[must_use]
     pub fn undefined(&self, symbols: &[f64], time: f64, mu: &[f64]) -> Option<(usize, f64)> {
-        let values = self.watched.run(&self.inputs(time, mu), symbols);
-        let (pairs, _) = values.as_chunks::<2>();
-        let found =
-            pairs.iter().position(|[argument, test]| argument.is_finite() && !test.is_finite())?;
-        Some((found, pairs[found][0]))
+        undefined(&self.watched.run(&self.inputs(time, mu), symbols))
     }
+}
+
+/// The first expression that is not defined, or has no derivative, by its number, and its argument, from the outputs of
+/// [`Smooth::watched`].
+pub(crate) fn undefined(watched: &[f64]) -> Option<(usize, f64)> {
+    let (pairs, _) = watched.as_chunks::<2>();
+    let found =
+        pairs.iter().position(|[argument, test]| argument.is_finite() && !test.is_finite())?;
+    Some((found, pairs[found][0]))
 }
 
 /// A system as its Hamiltonian is.

@@ -114,12 +114,9 @@ impl<'a, G: Group> Torque<'a, G> {
         if torque.iter().all(|entry| entry.is_finite()) {
             return Ok(torque);
         }
-        let watched = programs.watched.run(&inputs, &self.slots);
-        let (pairs, _) = watched.as_chunks::<2>();
-        let undefined = |[argument, test]: &[f64; 2]| argument.is_finite() && !test.is_finite();
-        Err(pairs.iter().position(undefined).map_or(StepError::NonFiniteState, |number| {
-            let expression = kept(&programs.expressions[number]);
-            StepError::Undefined { expression, argument: pairs[number][0], time, at: None }
+        let undefined = programs.undefined(&inputs, &self.slots);
+        Err(undefined.map_or(StepError::NonFiniteState, |(expression, argument)| {
+            StepError::Undefined { expression: kept(expression), argument, time, at: None }
         }))
     }
 
