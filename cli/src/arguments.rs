@@ -2,8 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::error::{ContextKind, ErrorKind};
-use clap::{Args, CommandFactory, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand};
 use coadjoint_codegen::lie::Chart;
 use coadjoint_native::cards::Device;
 use coadjoint_program::Precision;
@@ -11,7 +10,6 @@ use coadjoint_run::Backend;
 
 use crate::derive::DeriveOptions;
 use crate::ensemble::Shard;
-use crate::geometrize::GeometrizeOptions;
 use crate::learn::LearnOptions;
 use crate::named::{BACKENDS, CHARTS, FORMATS, Format, LANGUAGES, PRECISIONS, Target, named};
 use crate::reproduce::ReproduceOptions;
@@ -27,26 +25,6 @@ pub(crate) struct Arguments {
     /// The verb to run.
     #[command(subcommand)]
     pub verb: Verb,
-}
-
-/// Options of earlier versions.
-const REMOVED: [&str; 2] = ["--tuned", "--fitted"];
-
-/// The arguments of this process; ends it with a message where they make no sense.
-pub(crate) fn parse() -> Arguments {
-    Arguments::try_parse().unwrap_or_else(|error| {
-        let unknown = error.get(ContextKind::InvalidArg).map(ToString::to_string);
-        match REMOVED.iter().find(|name| unknown.as_deref() == Some(name)) {
-            Some(name) => {
-                let message = format!(
-                    "{name} was removed: for a smaller error at the same step give a larger --truncation, or write \
-                     frame = \"comoving\" under [integrator] in the system file"
-                );
-                Arguments::command().error(ErrorKind::UnknownArgument, message).exit()
-            }
-            None => error.exit(),
-        }
-    })
 }
 
 /// The verb to run.
@@ -73,8 +51,6 @@ pub(crate) enum Verb {
     Groups(GroupOptions),
     /// Learn the map behind pairs of states
     Learn(LearnOptions),
-    /// Find the Poisson map nearest to a method that is none, or to pairs of momenta made by one
-    Geometrize(GeometrizeOptions),
     /// Name the program that runs the experiments of the paper
     Reproduce(ReproduceOptions),
 }
@@ -152,12 +128,6 @@ pub(crate) struct SimulateOptions {
     /// Draw the drift of energy, momentum and Casimirs
     #[arg(long, value_name = "SVG", conflicts_with = "model")]
     pub plot: Option<PathBuf>,
-    /// Run another method beside it
-    #[arg(long, value_parser = ["rk45"], conflicts_with = "model")]
-    pub compare: Option<String>,
-    /// The relative and absolute tolerance of the method beside it
-    #[arg(long, value_name = "TOLERANCE", default_value_t = 1e-6)]
-    pub compare_tolerance: f64,
     /// The backend that evaluates the steps
     #[arg(long, value_parser = named(BACKENDS), default_value = "auto", conflicts_with = "model")]
     pub backend: Backend,

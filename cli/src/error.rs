@@ -27,9 +27,6 @@ pub(crate) enum CliError {
     /// A run that was asked to stop.
     #[error("{0}")]
     Interrupted(String),
-    /// The method run beside the integrator failed.
-    #[error("the comparison with rk45 failed: {0}")]
-    Rival(String),
     /// No row of an ensemble has an end state; the report has been printed.
     #[error(
         "no trajectory reached the end: all {failed} rows failed{}",
@@ -73,11 +70,7 @@ impl CliError {
                 2
             }
             Self::Run(error) if error.is_input() => 2,
-            Self::Run(_)
-            | Self::Rows { .. }
-            | Self::Write { .. }
-            | Self::Rival(_)
-            | Self::Laws(_) => 1,
+            Self::Run(_) | Self::Rows { .. } | Self::Write { .. } | Self::Laws(_) => 1,
             Self::NotJudged(_) => 3,
             Self::Interrupted(_) => 130,
         }

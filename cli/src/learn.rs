@@ -7,10 +7,7 @@ use coadjoint_codegen::file;
 use coadjoint_codegen::lie::Chart;
 use coadjoint_learn::data::RowPolicy;
 use coadjoint_learn::network::{Progress, TrainingOptions};
-use coadjoint_learn::{
-    Errors, Figures, GroupChoice, Kind, ModelFile, Request, Source, Summary, learn,
-    remove_checkpoints,
-};
+use coadjoint_learn::{Errors, Figures, Kind, Request, Source, Summary, learn, remove_checkpoints};
 
 use crate::error::{CliError, unwritten};
 use crate::named::{CHARTS, FORMATS, Format, Names, named};
@@ -25,15 +22,19 @@ const MODELS: &Names<Kind> = &[
     ("hybrid", "A quadratic polynomial and a network", Kind::Hybrid),
 ];
 
-/// The options that `learn` and `geometrize` share.
+/// Options of `learn`.
 #[derive(Args, Debug)]
-pub(crate) struct Fit {
+pub(crate) struct LearnOptions {
+    /// Pairs of states: .csv, .npy, .npz or .parquet with the columns mu_1 …, mu_next_1 …, and for
+    /// phase points g_11 …, g_next_11 … or q_w …, q_next_w …
+    #[arg(value_name = "DATA")]
+    data: PathBuf,
     /// The chart
     #[arg(long, value_parser = named(CHARTS), default_value = "exp")]
     chart: Chart,
     /// The time between the two states of a pair
     #[arg(long, value_name = "dt", allow_negative_numbers = true)]
-    pub(crate) dt: f64,
+    dt: f64,
     /// The total degree of a polynomial; chosen by cross-validation if not given
     #[arg(long, value_name = "d")]
     degree: Option<usize>,
@@ -45,7 +46,7 @@ pub(crate) struct Fit {
     drop_bad_rows: bool,
     /// The seed of folds and weights
     #[arg(long, default_value_t = 0)]
-    pub(crate) seed: u64,
+    seed: u64,
     /// Steps over which the drifts are measured
     #[arg(long, value_name = "N", default_value_t = 1000)]
     steps: usize,
@@ -55,17 +56,6 @@ pub(crate) struct Fit {
     /// How to print
     #[arg(long, value_parser = named(FORMATS), default_value = "text")]
     format: Format,
-}
-
-/// Options of `learn`.
-#[derive(Args, Debug)]
-pub(crate) struct LearnOptions {
-    /// Pairs of states: .csv, .npy, .npz or .parquet with the columns mu_1 …, mu_next_1 …, and for
-    /// phase points g_11 …, g_next_11 … or q_w …, q_next_w …
-    #[arg(value_name = "DATA")]
-    data: PathBuf,
-    #[command(flatten)]
-    fit: Fit,
     /// Pairs to test the model on
     #[arg(long, value_name = "DATA")]
     test: Option<PathBuf>,
@@ -84,89 +74,61 @@ pub(crate) struct LearnOptions {
     /// Evaluations of the loss of a network
     #[arg(long, value_name = "N", default_value_t = 1000)]
     evaluations: usize,
-    /// How far attitudes may be off the group and momenta off conservation; `inf` for noisy data
+    /// How far attitudes may be off the group and momenta off conservation; `inf` for noisy data, and for steps of a method
+    /// that conserves nothing
     #[arg(long, default_value_t = 1e-6)]
     tolerance: f64,
-}
-
-impl Fit {
-    /// The request of a map on this group.
-    pub(crate) fn request(&self, group: GroupChoice) -> Request {
-        Request {
-            group,
-            chart: self.chart.name().into(),
-            step: self.dt,
-            degree: self.degree,
-            policy: if self.drop_bad_rows { RowPolicy::Drop } else { RowPolicy::Refuse },
-            start: self.start.clone(),
-            seed: self.seed,
-            drift_steps: self.steps,
-            ..Request::default()
-        }
-    }
-
-    /// Refuses, before anything is computed, to write the model where something is read.
-    pub(crate) fn check(&self, inputs: &[&Path]) -> Result<(), CliError> {
-        let Some(path) = &self.out else { return Ok(()) };
-        file::check(path, inputs).map_err(unwritten(path))
-    }
-
-    /// Writes the model and prints the figures.
-    pub(crate) fn finish(
-        &self,
-        inputs: &[&Path],
-        file: &ModelFile,
-        summary: &Summary,
-    ) -> Result<(), CliError> {
-        if let Some(path) = &self.out {
-            let written = file.text().and_then(|text| file::write(path, inputs, text.as_bytes()));
-            written.map_err(unwritten(path))?;
-        }
-        match self.format {
-            Format::Json => {
-                let text = serde_json::to_string_pretty(summary)
-                    .map_err(|e| CliError::Option(format!("the summary cannot be printed: {e}")))?;
-                outln!("{text}");
-            }
-            Format::Text => print(summary),
-        }
-        Ok(())
-    }
 }
 
 /// Learns the map behind pairs of states.
 pub(crate) fn run(options: &LearnOptions) -> Result<(), CliError> {
     let data = std::iter::once(&options.data).chain(&options.test).map(PathBuf::as_path);
     let inputs: Vec<&Path> = data.chain(load::system_file(&options.group)).collect();
-    options.fit.check(&inputs)?;
+    let out = options.out.as_deref();
+    // Refused before anything is computed.
+    out.map_or(Ok(()), |out| file::check(out, &inputs).map_err(unwritten(out)))?;
     // Beside the model, so that a command given again goes on where it was killed.
-    let checkpoint = options.fit.out.as_ref().map(|out| {
-        let mut name = out.as_os_str().to_owned();
-        name.push(".checkpoint");
-        PathBuf::from(name)
-    });
+    let checkpoint = out.map(|out| file::beside(out, ".checkpoint"));
     let network = TrainingOptions {
         widths: options.widths.clone(),
         checkpoint: checkpoint.clone(),
         ..TrainingOptions::budget(options.evaluations)
     };
     let request = Request {
+        group: load::group(&options.group)?,
+        chart: options.chart.name().into(),
+        step: options.dt,
         kind: options.model,
+        degree: options.degree,
         ridge: options.ridge,
         tolerance: Some(options.tolerance),
+        policy: if options.drop_bad_rows { RowPolicy::Drop } else { RowPolicy::Refuse },
+        start: options.start.clone(),
+        seed: options.seed,
         network,
-        ..options.fit.request(load::group(&options.group)?)
+        drift_steps: options.steps,
     };
     let bar = progress::bar(1, "learning");
     let source = Source::files(&options.data, options.test.as_deref())?;
-    let (file, summary) =
+    let (model, summary) =
         learn(&request, source, &mut |Progress { step, total, loss, .. }| {
             bar.set_length(total as u64);
             bar.set_position(step as u64);
             bar.set_message(format!("loss {loss:.2e}"));
         })?;
     bar.finish_and_clear();
-    options.fit.finish(&inputs, &file, &summary)?;
+    if let Some(out) = out {
+        let written = model.text().and_then(|text| file::write(out, &inputs, text.as_bytes()));
+        written.map_err(unwritten(out))?;
+    }
+    match options.format {
+        Format::Json => {
+            let text = serde_json::to_string_pretty(&summary)
+                .map_err(|e| CliError::Option(format!("the summary cannot be printed: {e}")))?;
+            outln!("{text}");
+        }
+        Format::Text => print(&summary),
+    }
     checkpoint.map_or(Ok(()), |base| Ok(remove_checkpoints(&base)?))
 }
 

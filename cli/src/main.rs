@@ -15,7 +15,6 @@ mod emit;
 mod ensemble;
 mod error;
 mod form;
-mod geometrize;
 mod groups;
 mod learn;
 mod load;
@@ -29,10 +28,11 @@ mod verify;
 
 use std::process::ExitCode;
 
-use arguments::Verb;
+use arguments::{Arguments, Verb};
+use clap::Parser;
 
 fn main() -> ExitCode {
-    let outcome = match arguments::parse().verb {
+    let outcome = match Arguments::parse().verb {
         Verb::Derive(options) => derive::run(&options),
         Verb::Emit(options) => emit::run(&options),
         Verb::Simulate(options) => simulate::run(&options),
@@ -42,7 +42,6 @@ fn main() -> ExitCode {
         Verb::Casimirs(options) => casimirs::run(&options),
         Verb::Groups(options) => groups::run(&options),
         Verb::Learn(options) => learn::run(&options),
-        Verb::Geometrize(options) => geometrize::run(&options),
         Verb::Reproduce(options) => reproduce::run(&options),
     };
     match outcome {

@@ -184,8 +184,8 @@ impl fmt::Display for BadRows {
         if has(|p| matches!(p, CasimirMismatch(_))) {
             write!(
                 f,
-                "\neither the group is not that of the data, or they are noisy (--tolerance inf), or made by a method that \
-                 does not keep the Casimirs: `geometrize` finds the Poisson map nearest to such a method"
+                "\neither the group is not that of the data, or they are noisy, or made by a method that does not keep the \
+                 Casimirs: with --tolerance inf the Poisson map nearest to them is found"
             )?;
         }
         write!(f, "\nor drop these rows and go on (--drop-bad-rows)")

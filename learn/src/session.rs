@@ -72,8 +72,6 @@ pub struct Request {
     pub tolerance: Option<f64>,
     /// Whether rows that cannot be used are an error or left out.
     pub policy: RowPolicy,
-    /// Leave attitudes aside and learn the Poisson map of momenta.
-    pub momenta_only: bool,
     /// The momentum drifts are measured from; `None`: the first sample.
     pub start: Option<Vec<f64>>,
     /// The seed of folds and weights.
@@ -124,22 +122,21 @@ fn named(rows: &[BadRow]) -> Vec<(usize, String)> {
     rows.iter().map(|bad| (bad.row, bad.problem.to_string())).collect()
 }
 
-/// The training data, and test data where there are any.
-pub enum Source<'a> {
-    /// Tables whose columns are those of [`Recording`].
-    Tables(Box<Table>, Option<Box<Table>>),
-    /// Pairs of momenta made by any method, to find the Poisson map nearest to it.
-    Momenta(&'a MomentumPairs),
+/// Tables whose columns are those of [`Recording`].
+pub struct Source {
+    /// The training data.
+    pub data: Table,
+    /// Test data, where there are any.
+    pub test: Option<Table>,
 }
 
-impl Source<'_> {
+impl Source {
     /// The data in these files: CSV, NPY, NPZ, or Parquet where the feature is built in.
     ///
     /// # Errors
     /// As [`open`].
     pub fn files(data: &Path, test: Option<&Path>) -> Result<Self, LearnError> {
-        let read = |path: &Path| open(path).map(Box::new);
-        Ok(Self::Tables(read(data)?, test.map(read).transpose()?))
+        Ok(Self { data: open(data)?, test: test.map(open).transpose()? })
     }
 }
 
@@ -149,7 +146,7 @@ impl Source<'_> {
 /// [`LearnError`] naming what is wrong with the data or the request.
 pub fn learn(
     request: &Request,
-    source: Source<'_>,
+    source: Source,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<(ModelFile, Summary), LearnError> {
     if !(request.step.is_finite() && request.step != 0.0) {
@@ -169,7 +166,7 @@ pub fn learn(
 
 struct Learner<'a> {
     request: &'a Request,
-    source: Source<'a>,
+    source: Source,
     progress: &'a mut dyn FnMut(Progress),
 }
 
@@ -185,14 +182,9 @@ impl Visitor for Learner<'_> {
             let what = "the start".into();
             return Err(LearnError::Shape { what, expected: dim, found: start.len() });
         }
-        let read = |table: Box<Table>| Recording::read(*table, dim, size);
-        let (recording, test) = match source {
-            Source::Tables(data, test) => (read(data)?, test.map(read).transpose()?),
-            Source::Momenta(pairs) => {
-                return learn_momenta::<G, C>(request, &group, pairs, None);
-            }
-        };
-        if request.momenta_only || recording.attitudes.is_none() {
+        let read = |table: Table| Recording::read(table, dim, size);
+        let (recording, test) = (read(source.data)?, source.test.map(read).transpose()?);
+        if recording.attitudes.is_none() {
             let test = test.as_ref().map(|t| &t.momenta);
             let (file, summary) = learn_momenta::<G, C>(request, &group, &recording.momenta, test)?;
             return Ok((file, Summary { unused: recording.unused, ..summary }));
@@ -369,14 +361,12 @@ fn learn_momenta<G: DataGroup, C: Chart<G>>(
         .collect();
     let changes: Vec<f64> = (0..pairs.count()).map(|i| casimir_change(group, pairs, i)).collect();
     // A method that is not a Poisson map changes them; the learned map is the nearest that does not.
-    if !request.momenta_only {
-        let off = changes.iter().enumerate().filter(|(_, change)| **change > tolerance);
-        bad.extend(off.map(|(i, &relative)| BadRow {
-            row: i + 1,
-            problem: RowProblem::CasimirMismatch(relative),
-        }));
-        bad.sort_by_key(|bad| bad.row);
-    }
+    let off = changes.iter().enumerate().filter(|(_, change)| **change > tolerance);
+    bad.extend(off.map(|(i, &relative)| BadRow {
+        row: i + 1,
+        problem: RowProblem::CasimirMismatch(relative),
+    }));
+    bad.sort_by_key(|bad| bad.row);
     if !bad.is_empty() && request.policy == RowPolicy::Refuse {
         return Err(LearnError::BadRows(BadRows {
             rows: bad,
@@ -443,7 +433,7 @@ fn learn_momenta<G: DataGroup, C: Chart<G>>(
     let first = pairs.before.column_iter().next().map(|mu| mu.iter().copied().collect());
     let mut warnings = Vec::from_iter(few_rows(&model, pairs.count()));
     let largest = changes.iter().copied().fold(0.0, f64::max);
-    if largest > tolerance {
+    if largest > TOLERANCE {
         warnings.push(format!(
             "Casimirs differ by up to {largest:.1e} between before and after; the learned map keeps them"
         ));

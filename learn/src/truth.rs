@@ -335,52 +335,6 @@ pub fn add_noise<G: LieGroup<Scalar = f64>>(
         .collect()
 }
 
-/// An explicit Runge–Kutta method on μ̇ = ad\*_{∂H/∂μ} μ.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum OneStep {
-    /// Forward Euler, of order 1: the paper's.
-    Euler,
-    /// Heun's trapezoidal method, of order 2.
-    Heun,
-    /// The classical method of order 4.
-    Rk4,
-}
-
-impl OneStep {
-    /// One step of size `step` from `mu`, given ∂H/∂μ.
-    pub fn advance<G: LieGroup<Scalar = f64>>(
-        self,
-        group: &G,
-        gradient: impl Fn(&[f64], &mut [f64]),
-        mu: &G::Vector,
-        step: f64,
-    ) -> G::Vector {
-        let start = entries(mu);
-        let rate = |at: &[f64]| {
-            let mut velocity = vec![0.0; at.len()];
-            gradient(at, &mut velocity);
-            entries(&group.ad_star(&vector::<G>(&velocity), &vector::<G>(at)))
-        };
-        let along = |slope: &[f64], part: f64| -> Vec<f64> {
-            start.iter().zip(slope).map(|(y, k)| y + part * step * k).collect()
-        };
-        // Each stage follows the slope of the one before: how far, and the weights of all slopes.
-        let (nodes, weights): (&[f64], &[f64]) = match self {
-            Self::Euler => (&[], &[1.0]),
-            Self::Heun => (&[1.0], &[0.5, 0.5]),
-            Self::Rk4 => (&[0.5, 0.5, 1.0], &[1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0]),
-        };
-        let mut slope = rate(&start);
-        let mut mean: Vec<f64> = slope.iter().map(|k| weights[0] * k).collect();
-        for (node, weight) in nodes.iter().zip(&weights[1..]) {
-            slope = rate(&along(&slope, *node));
-            mean.iter_mut().zip(&slope).for_each(|(sum, k)| *sum += weight * k);
-        }
-        let next = along(&mean, 1.0);
-        vector::<G>(&next)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -413,20 +367,5 @@ mod tests {
         }
         assert!((whole.momentum - parts.momentum).norm() < 1e-12);
         assert!(whole.group_element.angle_to(&parts.group_element) < 1e-12);
-    }
-
-    /// Halving the step divides the error of one step by 2^(order + 1).
-    #[test]
-    fn each_method_has_its_order() {
-        let (group, body) = (SO3::new(), Separable::paper());
-        let start = Vector3::new(2.0, 0.5, 1.0);
-        for (method, order) in [(OneStep::Euler, 1), (OneStep::Heun, 2), (OneStep::Rk4, 4)] {
-            let error = |h: f64| {
-                let next = method.advance(&group, |p, g| body.gradient(p, g), &start, h);
-                (next - exact_momentum_flow(&group, &body, &start, h)).norm()
-            };
-            let slope = (error(0.05) / error(0.025)).log2();
-            assert!((slope - f64::from(order + 1)).abs() < 0.15, "{method:?}: {slope}");
-        }
     }
 }

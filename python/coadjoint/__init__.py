@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from ._core import __version__
 from .errors import CoadjointWarning, Error, InputError, RunError
-from .learning import Model, geometrize, learn
+from .learning import Model, learn
 from .results import Drift, Failure, Run, States, Unknown
 from .system import Law, Laws, System, Verdict
 
@@ -35,7 +35,6 @@ __all__ = [
     "Unknown",
     "Verdict",
     "__version__",
-    "geometrize",
     "learn",
 ]
 

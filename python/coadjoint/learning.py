@@ -46,7 +46,7 @@ from .system import System, of_core
 if TYPE_CHECKING:
     import sympy
 
-__all__ = ["Model", "geometrize", "learn"]
+__all__ = ["Model", "learn"]
 
 
 class Model:
@@ -301,7 +301,6 @@ def learn(
     evaluations: int = 1000,
     drift_steps: int = 1000,
     progress: bool | Progress | None = None,
-    _momenta_only: bool = False,
 ) -> Model:
     """Learns the map behind pairs of states a time ``step`` apart.
 
@@ -312,7 +311,19 @@ def learn(
     w, x, y, z. A data frame or a dictionary with the columns ``mu_1`` …, ``mu_next_1`` … takes the place of both.
     ``test`` is a pair of arrays (with ``attitudes``, four), or a frame. ``model`` is ``"auto"`` (what cross-validates
     best), ``"polynomial"``, ``"gp"``, ``"network"`` or ``"hybrid"``.
-    ``tolerance`` is how far attitudes may be off the group and momenta off conservation; ``inf`` for noisy data.
+    ``tolerance`` is how far attitudes may be off the group and momenta off conservation; ``inf`` for noisy data, and for
+    momenta before and after a step of a method that is no Poisson map: the nearest one is found, and a warning says by how
+    much the method changes the Casimirs.
+
+    >>> import coadjoint as ca, numpy as np, warnings
+    >>> inertia = np.array([1.5, 2, 2.5])
+    >>> before = np.random.default_rng(1).uniform(-1, 1, (300, 3))
+    >>> after = before + 0.05 * np.cross(before, before / inertia)        # forward Euler
+    >>> with warnings.catch_warnings(action="ignore"):     # of Casimirs, and of attitudes, of which nothing is known
+    ...     model = ca.learn(before, after, step=0.05, tolerance=np.inf)
+    ...     run = model.simulate([0.3, 0.2, 0.9], time=50)
+    >>> bool(run.largest_drift.casimirs < 1e-12)
+    True
     """
     data, others = _data(before, after, attitudes, "data")
     tested = None
@@ -331,7 +342,6 @@ def learn(
         "ridge": real(ridge, "ridge"),
         "tolerance": real(tolerance, "tolerance"),
         "drop": flag(drop_bad_rows, "drop_bad_rows"),
-        "momenta_only": _momenta_only,
         "start": None if start is None else [float(x) for x in _momentum(start, "start")],
         "seed": count(seed, "seed"),
         "widths": [count(width, "widths") for width in listed(widths, "widths")],
@@ -343,59 +353,10 @@ def learn(
     found = Model(found_text, "model", json.loads(summary))
     unused("data", others + found.summary.get("unused", []))
     for message in found.summary.get("warnings") or []:
-        # To mend Casimirs is what a map is geometrized for; the summary says by how much they differ.
-        if not (_momenta_only and message.startswith("Casimirs differ")):
-            warnings.warn(message, CoadjointWarning, stacklevel=2)
+        warnings.warn(message, CoadjointWarning, stacklevel=2)
     dropped = found.summary.get("dropped") or []
     if dropped:
         row, reason = dropped[0]
         said = f"{len(dropped)} rows were left out; the first is row {row}: {reason}"
         warnings.warn(said, CoadjointWarning, stacklevel=2)
     return found
-
-
-def geometrize(
-    before: Numbers,
-    after: Numbers | None = None,
-    *,
-    step: Real,
-    group: str | Mapping[str, Any] | System = "SO3",
-    chart: str = "exp",
-    degree: int | None = None,
-    test: Any = None,
-    start: Numbers | None = None,
-    seed: int = 0,
-    drop_bad_rows: bool = False,
-    drift_steps: int = 1000,
-    progress: bool | Progress | None = None,
-) -> Model:
-    """The Poisson map nearest to a method that is none: from momenta before and after a step of it, (N, n) each.
-    ``summary["warnings"]`` says by how much the method changes the Casimirs.
-
-    >>> import coadjoint as ca, numpy as np
-    >>> inertia = np.array([1.5, 2, 2.5])
-    >>> before = np.random.default_rng(1).uniform(-1, 1, (300, 3))
-    >>> after = before + 0.05 * np.cross(before, before / inertia)        # forward Euler
-    >>> model = ca.geometrize(before, after, step=0.05)
-    >>> import warnings
-    >>> with warnings.catch_warnings(action="ignore"):     # of attitudes nothing is known
-    ...     run = model.simulate([0.3, 0.2, 0.9], time=50)
-    >>> bool(run.largest_drift.casimirs < 1e-12)
-    True
-    """
-    return learn(
-        before,
-        after,
-        step=step,
-        group=group,
-        chart=chart,
-        model="polynomial",
-        degree=degree,
-        test=test,
-        start=start,
-        seed=seed,
-        drop_bad_rows=drop_bad_rows,
-        drift_steps=drift_steps,
-        progress=progress,
-        _momenta_only=True,
-    )

@@ -38,7 +38,6 @@ pub struct Settings {
     ridge: f64,
     tolerance: f64,
     drop: bool,
-    momenta_only: bool,
     start: Option<Vec<f64>>,
     seed: u64,
     widths: Vec<usize>,
@@ -76,7 +75,6 @@ impl Settings {
             ridge: self.ridge,
             tolerance: Some(self.tolerance),
             policy: if self.drop { RowPolicy::Drop } else { RowPolicy::Refuse },
-            momenta_only: self.momenta_only,
             start: self.start,
             seed: self.seed,
             network: TrainingOptions {
@@ -108,9 +106,8 @@ pub fn learn<'py>(
             control.total.store(total as u64, Ordering::Relaxed);
             control.done.store(step as u64, Ordering::Relaxed);
         };
-        let table =
-            |columns| table::Table::of_columns(Path::new("the data"), columns).map(Box::new);
-        let source = Source::Tables(table(data)?, test.map(table).transpose()?);
+        let table = |columns| table::Table::of_columns(Path::new("the data"), columns);
+        let source = Source { data: table(data)?, test: test.map(table).transpose()? };
         let (file, summary) = coadjoint_learn::learn(&request, source, &mut told)?;
         let unwritten = |error: &dyn std::fmt::Display| RunError::Option(error.to_string());
         let text = file.text().map_err(|error| unwritten(&error))?;

@@ -43,20 +43,23 @@ def test_frames_and_dictionaries_are_read_by_their_names(body: ca.System) -> Non
     before, after, *_ = pairs(body, 100, 3)
     names = [f"mu_{i}" for i in (1, 2, 3)] + [f"mu_next_{i}" for i in (1, 2, 3)]
     frame = pandas.DataFrame(np.hstack([before, after]), columns=names)
-    by_frame = ca.geometrize(frame, step=STEP, degree=4)
-    by_arrays = ca.geometrize(before, after, step=STEP, degree=4)
-    by_dictionary = ca.geometrize({name: frame[name].to_numpy() for name in names}, step=STEP, degree=4)
+    by_frame = ca.learn(frame, step=STEP, degree=4)
+    by_arrays = ca.learn(before, after, step=STEP, degree=4)
+    by_dictionary = ca.learn({name: frame[name].to_numpy() for name in names}, step=STEP, degree=4)
     assert by_frame == by_arrays == by_dictionary and not by_frame.attitude
     ends = frame[names[5:2:-1]]
     for after in [after, ends, ends.rename(columns=lambda name: name.replace("next_", ""))]:
-        assert ca.geometrize(frame[names[2::-1]], after, step=STEP, degree=4) == by_frame
+        assert ca.learn(frame[names[2::-1]], after, step=STEP, degree=4) == by_frame
 
 
 def test_a_poisson_map_is_found_beside_euler(body: ca.System) -> None:
     inertia = np.array([1.5, 2, 2.5])
     before = np.random.default_rng(5).uniform(-1, 1, (300, 3))
     after = before + STEP * np.cross(before, before / inertia)
-    model = ca.geometrize(before, after, step=STEP)
+    with pytest.raises(InputError, match="Casimir"):
+        ca.learn(before, after, step=STEP)
+    with pytest.warns(ca.CoadjointWarning, match="Casimirs differ by up to"):
+        model = ca.learn(before, after, step=STEP, tolerance=np.inf)
     with pytest.warns(ca.CoadjointWarning, match="attitude"):
         run = model.simulate([0.5, 0.2, 0.7], time=100)
     assert run.largest_drift.casimirs < 1e-12 and run.group_element.shape == (1001, 0, 0)
@@ -87,8 +90,8 @@ def test_data_that_make_no_sense_are_refused(body: ca.System) -> None:
         with pytest.raises(InputError, match=message):
             ca.learn(before, after, **{"step": STEP, "degree": 2, **settings})
     with pytest.warns(ca.CoadjointWarning, match="1 rows were left out"):
-        assert ca.geometrize(before, bad, step=STEP, degree=2, drop_bad_rows=True).summary["dropped"]
-    model = ca.geometrize(before, after, step=STEP, degree=2)
+        assert ca.learn(before, bad, step=STEP, degree=2, drop_bad_rows=True).summary["dropped"]
+    model = ca.learn(before, after, step=STEP, degree=2)
     with pytest.raises(InputError, match="whole number of steps"):
         model.simulate([1, 0, 0], time=0.25)
     with pytest.raises(InputError, match="JSON"):

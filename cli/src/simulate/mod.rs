@@ -5,7 +5,6 @@ mod keep;
 mod plot;
 mod records;
 mod report;
-mod rival;
 mod samples;
 mod settings;
 mod target;
@@ -45,7 +44,7 @@ pub(crate) fn run(options: &SimulateOptions) -> Result<(), CliError> {
     Ok(())
 }
 
-/// Runs every truncation asked for, and the rival.
+/// The run of every truncation asked for.
 fn runs(
     options: &SimulateOptions,
     out: Option<&Target>,
@@ -95,15 +94,7 @@ fn runs(
         let coordinates = system.facts().coordinates;
         let label = system.label();
         let drive = |sink: &mut dyn Sink| coadjoint_run::simulate::run(&system, setup, sink);
-        runs.push(keep(&settings, label, header.clone(), coordinates, drive)?);
-        // The rival knows no truncation: once is enough.
-        if options.compare.is_some() && runs.len() == 1 {
-            runs.insert(0, rival::rk45(&system, &settings, header, options.compare_tolerance)?);
-        }
-    }
-    // The rival, if any, comes last.
-    if options.compare.is_some() && !runs.is_empty() {
-        runs.rotate_left(1);
+        runs.push(keep(&settings, label, header, coordinates, drive)?);
     }
     Ok((runs, units))
 }

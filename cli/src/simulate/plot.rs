@@ -30,12 +30,10 @@ pub(crate) fn draw(
 /// Group, chart, K, step and duration, and what else is said of a run in its label.
 fn settings(runs: &[Trajectory], units: &Units) -> Vec<String> {
     let unit = units.time.as_ref().map(|unit| format!(" {unit}")).unwrap_or_default();
-    // Methods beside ours have none.
-    let ours = || runs.iter().filter(|run| run.header.get("truncation").is_some());
-    let Some(first) = ours().next() else { return Vec::new() };
+    let Some(first) = runs.first() else { return Vec::new() };
     let said = |name| first.header.text(name);
     let all = |text: fn(&Trajectory) -> String| {
-        let mut list: Vec<String> = ours().map(text).collect();
+        let mut list: Vec<String> = runs.iter().map(text).collect();
         list.dedup();
         list.join(", ")
     };

@@ -235,18 +235,6 @@ impl Header {
         Self(list)
     }
 
-    /// Only the entries with these names.
-    pub(crate) fn only(mut self, names: &[&str]) -> Self {
-        self.0.retain(|(name, _)| names.contains(name));
-        self
-    }
-
-    /// With another entry at the end.
-    pub(crate) fn with(mut self, name: &'static str, value: Value) -> Self {
-        self.0.push((name, value));
-        self
-    }
-
     /// With the scales of the drifts that there are.
     pub(crate) fn with_scales(mut self, known: [bool; 3], scales: &Scales) -> Self {
         let list = [

@@ -80,7 +80,7 @@ chapters! {
     ensembles: 2;
     spins: 2;
     cluster: 2;
-    learning: 5;
+    learning: 4;
     targets: 2;
     guarantee: 3;
 }

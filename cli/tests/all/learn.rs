@@ -1,6 +1,6 @@
-//! `learn`, `simulate --model`, `emit --model`, `geometrize`, and where `reproduce` has gone.
+//! `learn`, `simulate --model`, `emit --model`, and where `reproduce` has gone.
 
-use crate::support::{BODY, Folder, json, refused};
+use crate::support::Folder;
 use serde_json::Value;
 
 const RUN: &str = "simulate --model model.json --out run.csv";
@@ -44,30 +44,35 @@ fn bad_data_and_models_exit_with_two() {
         (&format!("{RUN} --start 2,0.5,1 --time 10"), "is not `coadjoint-model`"),
         ("learn missing.csv --dt 0.1", "missing.csv"),
         ("learn missing.csv --dt 0.1 --model network --activation relu", "--activation"),
-        ("geometrize --system examples/rigid_body.toml --map verlet --dt 0.1", "rk4"),
-        ("geometrize --dt 0.1", "DATA"),
-        (&format!("geometrize --system {BODY} --dt 0.1 --within 3,1"), "is no interval"),
         ("reproduce", paper),
         ("reproduce all --quick --html report.html", paper),
     ]);
 }
 
-/// Forward Euler on a system file, geometrized: the Casimir stays, and the model says it is one of
-/// momenta.
+/// Steps of forward Euler are no Poisson map, and refused as one. With the tolerance `inf` the nearest Poisson map is found: the
+/// Casimir stays, and the model says it is one of momenta.
 #[test]
-fn geometrize_a_method_on_a_system() {
+fn the_poisson_map_nearest_to_a_method_is_found() {
     let place = Folder::new();
-    let pairs = "geometrize --system examples/rigid_body.toml --map euler --dt 0.1 --samples 200";
-    let summary = place.json(&format!("{pairs} --degree 4 --start 2,0.5,1 --out model.json"));
+    let mut text = "mu_1,mu_2,mu_3,mu_next_1,mu_next_2,mu_next_3\n".to_owned();
+    for n in 1..=200 {
+        let part = |a: f64| 5.0 * (a * f64::from(n)).fract() - 2.5;
+        let [x, y, z] = [0.8192, 0.6710, 0.5497].map(part);
+        let (u, v, w) =
+            (y * z / 2.5 - z * y / 2.0, z * x / 1.5 - x * z / 2.5, x * y / 2.0 - y * x / 1.5);
+        text += &format!("{x},{y},{z},{},{},{}\n", x + 0.1 * u, y + 0.1 * v, z + 0.1 * w);
+    }
+    place.write("pairs.csv", text);
+    let learn = "learn pairs.csv --dt 0.1 --degree 4 --start -1,0.5,1 --out model.json";
+    place.run(learn).fails(2, &["with --tolerance inf the Poisson map nearest to them is found"]);
+    let summary = place.json(&format!("{learn} --tolerance inf"));
+    assert!(summary["warnings"][0].as_str().unwrap().starts_with("Casimirs differ by up to "));
     assert!(summary["drifts"]["casimir"].as_f64().unwrap() < 1e-12, "{summary}");
     // Euler's map is not Poisson: what is left is its own defect.
     let left = summary["train"]["mse"]["momentum"].as_f64().unwrap();
     assert!((1e-8..1e-2).contains(&left), "{summary}");
     let model = coadjoint_learn::ModelFile::load(&place.at("model.json")).unwrap();
     assert!(!model.attitude && model.group.name() == "SO3");
-    // Lists that begin with a minus are no options.
-    let pairs = "geometrize --system examples/rigid_body.toml --dt 0.1 --samples 40 --steps 10";
-    json(&format!("{pairs} --degree 2 --within -2,2 --start -1,0.5,1"));
 }
 
 /// Numbers that make no sense, and sizes that no memory holds, are refused as arguments.
@@ -90,11 +95,6 @@ fn arguments_without_sense_are_refused_before_anything_is_allocated() {
     ] {
         place.refused(&[(&format!("learn pairs.csv --dt 0.1 {option}"), word)]);
     }
-    let body = format!("geometrize --system {BODY} --dt 0.1");
-    refused(&[
-        (&format!("{body} --samples 1000000000"), "--samples 1000000000: at most 100000 pairs"),
-        (&format!("{body} --start nan,0,0"), "start is NaN"),
-    ]);
 }
 
 /// Data that do not support a model are refused in words.
@@ -205,10 +205,6 @@ fn maps_are_learned_on_the_algebra_of_a_system_file() {
         assert!((followed - number(&learned[6][i])).abs() < 1e-12, "{run:?}");
         assert!((followed - number(&exact[6][i])).abs() < 1e-4, "{followed} {exact:?}");
     }
-    // Methods are geometrized on any algebra too.
-    let euler = "geometrize --system system.toml --dt 0.05 --samples 150 --degree 3 --within -1,1";
-    let summary = place.json(euler);
-    assert!(summary["drifts"]["casimir"].as_f64().unwrap() < 1e-12, "{summary}");
     place.write("attitudes.csv", "mu_1,mu_2,mu_3,mu_4,g_11,g_12\n1,0,0,1,1,0\n");
     place.write("bad.toml", "[algebra]\ngenerators = [\"a\"]\nbrackets = [\"[a, b] = a\"]\n");
     place.refused(&[

@@ -180,7 +180,6 @@ fn torques_without_potential() {
         ("emit system.toml", "no code is written of a torque"),
         ("emit system.toml --language c", "no code is written of a torque"),
         ("emit system.toml --language opencl", "no code is written of a torque"),
-        ("simulate system.toml --compare rk45 --plot a.svg", "a torque acts"),
     ] {
         driven.run(command).fails(2, &[word]);
     }

@@ -101,7 +101,7 @@ fn json_never_holds_null() {
         }
     }
     for arguments in [
-        "rigid_body.toml --time 5 --compare rk45",
+        "rigid_body.toml --time 5 --truncation 3,5",
         "satellite.toml --time 1",
         "spin_chain_64.toml --time 0.1",
     ] {
@@ -151,17 +151,6 @@ fn tables_and_matrices_hold_the_same_numbers() {
     let array = npyz::NpyFile::new(&bytes[..]).unwrap();
     assert_eq!(array.shape(), [6, table[0].len() as u64]);
     assert_eq!(array.into_vec::<f64>().unwrap(), rows.concat());
-}
-
-/// As in the paper's figures: the Runge–Kutta method loses the momentum, the integrator keeps it.
-#[test]
-fn the_rival_drifts() {
-    let runs = json(&format!("simulate {BODY} --compare rk45"));
-    let drift = |i: usize| runs[i]["drift"]["spatial_momentum"].as_f64().unwrap();
-    assert!(drift(0) < 1e-13 && drift(1) > 1e-8);
-    // Still the same system: it ends near the same place.
-    assert!(error(&runs[1]) < 1e-2, "{}", error(&runs[1]));
-    assert!(runs[1]["solver"].is_null());
 }
 
 /// Steps end at the time asked for: 50 is 62.5 steps of 0.8. Where the step divides the time it stays.

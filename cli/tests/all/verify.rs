@@ -104,8 +104,8 @@ fn a_report_is_judged_from_its_start_to_its_end() {
     let mut report_of_one = report("");
     write(&report_of_one);
     assert_eq!(right(&folder, "report.json")["steps"], 100);
-    // Several runs, one of them another method's.
-    write(&report("--truncation 3,5 --compare rk45"));
+    // Several runs.
+    write(&report("--truncation 3,5"));
     assert_eq!(right(&folder, "report.json").as_array().unwrap().len(), 2);
     // One a line.
     folder.write("report.json", format!("{report_of_one}\n{report_of_one}\n"));
