@@ -186,10 +186,6 @@ pub(crate) struct EnsembleOptions {
     /// Begin anew, whatever an earlier run that was stopped has written
     #[arg(long)]
     pub restart: bool,
-    /// Keep what an earlier run of this very command has finished, as jobs of an array want it that are started again.
-    /// FILE.done says what FILE is; another command is refused
-    #[arg(long)]
-    pub keep: bool,
     /// How to print
     #[arg(long, value_parser = named(FORMATS), default_value = "text")]
     pub format: Format,

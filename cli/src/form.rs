@@ -2,6 +2,9 @@
 
 use std::path::Path;
 
+#[cfg(feature = "parquet")]
+use coadjoint_codegen::file;
+use coadjoint_codegen::file::Output;
 use coadjoint_learn::npy_header;
 use coadjoint_learn::table::csv_lines;
 use coadjoint_run::number::shortest;
@@ -55,15 +58,33 @@ impl Form {
         let line = |row: &[f64]| row.iter().copied().map(shortest).collect::<Vec<_>>().join(",");
         values.chunks(width.max(1)).map(|row| line(row) + "\n").collect::<String>().into_bytes()
     }
+
+    /// Gives a file of rows its name. The bare numbers of columns with these names become Parquet before.
+    #[cfg_attr(not(feature = "parquet"), allow(unused_variables))]
+    pub(crate) fn publish(
+        self,
+        output: &mut Output,
+        path: &Path,
+        names: &[String],
+        inputs: &[&Path],
+    ) -> std::io::Result<()> {
+        #[cfg(feature = "parquet")]
+        if self == Self::Parquet {
+            let passing = file::passing(&file::beside(path, ".parquet"));
+            let mut whole = Output::open_as(path, &passing, inputs)?;
+            to_parquet(&file::passing(path), names, &mut whole)?;
+            whole.publish()?;
+            // The numbers have served.
+            output.discard();
+            return Ok(());
+        }
+        output.publish()
+    }
 }
 
 /// Writes a Parquet file of columns with these names, of a file that has the bare numbers of their rows.
 #[cfg(feature = "parquet")]
-pub(crate) fn to_parquet(
-    from: &Path,
-    names: &[String],
-    to: &mut coadjoint_codegen::file::Output,
-) -> std::io::Result<()> {
+fn to_parquet(from: &Path, names: &[String], to: &mut Output) -> std::io::Result<()> {
     use std::io::Read;
     /// Rows of a row group.
     const GROUP: usize = 1 << 17;

@@ -40,31 +40,23 @@ svg.plot{fill:var(--ink);max-width:100%;height:auto}
 
 /// How a curve looks: a number for its colour, dashes and marker; after eight they come again, with thicker lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Style {
-    number: usize,
-    faint: bool,
-}
+pub struct Style(usize);
 
 impl Style {
     /// Curve number `number`.
     pub fn new(number: usize) -> Self {
-        Self { number, faint: false }
-    }
-
-    /// The same, paler and thinner.
-    pub(crate) fn faint(self) -> Self {
-        Self { faint: true, ..self }
+        Self(number)
     }
 
     fn kind(self) -> usize {
-        self.number % STYLES.len()
+        self.0 % STYLES.len()
     }
 
     /// The attributes of its line.
     pub(crate) fn line(self) -> String {
         let kind = self.kind();
         let (colour, _, dashes) = STYLES[kind];
-        let thickness = 1.5 + (self.number / STYLES.len()) as f64;
+        let thickness = 1.5 + (self.0 / STYLES.len()) as f64;
         let mut text = format!(
             r#"class="s{kind}" stroke="{colour}" stroke-width="{thickness}" stroke-linejoin="round""#
         );
@@ -72,17 +64,13 @@ impl Style {
         if !dashes.is_empty() {
             let _ = write!(text, r#" stroke-dasharray="{dashes}""#);
         }
-        if self.faint {
-            text.push_str(r#" stroke-opacity="0.4""#);
-        }
         text
     }
 
     /// The attributes of its markers.
     pub(crate) fn fill(self) -> String {
         let kind = self.kind();
-        let opacity = if self.faint { r#" fill-opacity="0.4""# } else { "" };
-        format!(r#"class="m{kind}" fill="{}"{opacity}"#, STYLES[kind].0)
+        format!(r#"class="m{kind}" fill="{}""#, STYLES[kind].0)
     }
 
     /// The outline of a marker around a point, as the data of a path.

@@ -32,6 +32,6 @@ result = cluster.run(
     step=0.1,
     rows_per_shard=ROWS_PER_SHARD,
     share=(int(os.environ["SLURM_ARRAY_TASK_ID"]), SHARES),
-    workers=int(os.environ.get("SLURM_CPUS_PER_TASK", "1")),
+    threads=int(os.environ.get("SLURM_CPUS_PER_TASK", "1")),
 )
 print(f"{result.rows} rows, {result.bad} bad; the whole is {'complete' if result.complete else 'not complete yet'}")

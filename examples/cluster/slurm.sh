@@ -3,13 +3,9 @@
 #
 #   sbatch examples/cluster/slurm.sh examples/rigid_body.toml states.npy final
 #
-# writes final/1.npy … final/8.npy. Jobs that were killed go on where they were when they are submitted again, and jobs
-# that are finished end at once: submit the same line until all are there. Options of the command may follow (--time,
-# --step, --tolerance …). Afterwards
-#
-#   python -m coadjoint.cluster join-shards final.npy final/*.npy
-#
-# checks that all shards are there and of one run, and puts them together.
+# writes final/1.npy … final/8.npy, which together are the ends in their order. Jobs that were killed go on where they were
+# when they are submitted again, and jobs whose file is there end at once: submit the same line until all are there. Options
+# of the command may follow (--time, --step, --tolerance …).
 #
 #SBATCH --job-name=coadjoint
 #SBATCH --array=1-8
@@ -25,6 +21,8 @@ shards=${SHARDS:-8}
 system=$1 states=$2 folder=$3
 shift 3
 mkdir -p "$folder"
-ending=${states##*.}
-exec coadjoint ensemble "$system" --initial "$states" --out "$folder/$SLURM_ARRAY_TASK_ID.$ending" \
-    --shard "$SLURM_ARRAY_TASK_ID/$shards" --threads "${SLURM_CPUS_PER_TASK:-1}" --keep "$@"
+out=$folder/$SLURM_ARRAY_TASK_ID.${states##*.}
+# A file has its name only when it is whole.
+[ ! -e "$out" ] || exit 0
+exec coadjoint ensemble "$system" --initial "$states" --out "$out" \
+    --shard "$SLURM_ARRAY_TASK_ID/$shards" --threads "${SLURM_CPUS_PER_TASK:-1}" "$@"

@@ -210,7 +210,7 @@ function showSpeed() {
   byId("speed-text").textContent = `${+state.speed.toPrecision(2)} steps/s`;
 }
 
-// Formulas and code.
+// Formulas and the system file.
 let textShown = "";
 const textLater = later(250, showText);
 function showText() {
@@ -231,14 +231,8 @@ function showText() {
       (about.casimirs.length ? `<p class="fine">Casimirs, which every step keeps:</p>${about.casimirs.join("")}` : "");
     return;
   }
-  try {
-    textShown = session.text(state.tab);
-    panel.replaceChildren(element("pre", "", textShown));
-  } catch (error) {
-    textShown = "";
-    byId("copy").hidden = true;
-    panel.replaceChildren(element("p", "", `This system is not written in this language: ${error}`));
-  }
+  textShown = session.file();
+  panel.replaceChildren(element("pre", "", textShown));
 }
 
 async function copy(text, what) {

@@ -1,6 +1,6 @@
 // The state of the page, and the link that holds it.
 const FIELDS = ["name", "group", "algebra", "coordinates", "hamiltonian", "parameters", "truncation", "chart", "frame", "step", "momentum", "time"];
-const TABS = ["formulas", "rust", "file", "python", "c"];
+const TABS = ["formulas", "file"];
 
 // The systems to choose from.
 let gallery = [];

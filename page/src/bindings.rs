@@ -9,7 +9,6 @@ use crate::formula;
 use crate::orbit::{Curve, Orbit};
 use crate::run::Run;
 use crate::system::{Factor, System};
-use crate::texts::text;
 
 /// The systems to choose from, as JSON: `[{id, title, family, about, fields}]`.
 #[wasm_bindgen]
@@ -241,9 +240,9 @@ impl Session {
         json(&list)
     }
 
-    /// The system as `file`, `rust`, `python` or `c`.
-    pub fn text(&self, language: &str) -> Result<String, String> {
-        text(&self.system, language)
+    /// The system file.
+    pub fn file(&self) -> String {
+        self.system.file.clone()
     }
 }
 

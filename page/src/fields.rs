@@ -27,7 +27,7 @@ pub struct Fields {
     pub step: String,
     /// The momentum at the start, separated by blanks or commas.
     pub momentum: String,
-    /// The duration of a run, for the texts to copy.
+    /// The duration of a run, for the file to copy.
     pub time: String,
 }
 

@@ -220,7 +220,7 @@ impl File {
 }
 
 /// Words, with where they begin. Blanks inside parentheses and brackets part nothing, commas outside do.
-pub fn words(content: &str) -> Vec<(usize, &str)> {
+fn words(content: &str) -> Vec<(usize, &str)> {
     parts(content, |c| c.is_whitespace() || c == ',' || c == ';')
 }
 

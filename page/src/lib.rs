@@ -1,4 +1,4 @@
-//! coadjoint in a web page: a system as text fields becomes steps, pictures, formulas, and programs to copy.
+//! coadjoint in a web page: a system as text fields becomes steps, pictures, formulas, and a system file to copy.
 //!
 //! Everything but [`bindings`] runs and is tested on any machine; `build` puts the page together into one HTML file.
 
@@ -14,4 +14,3 @@ pub mod orbit;
 pub mod rival;
 pub mod run;
 pub mod system;
-pub mod texts;

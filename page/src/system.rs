@@ -4,9 +4,9 @@ use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie::{self, LieAlgebra, catalogue};
 use coadjoint_codegen::poly::{Numeric, Polynomial};
-use coadjoint_codegen::problem::{Parameter, Problem, values};
+use coadjoint_codegen::problem::{Problem, values};
 use coadjoint_codegen::step::{Energy, Invariants, Step};
-use coadjoint_codegen::system::{self, Options, Parameters, Units};
+use coadjoint_codegen::system::{self, Options, Units};
 
 use crate::fields::Fields;
 use crate::file::File;
@@ -44,7 +44,6 @@ pub struct Factor {
 #[derive(Debug)]
 pub struct System {
     pub file: String,
-    pub fields: Fields,
     /// The integrator, with numbers for the parameters.
     pub integrator: Integrator,
     /// A step as programs.
@@ -52,8 +51,6 @@ pub struct System {
     /// Their folded coefficients.
     pub slots: Vec<f64>,
     pub h: f64,
-    /// The duration of a run, for the texts to copy.
-    pub time: f64,
     /// μ at the start.
     pub momentum: Vec<f64>,
     pub energy: Numeric,
@@ -105,12 +102,10 @@ impl System {
         let rival = Rival::new(algebra, &energy);
         Ok(Self {
             file: file.text,
-            fields: fields.clone(),
             integrator,
             step,
             slots,
             h,
-            time: read.run.time.unwrap_or(10.0),
             momentum,
             energy,
             casimirs,
@@ -124,22 +119,6 @@ impl System {
     pub fn dim(&self) -> usize {
         self.integrator.problem.algebra.dim()
     }
-
-    /// The same system with its parameters kept as names; none where the comoving frame is one for their values alone.
-    pub fn with_names(&self) -> Option<Problem> {
-        let moving = self.integrator.problem.comoving.is_some();
-        kept(&self.fields).filter(|problem| problem.comoving.is_some() == moving)
-    }
-
-    pub fn parameters(&self) -> Vec<Parameter> {
-        let fixed = Fields { frame: "fixed".into(), ..self.fields.clone() };
-        kept(&fixed).map(|problem| problem.parameters).unwrap_or_default()
-    }
-}
-
-fn kept(fields: &Fields) -> Option<Problem> {
-    let options = Options { parameters: Parameters::Kept, ..Options::default() };
-    system::read(&File::of(fields).text, options).ok().map(|read| read.problem)
 }
 
 /// The factors of a group as the programs of its steps have them.

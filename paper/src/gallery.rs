@@ -1,4 +1,4 @@
-//! The gallery: every system of a folder, run as its file says, with its orbit, its momentum and the drift of its conserved quantities.
+//! The gallery: every system of a folder, run as its file says, with its momentum and the drift of its conserved quantities.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -6,7 +6,7 @@ use std::path::Path;
 use coadjoint_codegen::smooth::Facts;
 use coadjoint_codegen::system::{Options, Parameters};
 use coadjoint_draw::curves::range;
-use coadjoint_draw::run::{Picture, Run, Series, drift_panels, motion_panels, orbit_panel};
+use coadjoint_draw::run::{Picture, Run, Series, drift_panels, motion_panels};
 use coadjoint_draw::{Panel, escaped};
 use coadjoint_run::simulate::{self, Drift, Moment, Schedule, Setup, Sink};
 use coadjoint_run::{Accuracy, Derived, meet_tolerance, read_varying};
@@ -15,8 +15,6 @@ use crate::outcome::{Fallible, brief};
 
 /// The size of a panel.
 const SIZE: (f64, f64) = (400.0, 250.0);
-/// The width of a frame over its height, about.
-const ASPECT: f64 = 1.3;
 /// Stretches of time in which two points of a curve are drawn.
 const COLUMNS: usize = 130;
 /// A drift of spatial momentum or Casimirs beyond this is no rounding.
@@ -106,10 +104,10 @@ pub fn exhibit(picture: &Picture) -> String {
     let name = escaped(&picture.name);
     let mark = verdict(worst(picture) <= BOUND);
     let mut text = format!(
-        "<article class=\"exhibit\" id=\"gallery-{name}\">\n<h3>{name} {mark}</h3>\n{}\n<div class=\"panels three\">\n",
+        "<article class=\"exhibit\" id=\"gallery-{name}\">\n<h3>{name} {mark}</h3>\n{}\n<div class=\"panels\">\n",
         settings(&picture.settings)
     );
-    let mut panels: Vec<_> = orbit_panel(picture, ASPECT).into_iter().collect();
+    let mut panels = Vec::new();
     if let Some(run) = picture.runs.first() {
         let across = range(&run.times).unwrap_or((0.0, 1.0));
         let unit = picture.time_unit.as_deref();

@@ -97,8 +97,8 @@ pub fn page(reports: &[Report], gallery: &[Picture]) -> String {
     if !gallery.is_empty() {
         let _ = writeln!(
             text,
-            "<h2 id=\"gallery\">Gallery</h2>\n<p>Every system of the examples, run as its file says: the orbit of the \
-             body momentum, the momentum over time, and what drifts. A mark says whether spatial momentum and \
+            "<h2 id=\"gallery\">Gallery</h2>\n<p>Every system of the examples, run as its file says: the body momentum \
+             over time, and what drifts. A mark says whether spatial momentum and \
              Casimirs, which every step conserves whatever S is, stay within {}. Energy is conserved as well as K \
              and h make it.</p>",
             brief(gallery::BOUND)

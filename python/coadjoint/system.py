@@ -278,8 +278,6 @@ class System:
         at: Numbers | None = None,
         events: EventFunction | Sequence[EventFunction] = (),
         looks: int | None = None,
-        tuned: None = None,
-        fitted: None = None,
         backend: Backend = "auto",
         progress: bool | Progress | None = None,
     ) -> Run:
@@ -313,12 +311,6 @@ class System:
         >>> body.simulate([2, 0.5, 1], time=5, step=0.1, events=upright).events[0].time.round(4)
         array([1.1718, 3.3151])
         """
-        for name, value in (("tuned", tuned), ("fitted", fitted)):
-            if value is not None:
-                raise InputError(
-                    f"{name} was removed: for a smaller error at the same step give a larger truncation, or the system "
-                    'frame="comoving"'
-                )
         start, element = self._state(momentum, group_element)
         times = self._times(at)
         watched = _events(events)

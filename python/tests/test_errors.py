@@ -70,8 +70,6 @@ def test_systems_that_make_no_sense_are_refused(arguments: dict, message: str) -
         (dict(time=1, step=0.1, truncation=4), "odd"),
         (dict(time=1, step=0.1, group_element=np.eye(2)), "3 rows"),
         (dict(time=1, step=0.1, group_element=2 * np.eye(3)), "group_element"),
-        (dict(time=1, step=0.1, fitted=10.0), "fitted was removed.* truncation.*frame"),
-        (dict(time=1, step=0.1, tuned=True), "tuned was removed.* truncation.*frame"),
         (dict(time=1, step=0.1, momentum=[1, 2]), "3 are needed"),
         (dict(time=1, step=0.1, momentum=[1, np.nan, 2]), r"momentum\[1\] is nan"),
         (dict(time=1, step=0.1, momentum="123"), "type"),

@@ -1,16 +1,15 @@
-//! Notes beside an output: how far a run has come, and what a finished one was.
+//! The note beside an output: how far a run has come.
 
 use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
 
-use coadjoint_codegen::file::{self, Extent};
+use coadjoint_codegen::file;
 use coadjoint_codegen::step;
 use coadjoint_run::ensemble::{Drift, Engine};
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 
 use crate::error::{CliError, unread};
-use crate::note::{Identity, agree};
+use crate::note::Identity;
 
 /// The way to forget an earlier run.
 pub(crate) const ANEW: &str = "begin anew with --restart";
@@ -22,14 +21,8 @@ pub(crate) struct Journal {
     pub identity: Identity,
     /// Rows written.
     pub rows: u64,
-    /// Bytes of the output so far.
-    pub output: u64,
-    /// The checksum of these.
-    pub output_crc32: u32,
-    /// Bytes of the list of rejected rows so far.
-    pub rejected_bytes: u64,
-    /// The checksum of these.
-    pub rejected_crc32: u32,
+    /// The output and the list of rejected rows so far: bytes, and their checksum.
+    pub files: [(u64, u32); 2],
     /// Rejected rows so far.
     pub rejected: u64,
     /// Where the next row begins in the input.
@@ -39,38 +32,18 @@ pub(crate) struct Journal {
     /// The largest drift of Casimirs so far, as bits, if one is known.
     pub casimirs: Option<u64>,
     /// Rows whose drift could not be measured.
-    #[serde(default)]
     pub unmeasured: u64,
     /// The largest ratio of the last two terms of the series worth a warning so far, as bits.
-    #[serde(default)]
     pub ratio: u64,
     /// The backends that have made the steps so far. All give the same bits, but for what the identity says.
-    #[serde(default)]
     pub made_by: Vec<String>,
     /// Rows of which a device has refused steps that others then made.
-    #[serde(default)]
     pub redone: u64,
     /// The errors estimated at the ends of some rows so far.
-    #[serde(default)]
     pub estimates: Vec<f64>,
-    /// Whether all is written and only names are to be changed.
-    pub complete: bool,
-    /// The bytes of the whole file then, and their checksum.
-    pub whole: [u64; 2],
 }
 
 impl Journal {
-    /// How much there is of the output and of the list of rejected rows.
-    pub(crate) fn extents(&self) -> [Extent; 2] {
-        let output = Extent { bytes: self.output, crc32: self.output_crc32 };
-        [output, Extent { bytes: self.rejected_bytes, crc32: self.rejected_crc32 }]
-    }
-
-    /// Refuses to go on with a run that is another.
-    pub(crate) fn check(&self, path: &Path, identity: &Identity) -> Result<(), CliError> {
-        agree(path, &self.identity, identity, &format!("go on as then, or {ANEW}"))
-    }
-
     /// The median and the largest of the errors estimated.
     pub(crate) fn estimated(&self) -> Option<[f64; 2]> {
         let mut all = self.estimates.clone();
@@ -97,49 +70,6 @@ impl Journal {
             self.made_by.push(maker);
         }
     }
-}
-
-/// The note that `--keep` leaves of a finished run, for the same command started again and for programs that join shards.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-pub(crate) struct Finished {
-    /// The first row of the input that it has, from 1.
-    pub first_row: u64,
-    /// SHA-256 of the file.
-    pub sha256: String,
-    /// SHA-256 of the list of rejected rows, where there is one.
-    pub rejected_sha256: Option<String>,
-    /// The run and its findings.
-    pub journal: Journal,
-}
-
-impl Finished {
-    /// Describes files that have their names already.
-    pub(crate) fn of(
-        out: &Path,
-        list: &Path,
-        first_row: u64,
-        journal: Journal,
-    ) -> Result<Self, CliError> {
-        let rejected_sha256 = if journal.rejected > 0 { Some(sha256(list)?) } else { None };
-        Ok(Self { first_row, sha256: sha256(out)?, rejected_sha256, journal })
-    }
-
-    /// Whether the files are those that it describes.
-    pub(crate) fn is_whole(&self, out: &Path, list: &Path) -> Result<bool, CliError> {
-        let same = |path: &Path, known: &str| -> Result<bool, CliError> {
-            Ok(path.exists() && sha256(path)? == known)
-        };
-        let list_is = self.rejected_sha256.as_ref().map_or(Ok(true), |known| same(list, known))?;
-        Ok(list_is && same(out, &self.sha256)?)
-    }
-}
-
-/// SHA-256 of a file, in hexadecimal digits.
-fn sha256(path: &Path) -> Result<String, CliError> {
-    let mut hash = Sha256::new();
-    let copied = file::open(path).and_then(|mut file| std::io::copy(&mut file, &mut hash));
-    copied.map_err(unread(path))?;
-    Ok(format!("{:x}", hash.finalize()))
 }
 
 /// Bytes read in one piece to recognise a file.

@@ -104,19 +104,8 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     }
     let stops = at.map(|times| times.stops(&schedule)).unwrap_or_default();
     let parameters = states.found.layout.parameters.clone();
-    let job = Job {
-        engine: &engine,
-        inputs,
-        range: options.shard.rows(states.count()?),
-        states,
-        out: &options.out,
-        form,
-        course: Course { steps, stops },
-        identity,
-        estimate: options.estimate,
-        restart: options.restart,
-        keep: options.keep,
-    };
+    let (range, course) = (options.shard.rows(states.count()?), Course { steps, stops });
+    let job = Job { options, engine: &engine, inputs, range, states, form, course, identity };
     if let Some(threads) = options.threads {
         rayon::ThreadPoolBuilder::new()
             .num_threads(threads)

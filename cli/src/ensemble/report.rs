@@ -40,7 +40,7 @@ pub(crate) fn report(
     format: Format,
 ) -> String {
     let series = system.series().map(|series| &series.integrator.problem);
-    let Outcome { trajectories, resumed, kept, first, list, journal, seconds } = outcome;
+    let Outcome { trajectories, resumed, first, list, journal, seconds } = outcome;
     let (made_by, failed, redone) = (&journal.made_by, journal.rejected, journal.redone);
     let drift = journal.drift();
     let drifts = [
@@ -54,7 +54,6 @@ pub(crate) fn report(
         let mut value = json!({
             "trajectories": trajectories,
             "resumed_at": resumed,
-            "kept": kept,
             "failed": failed,
             "first_failed": first.iter().map(row).collect::<Value>(),
             "rejected": list,
@@ -91,9 +90,7 @@ pub(crate) fn report(
     let label = system.label();
     let mut lines =
         vec![format!("{label}: {trajectories} trajectories of {steps} steps of {step}")];
-    if *kept {
-        lines.push("  finished by an earlier run, and kept".to_owned());
-    } else if *resumed > 0 {
+    if *resumed > 0 {
         lines.push(format!("  {resumed} of them by an earlier run"));
     }
     if !parameters.is_empty() {

@@ -127,7 +127,6 @@ impl States {
     }
 
     /// The names of the columns of numbers, in files that name them.
-    #[cfg(feature = "parquet")]
     pub(crate) fn names(&self) -> Vec<String> {
         let places = self.times.iter().flat_map(|_| ["row".to_owned(), "time".to_owned()]);
         places.chain(self.found.layout.names()).collect()

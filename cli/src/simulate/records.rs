@@ -14,8 +14,6 @@ use super::settings::Header;
 use super::target::{Place, Target, paths};
 use crate::error::{CliError, unwritten};
 use crate::form::Form;
-#[cfg(feature = "parquet")]
-use crate::form::to_parquet;
 use crate::note::Identity;
 
 /// Bytes kept in memory before they are written.
@@ -218,23 +216,9 @@ impl Records {
         if self.target.form != Form::Csv && self.output.is_some() {
             self.describe(true)?;
         }
-        let Some(output) = &mut self.output else { return Ok(()) };
-        match self.target.form {
-            #[cfg(feature = "parquet")]
-            Form::Parquet => {
-                let Target { path, inputs, .. } = &self.target;
-                let whole = Output::open_as(path, &self.target.parquet(), &paths(inputs));
-                let written = whole.and_then(|mut whole| {
-                    to_parquet(&self.target.part(), &self.names, &mut whole)?;
-                    whole.publish()
-                });
-                written.map_err(unwritten(path))?;
-                // The numbers have served.
-                output.discard();
-                Ok(())
-            }
-            _ => output.publish().map_err(unwritten(&self.target.path)),
-        }
+        let Self { target: Target { form, path, inputs, .. }, output, names, .. } = &mut self;
+        let Some(output) = output else { return Ok(()) };
+        form.publish(output, path, names, &paths(inputs)).map_err(unwritten(path))
     }
 
     /// Ends a file that stays a part, as well as can be, and says why.

@@ -95,12 +95,6 @@ impl Target {
         if self.place == Place::File { passing(&self.path) } else { self.path.clone() }
     }
 
-    /// The file that becomes Parquet when all records are there.
-    #[cfg(feature = "parquet")]
-    pub(crate) fn parquet(&self) -> PathBuf {
-        passing(&beside(&self.path, ".parquet"))
-    }
-
     /// The JSON file beside a matrix or a Parquet file.
     pub(crate) fn description(&self) -> PathBuf {
         beside(&self.path, ".json")

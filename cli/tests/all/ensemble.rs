@@ -172,39 +172,6 @@ fn a_killed_run_ends_with_the_same_bytes() {
     nothing_left_over(&folder);
 }
 
-/// Jobs of an array that are started again: what is finished stays, what is damaged is made again, and another command
-/// is refused.
-#[test]
-fn a_finished_shard_is_kept() {
-    let folder = place(momenta(60) + "bad,1,2\n");
-    let options = "--shard 3/3 --time 1 --keep";
-    let again = || ensemble(&folder, "in.csv", "out-3.csv", options);
-    assert_eq!(again()["kept"], false);
-    let files = ["out-3.csv", "out-3.csv.rejected.csv", "out-3.csv.done"];
-    let before = files.map(|file| folder.bytes(file));
-    let note: Value = serde_json::from_slice(&before[2]).unwrap();
-    assert_eq!((&note["first_row"], &note["journal"]["rows"]), (&41.into(), &21.into()));
-    let kept = again();
-    assert_eq!((&kept["kept"], &kept["failed"]), (&true.into(), &1.into()));
-    assert_eq!(kept["trajectories"], 21);
-    let told = run(&folder, "in.csv", "out-3.csv", options).ok();
-    told.prints(&["finished by an earlier run, and kept"]);
-    run(&folder, "in.csv", "out-3.csv", &format!("{options} --step 0.2"))
-        .fails(2, &["out-3.csv.done is of a run with another number of steps"]);
-    // Damaged or lost, it is made again.
-    for file in &files[..2] {
-        folder.write(file, "1,2");
-        assert_eq!(again()["kept"], false);
-    }
-    folder.remove(files[0]);
-    assert_eq!(again()["kept"], false);
-    assert!(files.map(|file| folder.bytes(file)) == before);
-    // Made by another command without the option, the file has no note.
-    ensemble(&folder, "in.csv", "out-3.csv", "--time 2");
-    assert!(!folder.has(files[2]));
-    nothing_left_over(&folder);
-}
-
 #[test]
 fn bad_rows_are_told_and_do_not_stop_the_rest() {
     let rows = "mu_1,mu_2,mu_3,q_w,q_x,q_y,q_z\n2,0.5,1,1,0,0,0\n2,inf,1,1,0,0,0\n2,0.5,1,1,1,0,0\n2,0.5,1,1,0,0\n\

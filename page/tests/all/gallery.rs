@@ -87,6 +87,12 @@ fn every_system_of_the_gallery_runs_and_keeps_momentum_and_casimirs() {
         let system = System::new(&entry.fields)
             .unwrap_or_else(|mistakes| panic!("{}: {mistakes:?}", entry.id));
         let mut run = Run::new(&system, &system.momentum);
+        let copied = read(&system.file, Options::default()).unwrap();
+        assert_eq!(copied.problem.hamiltonian, system.integrator.problem.hamiltonian);
+        assert_eq!(
+            (copied.run.momentum, copied.run.step),
+            (Some(run.momentum().to_vec()), Some(system.h))
+        );
         assert_eq!(run.advance(&system, 50), 50, "{}", entry.id);
         let [[energy, momentum, casimirs], _] = run.history.most;
         assert!(momentum < 1e-13 && casimirs < 1e-13, "{}: {momentum:e} {casimirs:e}", entry.id);

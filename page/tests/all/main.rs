@@ -4,4 +4,3 @@
 mod gallery;
 mod mistakes;
 mod run;
-mod texts;

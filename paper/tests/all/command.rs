@@ -37,8 +37,6 @@ fn a_gallery_of_ones_own_and_mistakes_before_anything_is_run() {
     for expected in [
         "id=\"reduction-error\"",
         "id=\"gallery-wheel\"",
-        ">Orbit on the sphere",
-        "|μ| = 2.291 (N m s)",
         ">Body momentum (N m s)</text>",
         ">Relative drifts</text>",
         "<span class=\"mark\">3 of 3</span>",

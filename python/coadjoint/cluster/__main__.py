@@ -6,7 +6,7 @@ import argparse
 import json
 import sys
 
-from . import ClusterError, check, join, join_shards
+from . import ClusterError, check, join
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -18,18 +18,12 @@ def main(arguments: list[str] | None = None) -> int:
     two = actions.add_parser("join", help="check such a folder and write its parts into one Parquet file")
     two.add_argument("folder")
     two.add_argument("file")
-    three = actions.add_parser("join-shards", help="check and join the files of coadjoint ensemble --shard --keep")
-    three.add_argument("file")
-    three.add_argument("shards", nargs="+")
     given = parser.parse_args(arguments)
     try:
         if given.action == "check":
             print(json.dumps(check(given.folder)))
-        elif given.action == "join":
-            print(f"{given.file}: {join(given.folder, given.file)} rows")
         else:
-            joined = join_shards(given.shards, given.file)
-            print(f"{given.file}: {joined['rows']} rows, {joined['rejected']} of them rejected")
+            print(f"{given.file}: {join(given.folder, given.file)} rows")
     except (ClusterError, OSError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 1

@@ -1,4 +1,4 @@
-"""Shards as tasks of a Dask cluster, or of Ray."""
+"""Shards in this process, or as tasks of a Dask cluster or of Ray."""
 
 from __future__ import annotations
 
@@ -10,6 +10,31 @@ from typing import Any
 from . import shard
 from .errors import ClusterError, InputError, ShardError, WorkerDied
 from .shard import Summary, Task
+
+
+class Here:
+    """One shard after the other in this process."""
+
+    capacity = 1
+
+    def submit(self, task: Task) -> Task:
+        """Does nothing before the result is asked for."""
+        return task
+
+    def wait(self, handles: Iterable[Task]) -> list[Task]:
+        """All results can be asked for."""
+        return list(handles)
+
+    def result(self, handle: Task) -> Summary:
+        """Makes the shard."""
+        return shard.run(handle)
+
+    def workers(self) -> int:
+        """This one."""
+        return 1
+
+    def close(self) -> None:
+        """Nothing is left."""
 
 
 class Dask:

@@ -8,9 +8,8 @@ from typing import Any
 
 from .._arrays import Backend, Numbers, Real, count, flag
 from ..system import System
-from . import local
 from .drive import Engine
-from .engines import Dask, Ray
+from .engines import Dask, Here, Ray
 from .errors import InputError
 from .job import Job
 from .progress import Progress
@@ -30,8 +29,7 @@ def run(
     at: Numbers | None = None,
     backend: Backend = "auto",
     client: Any = None,
-    workers: int | None = None,
-    threads: int = 1,
+    threads: int | None = None,
     rows_per_shard: int | None = None,
     share: tuple[int, int] | None = None,
     keep: Sequence[str] = (),
@@ -41,7 +39,7 @@ def run(
     progress: bool | Callable[[Progress], None] = True,
     storage_options: dict[str, Any] | None = None,
 ) -> Result:
-    """Advances every row of files of states, on many processes or machines, into a folder of Parquet files.
+    """Advances every row of files of states, on one machine or many, into a folder of Parquet files.
 
     The files in ``out`` have the same bytes whatever runs the shards, however many workers there are, and whatever
     was killed on the way. Called again, it keeps the shards that are finished and makes the others.
@@ -69,11 +67,10 @@ def run(
     backend : str
         What makes the steps: see ``System.ensemble``. The bytes do not depend on it.
     client : optional
-        A ``distributed.Client``, or the module ``ray`` after ``ray.init()``. Without one, processes of this machine.
-    workers : int, optional
-        How many processes, without a client; one for each processor if not given. With 1 this process does it.
-    threads : int
-        Threads of each worker; with Ray, the processors that it reserves.
+        A ``distributed.Client``, or the module ``ray`` after ``ray.init()``. Without one, this process.
+    threads : int, optional
+        Threads of each worker, 1 if not given; with Ray, the processors that it reserves. Without a client, threads of this
+        process, one for each processor if not given.
     rows_per_shard : int, optional
         How many rows make a shard; chosen by the number of steps if not given.
     share : (i, n), optional
@@ -105,6 +102,8 @@ def run(
     """
     asked = {"time": time, "step": step, "tolerance": tolerance, "region": region, "truncation": truncation}
     job = Job(system, states, out, asked, backend, rows_per_shard, share, keep, storage_options, at)
+    if threads is None:
+        threads = 1 if client is not None else _processors()
     attempts, threads = count(attempts, "attempts", 1), count(threads, "threads", 1)
     restart, verify = flag(restart, "restart"), flag(verify, "verify")
     if restart and share is not None:
@@ -112,20 +111,22 @@ def run(
             "restart with share: every job would remove what the others have made; remove the folder once, or begin "
             "anew by a call without share"
         )
-    engine = engine_of(client, workers, threads)
+    engine = engine_of(client, threads)
     job.settle(restart)
     return job.run(engine, attempts, threads, verify, progress)
 
 
-def engine_of(client: Any, workers: int | None, threads: int) -> Engine:
+def _processors() -> int:
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def engine_of(client: Any, threads: int) -> Engine:
     """The engine that runs the shards."""
     if client is None:
-        return local.engine(workers)
+        return Here()
     home = client.__name__ if hasattr(client, "__path__") else type(client).__module__
     if home != "ray" and home.split(".")[0] != "distributed":
         raise InputError(
             f"client is {client!r}: a dask.distributed.Client, the module ray after ray.init(), or nothing is needed"
         )
-    if workers is not None:
-        raise InputError("workers is for processes of this machine: the client has its own number")
     return Ray(client, threads) if home == "ray" else Dask(client)

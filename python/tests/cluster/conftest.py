@@ -22,6 +22,6 @@ def serial(tmp_path_factory):
     numbers[1234, 1] = float("nan")
     numbers[2801:2803, 0] = float("inf")
     states = support.write(folder / "states.parquet", numbers)
-    options = {"rows_per_shard": support.PER_SHARD, "workers": 1, "progress": False} | support.SCHEDULE
+    options = {"rows_per_shard": support.PER_SHARD, "progress": False} | support.SCHEDULE
     outcome = cluster.run(support.body(), states=states, out=folder / "out", **options)
     return states, folder / "out", outcome

@@ -30,8 +30,6 @@ def body(inertia=(1.5, 2, 2.5)):
 def run(states, out, **options):
     """A run of the body with the schedule above, in this process if no client is given."""
     options = {"progress": False, "rows_per_shard": PER_SHARD} | SCHEDULE | options
-    if "client" not in options:
-        options.setdefault("workers", 1)
     return cluster.run(options.pop("system", None) or body(), states=states, out=out, **options)
 
 

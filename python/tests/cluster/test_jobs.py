@@ -9,7 +9,6 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 import support
-from coadjoint import cluster
 
 ROOT = Path(__file__).parents[3]
 EXAMPLES = ROOT / "examples" / "cluster"
@@ -25,7 +24,7 @@ def job(arguments, index, **more):
 
 @pytest.mark.skipif(not COMMAND.exists(), reason="the command is not built; COADJOINT says where it is")
 @pytest.mark.parametrize("ending", ["npy", "csv"])
-def test_jobs_of_the_command_are_kept_and_joined(ending, tmp_path):
+def test_jobs_of_the_command_are_kept_and_together_the_whole(ending, tmp_path):
     numbers = support.momenta(50)
     numbers[17, 2] = np.nan
     states = tmp_path / f"states.{ending}"
@@ -38,29 +37,22 @@ def test_jobs_of_the_command_are_kept_and_joined(ending, tmp_path):
     script = ["bash", EXAMPLES / "slurm.sh", system, states, tmp_path / "final", "--time", "10"]
     parts = [tmp_path / "final" / f"{index}.{ending}" for index in (1, 2, 3)]
     whole = tmp_path / f"whole.{ending}"
-    joined = tmp_path / f"joined.{ending}"
     for index in (1, 3):
         done = job(script, index, SHARDS="3")
         assert done.returncode == 0, done.stderr
-    join = [sys.executable, "-m", "coadjoint.cluster", "join-shards", joined]
-    missing = subprocess.run([*join, parts[0], parts[2]], capture_output=True, text=True)
-    assert missing.returncode == 1 and "of 3 shards these are missing: 2" in missing.stderr
     for index in (1, 2, 3):
+        before = parts[index - 1].stat().st_mtime_ns if index != 2 else None
         again = job(script, index, SHARDS="3")
         assert again.returncode == 0, again.stderr
-        assert ("finished by an earlier run, and kept" in again.stdout) == (index != 2)
-    other = job(script, 1, SHARDS="4")
-    assert other.returncode == 2 and "another shard: 1/3 then, 1/4 now" in other.stderr
-    done = subprocess.run([*join, *parts], capture_output=True, text=True)
-    assert done.stdout == f"{joined}: 50 rows, 1 of them rejected\n", done.stderr
+        assert before in (None, parts[index - 1].stat().st_mtime_ns)
     straight = [COMMAND, "ensemble", system, "--initial", states, "--out", whole, "--time", "10"]
     subprocess.run(straight, check=True, capture_output=True)
-    assert joined.read_bytes() == whole.read_bytes()
-    lists = [Path(f"{path}.rejected.csv").read_bytes() for path in (joined, whole)]
-    assert lists[0] == lists[1]
-    parts[0].write_bytes(parts[1].read_bytes())
-    with pytest.raises(cluster.ClusterError, match="is not what .* says"):
-        cluster.join_shards(parts, joined)
+    if ending == "npy":
+        joined = np.concatenate([np.load(part) for part in parts])
+        assert np.array_equal(joined, np.load(whole), equal_nan=True)
+    else:
+        lines = [part.read_text().splitlines() for part in parts]
+        assert [lines[0][0], *(row for part in lines for row in part[1:])] == whole.read_text().splitlines()
 
 
 def test_jobs_in_python_fill_one_folder(tmp_path):

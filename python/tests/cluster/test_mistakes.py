@@ -19,7 +19,6 @@ def test_options_that_make_no_sense(serial, tmp_path):
     states, out, _ = serial
     for options, expected in [
         ({"rows_per_shard": 0}, "rows_per_shard=0"),
-        ({"workers": 0}, "workers=0"),
         ({"attempts": 0}, "attempts=0"),
         ({"threads": 1.5}, "threads=1.5"),
         ({"share": (0, 3)}, "no share 0 of 3"),
@@ -27,7 +26,7 @@ def test_options_that_make_no_sense(serial, tmp_path):
         ({"share": (1, 3), "restart": True}, "every job would remove what the others have made"),
         ({"keep": ["id"]}, "there is no column id; there are mu_1, mu_2, mu_3"),
         ({"keep": ["mu_1"]}, "column mu_1 is part of the state"),
-        ({"client": "dask", "workers": None}, "a dask.distributed.Client, the module ray"),
+        ({"client": "dask"}, "a dask.distributed.Client, the module ray"),
         ({"states": np.ones((2, 3))}, r"call system\.ensemble"),
         ({"states": "nowhere.parquet"}, "there is no such file"),
         ({"states": str(tmp_path)}, "the folder has no .parquet file"),
@@ -107,19 +106,18 @@ import support
 from coadjoint import cluster
 resource.setrlimit(resource.RLIMIT_FSIZE, (5000, 5000))
 try:
-    cluster.run(support.body(), states={states!r}, out={out!r}, rows_per_shard=400, workers={workers},
+    cluster.run(support.body(), states={states!r}, out={out!r}, rows_per_shard=400,
                 progress=False, **support.SCHEDULE)
 except cluster.ShardError as error:
     print(error)
 """
 
 
-@pytest.mark.parametrize("workers", [1, 2])
-def test_a_full_disk_ends_the_run_and_leaves_no_half_file(workers, serial, tmp_path):
+def test_a_full_disk_ends_the_run_and_leaves_no_half_file(serial, tmp_path):
     """Files of more than 5000 bytes cannot be written, as on a disk that is full."""
     states, whole, _ = serial
     out = tmp_path / "out"
-    script = FULL.format(tests=str(Path(__file__).parent), states=states, out=str(out), workers=workers)
+    script = FULL.format(tests=str(Path(__file__).parent), states=states, out=str(out))
     said = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout
     assert "(rows " in said and "cannot write or read" in said and "File too large" in said
     assert [name for name in support.tree(out) if name != "_run/manifest.json"] == []
@@ -127,16 +125,13 @@ def test_a_full_disk_ends_the_run_and_leaves_no_half_file(workers, serial, tmp_p
     support.same(whole, out)
 
 
-def test_a_shard_that_kills_every_worker_is_named(serial, tmp_path):
-    """Workers are killed whenever they run, until the limit is reached."""
-    import psutil
+def test_a_shard_that_kills_every_worker_is_named(serial, tmp_path, monkeypatch):
+    """Workers die whenever they run, until the limit is reached."""
 
-    def kill(progress):
-        for child in psutil.Process().children():
-            if "coadjoint" in " ".join(child.cmdline()):
-                child.kill()
+    def die(task):
+        raise cluster.WorkerDied("signal 9")
 
-    states, _, _ = serial
-    with pytest.raises(cluster.ShardError, match=r"shard \d+ \(rows \d+ to \d+\): tried 2 times: .* signal 9"):
-        run(states, tmp_path / "out", workers=2, attempts=2, rows_per_shard=3000, time=1e5, progress=kill)
+    monkeypatch.setattr(cluster.engines.shard, "run", die)
+    with pytest.raises(cluster.ShardError, match=r"shard 0 \(rows 0 to 2999\): tried 2 times: signal 9"):
+        run(serial[0], tmp_path / "out", attempts=2, rows_per_shard=3000)
     assert os.listdir(tmp_path / "out") == ["_run"]

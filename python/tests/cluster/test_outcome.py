@@ -35,24 +35,25 @@ def test_bad_rows_are_listed_by_shard_with_their_numbers_in_the_whole_input(seri
     assert all("mu_" in line["reason"] for line in cluster.bad_rows(out))
 
 
-def test_two_processes_leave_the_same_bytes(serial, tmp_path):
+def test_two_threads_leave_the_same_bytes(serial, tmp_path):
     states, out, _ = serial
-    outcome = run(states, tmp_path / "two", workers=2)
+    outcome = run(states, tmp_path / "two", threads=2)
     support.same(out, tmp_path / "two")
     assert outcome.made == 8
 
 
-def test_a_killed_process_is_replaced_and_its_shard_made_again(serial, tmp_path):
-    import psutil
-
-    def victim():
-        children = psutil.Process().children()
-        return next((child.pid for child in children if "coadjoint" in " ".join(child.cmdline())), None)
-
-    killer = support.Killer(victim)
+def test_a_shard_whose_worker_died_is_made_again(serial, tmp_path, monkeypatch):
     states, out, _ = serial
-    outcome = run(states, tmp_path / "killed", workers=2, progress=killer)
-    assert killer.killed is not None and outcome.again >= 1
+    make, died = cluster.engines.shard.run, []
+
+    def once(task):
+        if task.shard == 3 and not died:
+            died.append(task)
+            raise cluster.WorkerDied("signal 9")
+        return make(task)
+
+    monkeypatch.setattr(cluster.engines.shard, "run", once)
+    assert run(states, tmp_path / "killed").again == 1
     support.same(out, tmp_path / "killed")
 
 
