@@ -5,12 +5,9 @@ Each figure is the best of several repetitions, on whatever machine runs it.
 
 from __future__ import annotations
 
-import os
-import signal
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -67,62 +64,10 @@ def against_the_command(command: str) -> None:
         print(f"ensemble, 10⁵ rows of 10³ steps: Python {ours:.2f} s, command {theirs:.2f} s, ratio {ours / theirs:.2f}")
 
 
-def interruptions() -> None:
-    def after_signal(work: Callable[[], object]) -> float:
-        sent: list[float] = []
-
-        def interrupt() -> None:
-            time.sleep(0.6)
-            sent.append(time.perf_counter())
-            os.kill(os.getpid(), signal.SIGINT)
-
-        thread = threading.Thread(target=interrupt)
-        thread.start()
-        try:
-            work()
-        except KeyboardInterrupt:
-            return time.perf_counter() - sent[0]
-        finally:
-            thread.join()
-        raise AssertionError("it ended before")
-
-    ring = ca.System("SO3^32", "sum(i, 0..32, x[i]*x[(i + 1) % 32] + y[i]*y[(i + 1) % 32])", coordinates="x y z", truncation=3)
-    many = np.random.default_rng(2).uniform(-0.3, 0.3, (3000, 96))
-    for name, work in {
-        "simulate": lambda: BODY.simulate(time=1e9, step=0.1, every=10**9),
-        "ensemble": lambda: BODY.ensemble(np.ones((100_000, 3)), time=1e6, step=0.1),
-        "ensemble of a ring of 32 spins": lambda: ring.ensemble(many, time=1e5, step=0.05),
-    }.items():
-        latencies = [after_signal(work) for _ in range(3)]
-        print(f"Ctrl-C to KeyboardInterrupt, {name}: at most {1e3 * max(latencies):.0f} ms")
-
-
-def first_results() -> None:
-    scripts = {
-        "coadjoint": "import coadjoint as ca; s = ca.System('SO3', 'x^2/3 + y^2/4 + z^2/5', coordinates='x y z'); "
-        "s.simulate([2, .5, 1], time=100, step=.1)",
-        "SciPy": "import numpy as np; from scipy.integrate import solve_ivp; I = np.array([1.5, 2, 2.5]); "
-        "solve_ivp(lambda t, m: np.cross(m, m/I), (0, 100), [2, .5, 1], 'DOP853', rtol=1e-9, atol=1e-9)",
-        "heyoka": "import heyoka as hy; x, y, z = hy.make_vars('x', 'y', 'z'); "
-        "t = hy.taylor_adaptive([(x, y*z/2.5 - z*y/2), (y, z*x/1.5 - x*z/2.5), (z, x*y/2 - y*x/1.5)], [2, .5, 1]); "
-        "t.propagate_until(100.)",
-        "NumPy alone": "import numpy",
-    }
-    for name, script in scripts.items():
-        try:
-            seconds = best(lambda: subprocess.run([sys.executable, "-c", script], check=True, capture_output=True), 5)
-        except subprocess.CalledProcessError:
-            print(f"first result, {name}: not installed")
-            continue
-        print(f"from `python` to the first result, {name}: {seconds:.2f} s")
-
-
 def main() -> None:
     single_steps()
     if len(sys.argv) > 1:
         against_the_command(sys.argv[1])
-    interruptions()
-    first_results()
 
 
 if __name__ == "__main__":

@@ -23,12 +23,12 @@ print(body.series(3), body.verify(run).text, body.verify(final, {"mu_1": [1.0]})
 run.plot("drift").savefig("x.png")
 plots.orbit(run, body)
 rows: int = cluster.run(body, states="a.parquet", out="b", time=1, step=0.1).rows
-ca.cluster.join("a", "b")
+ca.cluster.check("a")
 body.simulate([1, 2, 3], time=np.float64(1), step=np.float32(0.1), group_element=run.quaternion()[0])
 body.simulate({"x": 2, "y": 0.5, "z": 1}, time=Fraction(1, 2), step=np.array(0.1), backend="jit")
 body.simulate([1, 2, 3], time="100", step=0.1)  # error
 body.simulate([1, 2, 3], t=100, step=0.1)  # error
 body.simulate({1: 2}, time=100, step=0.1)  # error
 body.simulate([1, 2, 3], time=1, backend="gpu")  # error
-ca.cluster.joined("a", "b")  # error
+ca.cluster.join("a", "b")  # error
 cluster.run(body, states="a.npy", out="b", backend="gpu")  # error

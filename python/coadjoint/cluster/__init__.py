@@ -17,19 +17,16 @@ for _needed in ("fsspec", "pyarrow"):
 
 from .errors import ClusterError, InputError, ManifestError, ShardError, WorkerDied
 from .launch import run
-from .progress import Progress
-from .result import Result, bad_rows, check, join
+from .result import Result, bad_rows, check
 
 __all__ = [
     "ClusterError",
     "InputError",
     "ManifestError",
-    "Progress",
     "Result",
     "ShardError",
     "WorkerDied",
     "bad_rows",
     "check",
-    "join",
     "run",
 ]

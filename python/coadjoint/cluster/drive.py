@@ -25,16 +25,12 @@ class Engine(Protocol):
     def result(self, handle: Any) -> Summary:
         """The summary of a shard that is done. Raises WorkerDied, ShardError, or what the shard raised."""
 
-    def workers(self) -> int:
-        """How many workers there are now."""
-
     def close(self) -> None:
         """Stops what is still running and gives everything back."""
 
 
-def drive(engine: Engine, tasks: Iterable[Task], attempts: int, done: Callable[[Summary | None], None]) -> int:
-    """Runs all tasks, and returns how often one was handed over again. ``done`` hears of every shard that is
-    finished, and twice a second of nothing.
+def drive(engine: Engine, tasks: Iterable[Task], attempts: int, done: Callable[[Summary], None]) -> int:
+    """Runs all tasks, and returns how often one was handed over again. ``done`` hears of every shard that is finished.
 
     A shard whose worker died, or whose file system failed in passing, is tried ``attempts`` times. The first
     shard that cannot be made ends the run; shards that are finished stay.
@@ -54,8 +50,7 @@ def drive(engine: Engine, tasks: Iterable[Task], attempts: int, done: Callable[[
                 running[engine.submit(task)] = task
             if not running:
                 return sum(tried.values())
-            found = list(engine.wait(running))
-            for handle in found:
+            for handle in engine.wait(running):
                 task = running.pop(handle)
                 try:
                     summary = engine.result(handle)
@@ -72,8 +67,6 @@ def drive(engine: Engine, tasks: Iterable[Task], attempts: int, done: Callable[[
                     raise ShardError(placed(task, str(error))) from error
                 else:
                     done(summary)
-            if not found:
-                done(None)
     finally:
         engine.close()
 

@@ -29,10 +29,6 @@ class Here:
         """Makes the shard."""
         return shard.run(handle)
 
-    def workers(self) -> int:
-        """This one."""
-        return 1
-
     def close(self) -> None:
         """Nothing is left."""
 
@@ -99,10 +95,6 @@ class Dask:
                 f"Dask: {error} (its scheduler and its workers need coadjoint, pyarrow and fsspec, as here)"
             ) from error
 
-    def workers(self) -> int:
-        """Workers that the scheduler has now."""
-        return len(self._client.scheduler_info(n_workers=-1)["workers"])
-
     def close(self) -> None:
         """Takes back what has not run; the cluster is the caller's."""
         if self._futures and self._client.status == "running":
@@ -156,10 +148,6 @@ class Ray:
             raise ShardError(f"{type(cause).__name__}: {text}") from None
         except lost.RayError as error:
             raise WorkerDied(f"Ray has lost the worker: {str(error).splitlines()[0]}") from None
-
-    def workers(self) -> int:
-        """Processors of the nodes that are there now, each good for a worker."""
-        return int(self._ray.cluster_resources().get("CPU", 0))
 
     def close(self) -> None:
         """Takes back what has not run; Ray is the caller's."""

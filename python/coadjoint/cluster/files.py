@@ -8,7 +8,7 @@ import os
 import socket
 import tempfile
 import uuid
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import IO, Any
 
 import fsspec
@@ -101,20 +101,15 @@ class Folder:
         with self.fs.open(self.at(name), "rb") as file:
             return digest(file)
 
-    def write(
-        self, name: str, fill: Fill, passing_in: str = "_run/partial", inputs: Sequence[str] = ()
-    ) -> tuple[int, str]:
-        """Writes a file whole or not at all, and returns its bytes and its SHA-256; none of ``inputs`` is replaced.
+    def write(self, name: str, fill: Fill) -> tuple[int, str]:
+        """Writes a file whole or not at all, and returns its bytes and its SHA-256.
 
-        On a local disk it is filled under a passing name in the folder ``passing_in``, forced to the disk, and
+        On a local disk it is filled under a passing name in the folder ``_run/partial``, forced to the disk, and
         renamed. Elsewhere it is filled in a temporary file here and put as one object, which other
         machines see when it is complete.
         """
-        for path in inputs:
-            if self._same(self.at(name), path):
-                raise InputError(f"{path} is read by this call: write to another file")
         if self.local:
-            return self._rename(name, fill, passing_in)
+            return self._rename(name, fill)
         with tempfile.TemporaryDirectory(prefix="coadjoint-") as here:
             passing = os.path.join(here, "whole")
             with open(passing, "wb") as file:
@@ -125,12 +120,6 @@ class Folder:
             self.fs.put_file(passing, self.at(name))
         return found
 
-    def _same(self, path: str, other: str) -> bool:
-        """Whether two paths lead to one file, through whatever links."""
-        if self.local and os.path.exists(path) and os.path.exists(other):
-            return os.path.samefile(path, other)
-        return path == other
-
     def put(self, name: str, content: bytes) -> tuple[int, str]:
         """Writes a small file whole or not at all."""
 
@@ -139,9 +128,9 @@ class Folder:
 
         return self.write(name, fill)
 
-    def _rename(self, name: str, fill: Fill, passing_in: str) -> tuple[int, str]:
+    def _rename(self, name: str, fill: Fill) -> tuple[int, str]:
         target = self.at(name)
-        partial = self.at(passing_in) if passing_in else self.path
+        partial = self.at("_run/partial")
         os.makedirs(os.path.dirname(target), exist_ok=True)
         os.makedirs(partial, exist_ok=True)
         unique = f"{socket.gethostname()}-{os.getpid()}-{uuid.uuid4().hex[:8]}"

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from .._arrays import Backend, Numbers, listed, unused
+from .._progress import Progress, listener
 from ..system import System
 from . import core, manifest, result, shard, states
 from .drive import Engine, drive
 from .errors import ClusterError, InputError
 from .files import Folder, absolute
 from .plan import Plan, plan
-from .progress import Counter, Progress
 from .result import Result
 from .shard import Summary, Task
 
@@ -124,25 +124,24 @@ class Job:
             )
 
     def run(
-        self, engine: Engine, attempts: int, threads: int, verify: bool, progress: bool | Callable[[Progress], None]
+        self, engine: Engine, attempts: int, threads: int, verify: bool, progress: bool | Progress | None
     ) -> Result:
         """Makes all shards of this call, and what is to be written when the last one of all is there."""
         begun = time.perf_counter()
         rows = sum(stop - start for start, stop in map(self.plan.rows_of, self.shards))
-        counter = Counter(len(self.shards), rows, progress, engine.workers)
         found: dict[int, Summary] = {}
+        with listener(progress, "rows") as told:
 
-        def done(summary: Summary | None) -> None:
-            if summary is not None:
+            def done(summary: Summary) -> None:
                 found[summary.shard] = summary
-                counter.finished(summary.rows, summary.bad, summary.kept)
-            counter.tell()
+                if told is not None:
+                    told(sum(each.rows for each in found.values()), rows)
 
-        try:
-            again = drive(engine, self.tasks(threads, verify), attempts, done)
-        finally:
-            # Remove the partial files of killed workers, here or elsewhere.
-            self.folder.sweep(lambda name: shard.number(name) in self.shards)
+            try:
+                again = drive(engine, self.tasks(threads, verify), attempts, done)
+            finally:
+                # Remove the partial files of killed workers, here or elsewhere.
+                self.folder.sweep(lambda name: shard.number(name) in self.shards)
         complete = result.summarize(self.folder, self.plan)
         drift: dict[str, float] = {}
         for summary in found.values():
@@ -159,9 +158,6 @@ class Job:
             drift=drift,
             warnings=core.warnings(drift.pop("ratio", 0.0), [note for s in found.values() for note in s.notes]),
             seconds=seconds,
-            rows_per_second=sum(s.rows for s in found.values() if not s.kept) / seconds,
-            shard_seconds={number: found[number].seconds for number in sorted(found)},
-            worker_memory=max((summary.memory for summary in found.values()), default=0),
             storage_options=self.options,
         )
         if rows and outcome.bad == rows:

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from .._arrays import Backend, Numbers, Real, count, flag
+from .._progress import Progress
 from ..system import System
 from .drive import Engine
 from .engines import Dask, Here, Ray
 from .errors import InputError
 from .job import Job
-from .progress import Progress
 from .result import Result
 
 
@@ -36,7 +36,7 @@ def run(
     attempts: int = 3,
     restart: bool = False,
     verify: bool = True,
-    progress: bool | Callable[[Progress], None] = True,
+    progress: bool | Progress | None = None,
     storage_options: dict[str, Any] | None = None,
 ) -> Result:
     """Advances every row of files of states, on one machine or many, into a folder of Parquet files.
@@ -84,8 +84,8 @@ def run(
     verify : bool
         Whether finished shards are read again and compared with their SHA-256 before they are kept; else their sizes
         are compared.
-    progress : bool or function
-        A line on the error stream, nothing, or a function of a ``Progress``.
+    progress : bool or function, optional
+        A bar, nothing, or a function of (rows done, rows), as for ``System.ensemble``.
     storage_options : dict, optional
         For fsspec: of ``states`` and ``out``. They are never written down.
 

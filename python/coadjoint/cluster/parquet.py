@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -25,21 +25,6 @@ def table(columns: Sequence[str], numbers: Floats, kept: pa.Table | None) -> pa.
 def no_rows(keep: Sequence[str]) -> pa.Table | None:
     """The columns that go through where there is not a row to know their types by."""
     return pa.table({name: pa.array([], pa.null()) for name in keep}) if keep else None
-
-
-def joined(file: Any, parts: Iterable[Any]) -> int:
-    """Writes open files one after the other, group by group, into one; returns the rows."""
-    sink, rows = None, 0
-    for part in parts:
-        with part, pq.ParquetFile(part) as source:
-            sink = sink or writer(file, source.schema_arrow)
-            for group in range(source.num_row_groups):
-                table = source.read_row_group(group, use_threads=False)
-                sink.write_table(table, row_group_size=max(table.num_rows, 1))
-                rows += table.num_rows
-    if sink is not None:
-        sink.close()
-    return rows
 
 
 def writer(file: Any, schema: pa.Schema) -> pq.ParquetWriter:

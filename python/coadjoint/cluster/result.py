@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from . import manifest, parquet, shard
+from . import manifest, shard
 from .errors import ClusterError, ManifestError
 from .files import Folder, absolute
 from .plan import Plan
@@ -39,11 +39,6 @@ class Result:
     #: What should be known of the run: a series that hardly converges, a compiler that a worker did not find.
     warnings: list[str]
     seconds: float
-    rows_per_second: float
-    #: Seconds that each shard of this call took its worker, by its number.
-    shard_seconds: dict[int, float]
-    #: The largest memory of a worker, in bytes.
-    worker_memory: int
     storage_options: dict[str, Any] | None = None
 
     def __repr__(self) -> str:
@@ -54,7 +49,7 @@ class Result:
             f"{self.out}: {state}",
             f"  {self.rows:,} rows, {self.bad:,} bad; {self.made:,} shards made, {self.kept:,} kept",
             f"  largest relative drift: {drifts}",
-            f"  {self.seconds:.1f} s, {self.rows_per_second:,.0f} rows/s",
+            f"  {self.seconds:.1f} s",
         ]
         return "\n".join(lines + [f"  warning: {text}" for text in self.warnings])
 
@@ -125,27 +120,4 @@ def check(out: str | os.PathLike[str], storage_options: dict[str, Any] | None = 
     return manifest.unseal(folder.read(SUMMARY) or b"{}")
 
 
-def join(
-    out: str | os.PathLike[str], to: str | os.PathLike[str], storage_options: dict[str, Any] | None = None
-) -> int:
-    """Checks a finished run and writes its parts, one after the other, into one Parquet file; returns the rows.
-
-    It is rarely needed: whatever reads a folder of Parquet files reads the folder as it is.
-    """
-    shards = check(out, storage_options)["shards"]
-    folder = Folder(absolute(out), storage_options)
-    parts = [shard.part(number) for number in range(shards)]
-    target = absolute(to)
-    parent, _, name = target.rpartition("/")
-    rows = 0
-
-    def fill(file: Any) -> None:
-        nonlocal rows
-        rows = parquet.joined(file, (folder.fs.open(folder.at(part), "rb") for part in parts))
-
-    inputs = [folder.at(part) for part in parts]
-    Folder(parent or "/", storage_options).write(name, fill, passing_in="", inputs=inputs)
-    return rows
-
-
-__all__ = ["Result", "bad_rows", "check", "join", "summarize"]
+__all__ = ["Result", "bad_rows", "check", "summarize"]

@@ -5,8 +5,6 @@ from __future__ import annotations
 import json
 import os
 import socket
-import sys
-import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -57,10 +55,6 @@ class Summary:
     notes: list[str]
     #: Whether an earlier run had made it.
     kept: bool
-    seconds: float
-    worker: str
-    #: The largest memory of the worker so far, in bytes; 0 where the system does not say.
-    memory: int
 
 
 def raise_to(drift: dict[str, float], other: dict[str, float]) -> None:
@@ -93,7 +87,6 @@ def bad_list(shard: int) -> str:
 
 def run(task: Task) -> Summary:
     """Makes a shard, or keeps the finished one. Running it twice, even at once, leaves the same files."""
-    begun = time.perf_counter()
     try:
         found = core.versions()
         if found != task.versions:
@@ -120,9 +113,6 @@ def run(task: Task) -> Summary:
         drift=entry["drift"],
         notes=notes,
         kept=known is not None,
-        seconds=time.perf_counter() - begun,
-        worker=_worker(),
-        memory=_memory(),
     )
 
 
@@ -228,19 +218,3 @@ def placed(task: Task, text: str) -> str:
 
 def _worker() -> str:
     return f"{socket.gethostname()}:{os.getpid()}"
-
-
-def _memory() -> int:
-    try:
-        # The figure of getrusage includes the process that has started this one.
-        with open("/proc/self/status", encoding="ascii") as status:
-            for line in status:
-                if line.startswith("VmHWM:"):
-                    return int(line.split()[1]) * 1024
-    except OSError:
-        pass
-    try:
-        import resource
-    except ImportError:
-        return 0
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)

@@ -72,8 +72,8 @@ class Killer:
         self.victim = victim
         self.killed: int | None = None
 
-    def __call__(self, progress) -> None:
-        if self.killed is None and 0 < progress.shards_done < progress.shards:
+    def __call__(self, done, total) -> None:
+        if self.killed is None and 0 < done < total:
             pid = self.victim()
             if pid is not None:
                 os.kill(pid, signal.SIGKILL)

@@ -85,7 +85,7 @@ def test_columns_go_by_name_and_unused_ones_are_told(tmp_path):
 def test_an_input_that_changes_on_the_way(serial, tmp_path):
     states = support.write(tmp_path / "states.parquet", support.momenta(support.ROWS))
 
-    def change(progress):
+    def change(*_):
         support.write(tmp_path / "states.parquet", support.momenta(10))
 
     with pytest.raises(cluster.ShardError, match=r"shard 1 \(rows 400 to 799\): .* when the run was planned"):

@@ -19,4 +19,4 @@ def test_the_page_runs(tmp_path, monkeypatch, capsys):
         if not needs or importlib.util.find_spec(needs):
             exec(compile(block, str(PAGE), "exec"), names)
     assert names["end"].num_rows == 1000
-    assert "1/1, " in capsys.readouterr().out
+    assert "1000/1000" in capsys.readouterr().out

@@ -21,7 +21,7 @@ sys.path.insert(0, {tests!r})
 import support
 from coadjoint import cluster
 cluster.run(support.body(), states={states!r}, out={out!r}, rows_per_shard=support.PER_SHARD, threads=1,
-            progress=lambda p: print(p.shards_done, flush=True), **support.SCHEDULE)
+            progress=lambda done, _: print(done // support.PER_SHARD, flush=True), **support.SCHEDULE)
 """
 
 
@@ -150,19 +150,6 @@ def test_a_changed_byte_of_a_record_is_noticed(serial, tmp_path):
         list(cluster.bad_rows(out))
     bad.write_bytes(content)
     support.same(whole, out)
-
-
-def test_joining_never_replaces_what_it_reads(serial, tmp_path):
-    states, whole, _ = serial
-    out = tmp_path / "out"
-    run(states, out)
-    before = support.tree(out)
-    link = tmp_path / "link.parquet"
-    link.symlink_to(out / "part-00001.parquet")
-    for name in [out / "part-00001.parquet", link]:
-        with pytest.raises(cluster.InputError, match="is read by this call"):
-            cluster.join(out, name)
-    assert support.tree(out) == before
 
 
 def test_a_worker_of_another_version_is_refused(serial, tmp_path, monkeypatch):
