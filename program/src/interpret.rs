@@ -209,7 +209,7 @@ impl<'k, T: Packed<L>, const L: usize> Walk<'k, T, L> {
     /// Evaluates a program on its variables and assigns its results in the lanes of a mask.
     fn call(&mut self, part: Part, within: &Block, mask: [bool; L]) {
         let Some(program) = part.program(self.kernel) else { return };
-        let (inputs, outputs) = part.variables();
+        let (inputs, outputs) = part.variables(self.kernel);
         self.inputs.clear();
         for &input in inputs {
             match input.kind(self.kernel) {

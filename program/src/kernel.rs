@@ -33,17 +33,18 @@ use core::ops::Deref;
 use crate::graph::Program;
 use crate::schedule::{Block, schedule};
 
-/// The programs of a step. n is the dimension, m how many numbers make a group element, k how many constants a solve has.
+/// The programs of a step. n is the dimension, m how many numbers make a group element, u how many are solved for, v how many
+/// a solution is read as, k how many constants a solve has. A series is solved for p (u = n) and read as x (v = n).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Programs {
-    /// μ (n) ↦ a first guess of p (n), and the constants of the solve (k).
+    /// μ (n), or g (m) and μ (n), ↦ a first guess of p (u), and the constants of the solve (k).
     pub guess: Program,
-    /// p (n), μ (n), constants (k) ↦ the next p (n), x (n), a bound on the residual of the equation (1), the length of
+    /// p (u), μ (n), constants (k) ↦ the next p (u), x (v), a bound on the residual of the equation (1), the length of
     /// the correction (1), both relative to the largest coordinate of μ.
     pub correct: Program,
-    /// μ (n), x (n), the residual bound (1), the distance from the guess (1) ↦ 1 if the step is right, else 0.
+    /// μ (n), x (v), the residual bound (1), the distance from the guess (1) ↦ 1 if the step is right, else 0.
     pub accept: Program,
-    /// g (m), μ (n), x (n) ↦ g·τ(x) (m), Ad\*_{τ(x)⁻¹} μ (n).
+    /// g (m), μ (n), x (v) ↦ g·τ(x) (m), Ad\*_{τ(x)⁻¹} μ (n).
     pub transport: Program,
     /// g (m), μ (n), a number of steps (1) ↦ both moved on by the comoving frame.
     pub frame: Option<Program>,
@@ -60,8 +61,12 @@ pub struct Programs {
 pub struct KernelParts {
     /// n, the dimension of the group.
     pub dim: usize,
-    /// m, how many numbers make a group element.
+    /// m, how many numbers make a group element, with those that its steps leave to the next one.
     pub element: usize,
+    /// u, how many numbers are solved for.
+    pub unknowns: usize,
+    /// v, how many numbers a solution is read as, the increment x and whatever else of it is needed.
+    pub solution: usize,
     /// The residual bound, relative to the largest coordinate of μ, at which a solve ends; less than 1.
     pub tolerance: f64,
     /// The distance from the first guess, relative to the largest coordinate of μ, beyond which a solve is given up; not
@@ -106,15 +111,18 @@ impl Kernel {
     /// [`ProgramError::Shape`] where a program has not the inputs and outputs that n and m ask for,
     /// [`ProgramError::Limits`] where `tolerance` is not below 1 or `near` is negative.
     pub fn new(parts: KernelParts) -> Result<Self, ProgramError> {
-        let KernelParts { dim: n, element: m, tolerance, near, corrections, ref programs } = parts;
-        let constants = programs.guess.outputs().len().saturating_sub(n);
+        let KernelParts { dim: n, element: m, unknowns: u, solution: v, .. } = parts;
+        let KernelParts { tolerance, near, corrections, ref programs, .. } = parts;
+        let constants = programs.guess.outputs().len().saturating_sub(u);
+        let of_state = programs.guess.inputs() == m + n;
+        let guessed_from = if of_state { m + n } else { n };
         let watched = programs.watch.outputs().len();
         let entries = programs.matrix.outputs().len();
         let shapes = [
-            ("guess", &programs.guess, (n, n + constants)),
-            ("correct", &programs.correct, (n + n + constants, n + n + 2)),
-            ("accept", &programs.accept, (n + n + 2, 1)),
-            ("transport", &programs.transport, (m + n + n, m + n)),
+            ("guess", &programs.guess, (guessed_from, u + constants)),
+            ("correct", &programs.correct, (u + n + constants, u + v + 2)),
+            ("accept", &programs.accept, (n + v + 2, 1)),
+            ("transport", &programs.transport, (m + n + v, m + n)),
             ("sound", &programs.sound, (m + n, 1)),
             ("watch", &programs.watch, (m + n, watched)),
             ("matrix", &programs.matrix, (m, entries)),
@@ -170,6 +178,12 @@ impl Kernel {
     #[must_use]
     pub fn constants(&self) -> usize {
         self.constants
+    }
+
+    /// Whether a guess looks at g, where steps leave numbers to the next one, and not at μ alone.
+    #[must_use]
+    pub fn guesses_from_element(&self) -> bool {
+        self.programs.guess.inputs() != self.dim
     }
 
     /// How many folded coefficients a step has; with kicks those of every flow and of the last kick.
@@ -379,8 +393,18 @@ mod tests {
                 watch: program(2, 1),
                 matrix: program(1, 1),
             };
-            let (dim, element, corrections) = (1, 1, 3);
-            Kernel::new(KernelParts { dim, element, tolerance, near, corrections, programs }).err()
+            let (dim, element, unknowns, solution, corrections) = (1, 1, 1, 1, 3);
+            let parts = KernelParts {
+                dim,
+                element,
+                unknowns,
+                solution,
+                tolerance,
+                near,
+                corrections,
+                programs,
+            };
+            Kernel::new(parts).err()
         };
         assert_eq!(kernel(0.5, 0.0), None);
         for (tolerance, near) in [(1.0, 0.5), (f64::NAN, 0.5), (0.5, -0.1), (0.5, f64::NAN)] {

@@ -5,7 +5,8 @@
 //! - [`Stepper`] is what makes the steps of a kernel. The kernel itself is one, the interpreter, the reference for all
 //!   targets.
 //! - [`fold::Fold`] is how the coefficients of a kernel follow from a step size and parameters, [`splitting`] how kicks and
-//!   flows make a step, [`limits`] are those up to which steps are accepted; they are all that there is without the
+//!   flows make a step, [`limits`] are those up to which steps are accepted, [`collocation`] has the numbers of steps by
+//!   collocation; they are all that there is without the
 //!   features.
 //! - [`print`](mod@print) writes programs and kernels in other languages.
 //!
@@ -21,6 +22,7 @@ extern crate std;
 compile_error!("coadjoint-program needs one of its features `std` (the default) and `libm`");
 
 pub mod bits;
+pub mod collocation;
 #[cfg(feature = "programs")]
 mod derivative;
 pub mod fold;

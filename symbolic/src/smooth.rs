@@ -113,6 +113,12 @@ impl Smooth {
         self.truncation.div_ceil(2)
     }
 
+    /// Whether the programs read the time or signals.
+    #[must_use]
+    pub fn depends_on_time(&self) -> bool {
+        self.moves || !self.signals.is_empty()
+    }
+
     /// The values of the symbols for these of the parameters that are kept.
     #[must_use]
     pub fn symbols_at(&self, parameters: &[f64]) -> Vec<f64> {

@@ -67,7 +67,7 @@ fn function(
 ) -> TokenStream {
     let krate = &options.krate;
     let name = format_ident!("{name}");
-    let (inputs, outputs) = part.variables();
+    let (inputs, outputs) = part.variables(kernel);
     let field = |&variable: &Variable| {
         let name = options.bound(variable.name());
         match variable.kind(kernel) {

@@ -70,7 +70,7 @@ impl Writer<'_> {
         // The results of a program of a masked block that are the block's own are declared by the call.
         let declared = |variable: Variable| {
             let by = |statement: &Statement| match statement {
-                Statement::Call(part) => part.variables().1.contains(&variable),
+                Statement::Call(part) => part.variables(self.kernel).1.contains(&variable),
                 _ => false,
             };
             masked && block.body.iter().any(by)
@@ -201,7 +201,7 @@ impl Writer<'_> {
         let krate = &self.options.krate;
         let function = format_ident!("{}", Part::ALL[part as usize].1);
         let c = self.options.bound("c");
-        let (inputs, outputs) = part.variables();
+        let (inputs, outputs) = part.variables(self.kernel);
         let inputs = inputs.iter().map(|&variable| {
             let name = self.name(variable);
             match variable.kind(self.kernel) {

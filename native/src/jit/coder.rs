@@ -240,10 +240,10 @@ impl<'f> Coder<'f> {
     }
 
     /// A leaf of the program, read anew.
-    pub(super) fn leaf(&mut self, part: Part, node: Node) -> Value {
+    pub(super) fn leaf(&mut self, inputs: &[Variable], node: Node) -> Value {
         match node {
             Node::Slot(i) => self.slot(i as usize),
-            Node::Input(i) => match self.frame.find(part.variables().0, i as usize) {
+            Node::Input(i) => match self.frame.find(inputs, i as usize) {
                 Some((_, place)) => self.load(place),
                 None => self.number(0.0),
             },
@@ -326,7 +326,7 @@ impl Uses {
 
 /// Where the values of a program are.
 struct Held<'p> {
-    part: Part,
+    inputs: &'static [Variable],
     nodes: &'p [Node],
     uses: Uses,
     /// Values in registers.
@@ -343,7 +343,7 @@ impl Held<'_> {
         }
         match self.places[node] {
             Some(place) => coder.load(place),
-            None => coder.leaf(self.part, self.nodes[node]),
+            None => coder.leaf(self.inputs, self.nodes[node]),
         }
     }
 
@@ -399,7 +399,7 @@ impl Coder<'_> {
         self.frame.clear();
         let nodes = program.nodes();
         let mut held = Held {
-            part,
+            inputs: part.variables(kernel).0,
             nodes,
             uses: Uses::of(program),
             held: Vec::new(),

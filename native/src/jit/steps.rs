@@ -169,7 +169,7 @@ impl<'f, 'k> Loop<'f, 'k> {
     }
 
     fn call(&mut self, part: Part, within: &Block, mask: Option<Value>) {
-        let (inputs, outputs) = part.variables();
+        let (inputs, outputs) = part.variables(self.kernel);
         for &input in inputs {
             if input.kind(self.kernel) == Kind::Count {
                 let count = self.get(input);

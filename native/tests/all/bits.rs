@@ -34,6 +34,7 @@ fn random_programs_have_the_same_bits() {
                 dim: 1 + chance.below(6),
                 element: chance.below(10),
                 constants: chance.below(5),
+                beyond: [[0, 0], [0, 0], [3, 0], [5, 9]][chance.below(4)],
                 slots: chance.below(12),
                 nodes: 1 + chance.below(120),
                 corrections: round % 7,
@@ -57,9 +58,21 @@ fn long_programs_have_the_same_bits() {
         let (mut chance, mut seen) = (Chance(4), Seen::default());
         for (dim, element, nodes) in [(24, 30, 600), (24, 30, 1500), (4, 4, 4000)] {
             let (constants, slots, corrections, comoving, flows) = (20, 60, 3, true, 0);
-            let shape =
-                Shape { dim, element, constants, slots, nodes, corrections, comoving, flows };
-            let sample = Sample::new(shape, &mut chance);
+            let beyond = [0, 0];
+            let sample = Sample::new(
+                Shape {
+                    dim,
+                    element,
+                    constants,
+                    beyond,
+                    slots,
+                    nodes,
+                    corrections,
+                    comoving,
+                    flows,
+                },
+                &mut chance,
+            );
             let entry = compile(&sample.kernel, Trajectories::Both);
             for steps in [1, 5, 260, 3000] {
                 compare(&sample, &entry, steps, &mut chance, &mut seen);
@@ -116,9 +129,11 @@ fn code_outlives_all_but_its_last_entry_and_goes_between_threads() {
 fn a_state_that_does_not_fit_the_stack_is_refused() {
     use coadjoint_native::jit::{JitError, compile};
     let (dim, element, constants, slots, nodes) = (2, 9000, 1, 1, 4);
-    let (corrections, comoving, flows) = (1, false, 0);
-    let shape = Shape { dim, element, constants, slots, nodes, corrections, comoving, flows };
-    let sample = Sample::new(shape, &mut Chance(6));
+    let (beyond, corrections, comoving, flows) = ([0, 0], 1, false, 0);
+    let sample = Sample::new(
+        Shape { dim, element, constants, beyond, slots, nodes, corrections, comoving, flows },
+        &mut Chance(6),
+    );
     let refused = compile(&sample.kernel, Trajectories::Lanes).unwrap_err();
     // The state now and at the start of the block, in pairs of numbers.
     let told =

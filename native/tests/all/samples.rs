@@ -45,6 +45,8 @@ pub struct Shape {
     pub dim: usize,
     pub element: usize,
     pub constants: usize,
+    /// How many numbers are solved for and read as the solution beyond those of a series; guesses then look at g too.
+    pub beyond: [usize; 2],
     pub slots: usize,
     /// Nodes of each program, roughly.
     pub nodes: usize,
@@ -62,20 +64,31 @@ pub struct Sample {
 
 impl Sample {
     pub fn new(shape: Shape, chance: &mut Chance) -> Self {
-        let Shape { dim: n, element: m, constants: k, corrections, .. } = shape;
+        let Shape { dim: n, element: m, constants: k, corrections, beyond, .. } = shape;
+        let [u, v] = beyond.map(|beyond| n + beyond);
+        let guessed_from = if beyond == [0, 0] { n } else { m + n };
         let programs = Programs {
-            guess: random(shape, n, n + k, None, chance),
-            correct: random(shape, 2 * n + k, 2 * n + 2, None, chance),
-            accept: rarely_no(shape, 2 * n + 2, 4, Some(0), chance),
-            transport: random(shape, m + 2 * n, m + n, Some(m), chance),
+            guess: random(shape, guessed_from, u + k, None, chance),
+            correct: random(shape, u + n + k, u + v + 2, None, chance),
+            accept: rarely_no(shape, n + v + 2, 4, Some(0), chance),
+            transport: random(shape, m + n + v, m + n, Some(m), chance),
             frame: shape.comoving.then(|| random(shape, m + n + 1, m + n, None, chance)),
             sound: rarely_no(shape, m + n, 2, None, chance),
             watch: random(shape, m + n, 1, None, chance),
             matrix: random(shape, m, m, None, chance),
         };
-        let (dim, element, tolerance, near) = (n, m, 0.5, 3.0);
-        let parts = KernelParts { dim, element, tolerance, near, corrections, programs };
-        let mut kernel = Kernel::new(parts).unwrap();
+        let (dim, element, unknowns, solution, tolerance, near) = (n, m, u, v, 0.5, 3.0);
+        let mut kernel = Kernel::new(KernelParts {
+            dim,
+            element,
+            unknowns,
+            solution,
+            tolerance,
+            near,
+            corrections,
+            programs,
+        })
+        .unwrap();
         if shape.flows > 0 {
             let kick = random(shape, m + n, n, None, chance);
             kernel = kernel.with_kicks(kick, shape.flows).unwrap();
@@ -87,9 +100,11 @@ impl Sample {
     /// A short one with three coordinates and four numbers in an element.
     pub fn small(seed: u64) -> Self {
         let (dim, element, constants, slots, nodes, corrections) = (3, 4, 1, 5, 20, 5);
-        let (comoving, flows) = (true, 0);
-        let shape = Shape { dim, element, constants, slots, nodes, corrections, comoving, flows };
-        Self::new(shape, &mut Chance(seed))
+        let (beyond, comoving, flows) = ([0, 0], true, 0);
+        Self::new(
+            Shape { dim, element, constants, beyond, slots, nodes, corrections, comoving, flows },
+            &mut Chance(seed),
+        )
     }
 }
 

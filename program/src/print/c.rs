@@ -257,7 +257,7 @@ impl Signature<'_> {
 /// is an input as well has a name of its own.
 pub fn signatures<'a>(kernel: &'a Kernel, prefix: &str) -> impl Iterator<Item = Signature<'a>> {
     Part::ALL.into_iter().filter_map(move |(part, name)| {
-        let (inputs, outputs) = part.variables();
+        let (inputs, outputs) = part.variables(kernel);
         let field = |variable: Variable, end: &str| {
             let len = match variable.kind(kernel) {
                 Kind::Array(len) => Some(len),

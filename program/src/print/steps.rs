@@ -98,8 +98,12 @@ impl<D: Dialect> Writer<'_, D> {
         let [element, dim] = &self.style.sizes;
         match variable {
             Variable::Element => element.clone(),
-            Variable::Constants => self.kernel.constants().to_string(),
-            _ => dim.clone(),
+            _ => match variable.kind(self.kernel) {
+                Kind::Array(len) if len != self.kernel.dim || variable == Variable::Constants => {
+                    len.to_string()
+                }
+                _ => dim.clone(),
+            },
         }
     }
 
@@ -208,7 +212,7 @@ impl<D: Dialect> Writer<'_, D> {
     }
 
     fn call(&mut self, part: Part, block: &Block, mask: Option<&str>) {
-        let (inputs, outputs) = part.variables();
+        let (inputs, outputs) = part.variables(self.kernel);
         let input = |variable: &Variable| match variable.kind(self.kernel) {
             Kind::Count if self.lanes => {
                 format!("__builtin_convertvector({}, V)", variable.name())

@@ -24,7 +24,9 @@ impl Variable {
     pub fn kind(self, kernel: &Kernel) -> Kind {
         match self {
             Self::Element => Kind::Array(kernel.element),
-            Self::Momentum | Self::Guess | Self::Increment => Kind::Array(kernel.dim),
+            Self::Momentum => Kind::Array(kernel.dim),
+            Self::Guess => Kind::Array(kernel.unknowns),
+            Self::Increment => Kind::Array(kernel.solution),
             Self::Constants => Kind::Array(kernel.constants()),
             Self::ResidualBound | Self::Distance | Self::Moved | Self::Right => Kind::Number,
             Self::Done | Self::Count | Self::Tried | Self::Flow => Kind::Count,
@@ -45,6 +47,26 @@ impl Part {
             Self::Frame => programs.frame.as_ref(),
             Self::Sound => Some(&programs.sound),
             Self::Kick => kernel.kick(),
+        }
+    }
+
+    /// The variables it reads and those it assigns, in order. All are read before any is assigned.
+    #[must_use]
+    pub fn variables(self, kernel: &Kernel) -> (&'static [Variable], &'static [Variable]) {
+        use Variable::*;
+        match self {
+            Self::Guess if kernel.guesses_from_element() => {
+                (&[Element, Momentum], &[Guess, Constants])
+            }
+            Self::Guess => (&[Momentum], &[Guess, Constants]),
+            Self::Correct => {
+                (&[Guess, Momentum, Constants], &[Guess, Increment, ResidualBound, Moved])
+            }
+            Self::Accept => (&[Momentum, Increment, ResidualBound, Distance], &[Right]),
+            Self::Transport => (&[Element, Momentum, Increment], &[Element, Momentum]),
+            Self::Frame => (&[Element, Momentum, Count], &[Element, Momentum]),
+            Self::Sound => (&[Element, Momentum], &[Right]),
+            Self::Kick => (&[Element, Momentum], &[Momentum]),
         }
     }
 }

@@ -18,11 +18,11 @@ pub enum Variable {
     Element,
     /// μ (n).
     Momentum,
-    /// p (n).
+    /// p (u).
     Guess,
     /// The constants of the solve (k).
     Constants,
-    /// x (n).
+    /// x (v).
     Increment,
     /// A bound on the residual of the equation.
     ResidualBound,
@@ -106,23 +106,6 @@ impl Part {
     #[must_use]
     pub fn is_of_flow(self) -> bool {
         !matches!(self, Self::Frame | Self::Sound)
-    }
-
-    /// The variables it reads and those it assigns, in order. All are read before any is assigned.
-    #[must_use]
-    pub fn variables(self) -> (&'static [Variable], &'static [Variable]) {
-        use Variable::*;
-        match self {
-            Self::Guess => (&[Momentum], &[Guess, Constants]),
-            Self::Correct => {
-                (&[Guess, Momentum, Constants], &[Guess, Increment, ResidualBound, Moved])
-            }
-            Self::Accept => (&[Momentum, Increment, ResidualBound, Distance], &[Right]),
-            Self::Transport => (&[Element, Momentum, Increment], &[Element, Momentum]),
-            Self::Frame => (&[Element, Momentum, Count], &[Element, Momentum]),
-            Self::Sound => (&[Element, Momentum], &[Right]),
-            Self::Kick => (&[Element, Momentum], &[Momentum]),
-        }
     }
 }
 

@@ -16,15 +16,15 @@
 //! Numerical Integration*, II.1.3.
 
 mod energy;
-mod nodes;
 mod rates;
 mod solution;
 mod solving;
 
+pub use coadjoint_program::collocation::MAX_NODES;
 pub use energy::{Energy, Undefined};
-pub use nodes::MAX_NODES;
 pub use solution::{Node, Solution};
 
+use coadjoint_program::collocation::{KEPT, KEPT_LONG, LARGEST_FORCE, LARGEST_TAIL, LONG, Nodes};
 use nalgebra::SimdComplexField;
 
 use crate::error::{Circumstances, StepError, Stopped};
@@ -34,23 +34,8 @@ use crate::linear::coordinates::Coordinates;
 use crate::number::Scalar;
 use crate::step::{StepReport, check};
 
-use nodes::Nodes;
 use rates::{Rates, largest, total};
 use solving::{Attempt, Ending, Equations};
-
-/// Steps whose rates are kept, for the first guess of the next one.
-const KEPT: usize = 7;
-
-/// The most of these that serve steps longer than ½ in h|Ω|, over which rates vary too much.
-const KEPT_LONG: usize = 5;
-
-/// The largest share of the highest polynomial in the velocity up to which steps with two nodes and more are accepted, by
-/// the number of nodes; with one node the largest product of [`Collocation::bend`].
-const LARGEST_TAIL: [f64; MAX_NODES] = [0.08, 0.25, 0.06, 1e-2, 1e-2, 1e-2, 1e-2, 1e-2];
-
-/// The largest highest polynomial in the force, relative to the momentum: where it is larger, as where momenta grow along
-/// the step on a group that is not compact, a velocity that is resolved does not tell that the step is.
-const LARGEST_FORCE: f64 = 0.25;
 
 /// Steps of size h of the flow of H(t, μ), by collocation at `M` nodes (1 to 8): order 2M.
 ///
@@ -231,7 +216,7 @@ where
     fn guess(&self, dim: usize) -> Rates<G::Vector, M> {
         let mut guess = Rates::zero(dim);
         let last = |back: usize| self.rates[(self.noted - 1 - back) % KEPT].as_ref();
-        let long = last(0).is_some_and(|rates| largest::<G::Vector, M>(dim, &rates.x) > 0.5);
+        let long = last(0).is_some_and(|rates| largest::<G::Vector, M>(dim, &rates.x) > LONG);
         let count = self.noted.min(if long { KEPT_LONG } else { KEPT });
         let mut weight = -1.0;
         for back in 0..count {

@@ -1,8 +1,9 @@
 //! The solution of a step by itself: what derivatives of the step are made of.
 
+use coadjoint_program::collocation::{Nodes, degree};
+
 use super::Collocation;
 use super::energy::Energy;
-use super::nodes::Nodes;
 use super::rates::{Rates, mixed};
 use super::solving::Attempt;
 use crate::error::StepError;
@@ -54,7 +55,7 @@ where
         let p = self.group().middle_momentum(&x, mu);
         let xs = mixed(&G::Vector::zeros(dim), &matrix, &rates.x);
         let ps = mixed(&p, &matrix, &rates.p);
-        let momenta = self.group().node_momenta::<M>(&xs, &ps, 2 * M - 2);
+        let momenta = self.group().node_momenta::<M>(&xs, &ps, degree(M));
         let at = |rows, node| G::Vector::at::<M>(dim, rows, node);
         let nodes = core::array::from_fn(|node| Node {
             time: times[node].times_plus(self.step(), middle),

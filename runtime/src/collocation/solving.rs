@@ -1,24 +1,12 @@
 //! The equations of a step, and their solution by sweeps that a linear model corrects.
 
+use coadjoint_program::collocation::{LARGEST_MODEL, MAX_SWEEPS, Nodes, ROUNDING, SOLVED, degree};
+
 use super::energy::Energy;
-use super::nodes::Nodes;
 use super::rates::{Rates, add, mixed, total};
 use crate::group::LieGroup;
 use crate::linear::coordinates::Coordinates;
 use crate::number::Scalar;
-
-/// Sweeps allowed before the solver gives up.
-const MAX_SWEEPS: u32 = 60;
-
-/// The error that ends a solution, relative to the momentum. Stopping earlier is a force that works in one direction:
-/// stopped at 1e-15, the energy of a body with a root drifts by 7e-11 in 10⁶ steps.
-const SOLVED: f64 = 6e-17;
-
-/// The change below which a sweep that changes no less than the one before is down to rounding.
-const ROUNDING: f64 = 6e-14;
-
-/// Up to this dimension sweeps are corrected by the linear model, whose Hessian costs as many gradients.
-const LARGEST_MODEL: usize = 24;
 
 /// The equations of one step from μ.
 pub(super) struct Equations<'a, G: LieGroup, E, const M: usize> {
@@ -163,12 +151,6 @@ where
         }
         (poison == 0.0).then(|| Model { hessian, p: p.clone(), nodes: &Self::NODES })
     }
-}
-
-/// The degree of charts by series: the orders of a step, and that of the force at its middle, which a step with one node
-/// is judged by.
-fn degree(nodes: usize) -> usize {
-    (2 * nodes - 2).max(1)
 }
 
 impl<V: Coordinates<f64>, const M: usize> Model<'_, V, M> {

@@ -1,29 +1,9 @@
 //! The exponential chart about the middle of a step, by the series J_R = Σ βₖ (ad\*_x)ᵏ p in any algebra.
 
+use coadjoint_program::collocation::{BETA, MAX_DEGREE};
+
 use crate::linear::coordinates::Coordinates;
 use crate::number::Scalar;
-
-/// The powers of x a series may have.
-pub(crate) const MAX_DEGREE: usize = 14;
-
-/// βₖ = (−1)ᵏ Bₖ/k! with Bernoulli's numbers, B₁ = −½.
-const BETA: [f64; MAX_DEGREE + 1] = [
-    1.0,
-    0.5,
-    1.0 / 12.0,
-    0.0,
-    -1.0 / 720.0,
-    0.0,
-    1.0 / 30_240.0,
-    0.0,
-    -1.0 / 1_209_600.0,
-    0.0,
-    1.0 / 47_900_160.0,
-    0.0,
-    -691.0 / 1_307_674_368_000.0,
-    0.0,
-    1.0 / 74_724_249_600.0,
-];
 
 /// a ← a + s·b at each node.
 #[inline(always)]

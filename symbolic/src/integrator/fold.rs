@@ -71,6 +71,21 @@ impl FoldTable {
         table
     }
 
+    /// The values of this many symbols, then the step size.
+    #[must_use]
+    pub fn of_symbols(count: usize) -> Self {
+        let numbers = 0..number(count);
+        Self {
+            products: numbers.clone().map(|symbol| (0, symbol)).collect(),
+            terms: numbers.clone().map(|symbol| (1.0, symbol + 1)).chain([(1.0, 0)]).collect(),
+            parts: (0..=number(count)).map(|at| (u32::from(at == number(count)), at + 1)).collect(),
+            bases: (0..=number(count)).map(|at| at + 1).collect(),
+            slots: (0..=number(count)).map(|at| (at, 1, at)).collect(),
+            len: count + 1,
+            ..Self::default()
+        }
+    }
+
     fn assemble(
         coefficients: &Coefficients,
         place: impl Fn(usize) -> Option<usize>,

@@ -6,6 +6,7 @@
 //! sufficient conditions in place of eigenvalues: what the programs refuse may still be a right step, which whoever drives
 //! them finds by other means.
 
+mod collocation;
 mod drift;
 mod entire;
 mod error;
@@ -28,11 +29,12 @@ use crate::graph::{Graph, Id, Program};
 use crate::integrator::{FoldTable, Integrator};
 use crate::lie::{Chart, LieAlgebra, catalogue};
 use crate::signal::Signal;
+use crate::smooth::Smooth;
 use crate::step::rotation::Rotation;
 use crate::step::solving::Scheme;
 use crate::step::tables::Tables;
 use motion::{Motion, Plane};
-use product::{Part, Product, Translations};
+use product::{Memory, Part, Product, Translations};
 
 pub use drift::{Conserved, Drift, Energy, Invariants, PotentialEnergy, Scales, Start, nudge};
 pub use error::{MOST_OF_TABLES, StepError};
@@ -49,8 +51,18 @@ pub struct Step {
     radius_at: usize,
     /// Where there are kicks.
     splitting: Option<Splitting>,
-    /// The signals of kicks that depend on the time.
-    signals: Option<Vec<Signal>>,
+    /// The times among the coefficients, where a step depends on them.
+    moving: Option<Moving>,
+}
+
+/// The times at which the programs of a step read the time and the signals then.
+#[derive(Debug)]
+struct Moving {
+    /// The first place.
+    first: usize,
+    /// The times of collocation from the beginning of a step on, in its lengths; those of kicks follow from the flows.
+    times: Vec<f64>,
+    signals: Vec<Signal>,
 }
 
 impl Step {
@@ -101,8 +113,40 @@ impl Step {
         let splitting = integrator.kicks.as_ref().map(|kicks| kicks.splitting);
         let moving = integrator.kicks.as_ref().map(|kicks| &kicks.kick.potential);
         let moving = moving.and_then(|potential| potential.alone()).filter(|torque| torque.moves);
-        let signals = moving.map(|torque| torque.signals.clone());
-        Ok(Self { kernel, group, fold, symbols, radius_at, splitting, signals })
+        let moving = moving.map(|torque| Moving {
+            first: radius_at + 2,
+            times: Vec::new(),
+            signals: torque.signals.clone(),
+        });
+        Ok(Self { kernel, group, fold, symbols, radius_at, splitting, moving })
+    }
+
+    /// The programs of a step of collocation. Elements then have numbers that steps leave to the next one.
+    ///
+    /// # Errors
+    /// [`StepError`] where the step has no straight-line programs.
+    pub fn by_collocation(smooth: &Smooth) -> Result<Self, StepError> {
+        let algebra = &smooth.algebra;
+        let part = |factor: &LieAlgebra| {
+            let chart = match ["SE3", "SE2"].iter().any(|name| is(factor, name)) {
+                true => Chart::Cayley,
+                false => Chart::Exponential,
+            };
+            part(factor, chart, Scheme::FixedPoint)
+        };
+        let parts: Result<Vec<_>, _> = algebra.factors().iter().map(part).collect();
+        let mut group = Product(parts?);
+        group.0.push(Box::new(Memory { numbers: collocation::memory(smooth) }));
+        let kernel = collocation::kernel(smooth, &group)?;
+        let symbols = smooth.symbols.iter().map(|symbol| symbol.expr.clone()).collect();
+        let radius_at = smooth.symbols.len();
+        let moving = smooth.depends_on_time().then(|| Moving {
+            first: radius_at + 1,
+            times: collocation::times(smooth.nodes()),
+            signals: smooth.signals.clone(),
+        });
+        let fold = FoldTable::of_symbols(radius_at);
+        Ok(Self { kernel, group, fold, symbols, radius_at, splitting: None, moving })
     }
 
     /// The programs.
@@ -119,7 +163,11 @@ impl Step {
     pub fn fold(&self, step: f64, parameters: &[f64]) -> Result<Vec<f64>, FoldError> {
         let symbols: Vec<f64> =
             self.symbols.iter().map(|symbol| symbol.evaluate(parameters)).collect();
-        let Some(splitting) = self.splitting else { return self.fold.fold(step, &symbols) };
+        let Some(splitting) = self.splitting else {
+            let mut slots = self.fold.fold(step, &symbols)?;
+            slots.resize(slots.len().max(self.kernel.slots()), f64::NAN);
+            return Ok(slots);
+        };
         // After the last kick there is no flow.
         let flows = splitting.flows().chain(splitting.flows().next());
         let mut all = Vec::new();
@@ -136,20 +184,29 @@ impl Step {
     /// Whether a step depends on the time, which [`Step::set_time`] then sets.
     #[must_use]
     pub fn moves(&self) -> bool {
-        self.signals.is_some()
+        self.moving.is_some()
     }
 
-    /// Puts the times of the kicks, and the values of the signals there, among the coefficients of a step of this size that begins
-    /// at this time.
+    /// Puts the times at which programs ask for it, and the values of the signals there, among the coefficients of a step of
+    /// this size that begins at this time.
     pub fn set_time(&self, slots: &mut [f64], step: f64, time: f64) {
-        let (Some(splitting), Some(signals)) = (self.splitting, &self.signals) else { return };
+        let Some(Moving { first, times, signals }) = &self.moving else { return };
+        // Of the places those that the programs read.
+        let put = |slots: &mut [f64], time: f64| {
+            let values = std::iter::once(time).chain(signals.iter().map(|signal| signal.at(time)));
+            slots.iter_mut().zip(values).for_each(|(slot, value)| *slot = value);
+        };
+        let Some(splitting) = self.splitting else {
+            let places = slots.get_mut(*first..).unwrap_or_default();
+            for (slots, part) in places.chunks_mut(1 + signals.len()).zip(times) {
+                put(slots, part.mul_add(step, time));
+            }
+            return;
+        };
         let flows = splitting.flows().chain([0.0]);
         let mut time = time;
         for (slots, flow) in slots.chunks_mut(self.kernel.slots_of_flow().max(1)).zip(flows) {
-            let values = std::iter::once(time).chain(signals.iter().map(|signal| signal.at(time)));
-            // Of those that the programs read.
-            let places = slots.iter_mut().skip(self.radius_at + 2);
-            places.zip(values).for_each(|(slot, value)| *slot = value);
+            put(slots.get_mut(*first..).unwrap_or_default(), time);
             time += step * flow;
         }
     }
@@ -205,11 +262,14 @@ impl Step {
     }
 }
 
+/// Whether this algebra is the one of this name in the catalogue.
+fn is(algebra: &LieAlgebra, name: &str) -> bool {
+    catalogue::lookup(name).is_ok_and(|known| known.renamed(algebra.name()) == *algebra)
+}
+
 /// The formulas of a group that is no product.
 fn part(algebra: &LieAlgebra, chart: Chart, scheme: Scheme) -> Result<Box<dyn Part>, StepError> {
-    let is = |name: &str| {
-        catalogue::lookup(name).is_ok_and(|known| known.renamed(algebra.name()) == *algebra)
-    };
+    let is = |name: &str| is(algebra, name);
     if is("SO3") {
         return Ok(Box::new(Rotation { chart, double_cover: false }));
     }

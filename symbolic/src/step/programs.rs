@@ -42,6 +42,8 @@ pub(crate) fn kernel(
     let kernel = Kernel::new(KernelParts {
         dim: group.dim(),
         element: group.element(),
+        unknowns: group.dim(),
+        solution: group.dim(),
         tolerance: ROUNDINGS * f64::EPSILON,
         near: NEAR,
         corrections: scheme.corrections(),
@@ -156,7 +158,7 @@ fn frame(integrator: &Integrator, group: &Product) -> Result<Option<Program>, St
 }
 
 /// g, μ ↦ 1 where both are finite and g is on the group, to the square root of rounding.
-fn sound(group: &Product) -> Program {
+pub(super) fn sound(group: &Product) -> Program {
     let (n, m) = (group.dim(), group.element());
     let graph = Graph::new();
     let (g, mu) = (inputs(&graph, 0, m), inputs(&graph, m, n));
@@ -188,7 +190,7 @@ fn watch(integrator: &Integrator, group: &Product) -> Program {
 }
 
 /// The value of a polynomial in these coordinates.
-fn polynomial(graph: &Graph, polynomial: &Polynomial, inputs: &[Id]) -> Id {
+pub(super) fn polynomial(graph: &Graph, polynomial: &Polynomial, inputs: &[Id]) -> Id {
     let mut sum = graph.zero();
     for (factors, value) in polynomial.factors() {
         let mut product = graph.constant(value.to_f64().unwrap_or(f64::NAN));
@@ -203,7 +205,7 @@ fn polynomial(graph: &Graph, polynomial: &Polynomial, inputs: &[Id]) -> Id {
 }
 
 /// g ↦ its matrix, row by row.
-fn matrix(group: &Product) -> Program {
+pub(super) fn matrix(group: &Product) -> Program {
     let m = group.element();
     let graph = Graph::new();
     let matrix = group.matrix(&graph, &inputs(&graph, 0, m));

@@ -1,8 +1,10 @@
 //! SO(3) and SU(2), elements as unit quaternions (w, i, j, k).
 
+use coadjoint_program::collocation::BETA;
+
 use crate::graph::{Graph, Id};
 use crate::lie::Chart;
-use crate::step::entire::{Accuracy, Angle, WideAngle};
+use crate::step::entire::{Accuracy, Angle, WideAngle, series};
 use crate::step::product::{ESTIMATED, Moved, Part};
 use crate::step::vector::{Matrix, V3, cross, dot, minus, plus, scaled, three};
 
@@ -227,6 +229,16 @@ impl Part for Rotation {
                 (value.to_vec(), derivative)
             }
         }
+    }
+
+    /// exp's: p − ½ x×p + c x×(x×p).
+    fn node_momentum(&self, graph: &Graph, x: &[Id], p: &[Id], _degree: usize) -> Vec<Id> {
+        let (x, p) = (three(x, 0), three(p, 0));
+        let term = |k: usize| BETA.get(2 * k + 2).map_or(0.0, |beta| beta.abs());
+        let c = series(graph, dot(graph, &x, &x), 1.0, 1e-17, term);
+        let once = cross(graph, &x, &p);
+        let turned = plus(graph, &p, graph.constant(-0.5), &once);
+        plus(graph, &turned, c, &cross(graph, &x, &once)).to_vec()
     }
 
     fn transport(&self, graph: &Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved {

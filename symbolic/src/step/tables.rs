@@ -1,5 +1,7 @@
 //! Any group by its structure constants and the matrices of its basis; elements as matrices, row by row.
 
+use coadjoint_program::collocation::BETA;
+
 use crate::graph::{Graph, Id};
 use crate::lie::{Chart, LieAlgebra, RationalMatrix};
 use crate::number::nearest_float;
@@ -22,14 +24,16 @@ const ROUNDING: f64 = 1e-17;
 /// The entries of a matrix that are not 0, as (row, column, value).
 type Entries = Vec<(usize, usize, f64)>;
 
+/// (i, j, k, cᵢⱼᵏ), both orders of a bracket one after the other.
+pub(crate) type Structure = Vec<(usize, usize, usize, f64)>;
+
 /// A group by tables.
 #[derive(Clone, Debug)]
 pub(crate) struct Tables {
     chart: Chart,
     dim: usize,
     size: usize,
-    /// (i, j, k, cᵢⱼᵏ) for both orders of every bracket.
-    structure: Vec<(usize, usize, usize, f64)>,
+    structure: Structure,
     /// The matrices of the basis, as entries.
     basis: Vec<Entries>,
     /// Matrices Dₖ with ⟨Dₖ, Eₗ⟩ = δₖₗ; none for adjoint matrices in the exponential chart, which need none.
@@ -40,8 +44,8 @@ pub(crate) struct Tables {
     orthogonal: bool,
 }
 
-/// (i, j, k, cᵢⱼᵏ), both orders of a bracket one after the other.
-pub(crate) fn structure_of(algebra: &LieAlgebra) -> Vec<(usize, usize, usize, f64)> {
+/// The structure constants that are not 0.
+pub(crate) fn structure_of(algebra: &LieAlgebra) -> Structure {
     let mut structure = algebra.constants();
     structure.sort_by_key(|&(i, j, k, _)| (i.min(j), i.max(j), k, i));
     structure
@@ -385,6 +389,19 @@ impl Part for Tables {
                 (value, Matrix::new(self.dim, self.dim, |i, j| columns[j][i]))
             }
         }
+    }
+
+    /// exp's, by its series Σ βₖ (ad\*_x)ᵏ p.
+    fn node_momentum(&self, graph: &Graph, x: &[Id], p: &[Id], degree: usize) -> Vec<Id> {
+        let a = self.ad_transpose(graph, x);
+        let (mut power, mut sum) = (p.to_vec(), p.to_vec());
+        for &beta in BETA.iter().take(degree + 1).skip(1) {
+            power = a.apply(graph, &power);
+            let beta = graph.constant(beta);
+            let added = sum.iter().zip(&power);
+            sum = added.map(|(&sum, &power)| graph.times_plus(beta, power, sum)).collect();
+        }
+        sum
     }
 
     fn transport(&self, graph: &Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved {

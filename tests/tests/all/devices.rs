@@ -231,7 +231,17 @@ fn functions() -> Kernel {
         matrix: program(m, &own),
     };
     let (tolerance, near, corrections) = (0.5, 1.0, 1);
-    Kernel::new(KernelParts { dim: 1, element: m, tolerance, near, corrections, programs }).unwrap()
+    Kernel::new(KernelParts {
+        dim: 1,
+        element: m,
+        unknowns: 1,
+        solution: 1,
+        tolerance,
+        near,
+        corrections,
+        programs,
+    })
+    .unwrap()
 }
 
 #[test]

@@ -9,6 +9,7 @@ mod catalogue;
 mod circles;
 mod closed_form_groups;
 mod collocation;
+mod collocation_kernels;
 mod comoving;
 mod defects;
 mod devices;

@@ -28,8 +28,19 @@ fn kernel() -> Kernel {
         watch: program(2, 1),
         matrix: program(1, 1),
     };
-    let (dim, element, tolerance, near, corrections) = (1, 1, 1e-15, 0.1, 3);
-    Kernel::new(KernelParts { dim, element, tolerance, near, corrections, programs }).unwrap()
+    let (dim, element, unknowns, solution) = (1, 1, 1, 1);
+    let (tolerance, near, corrections) = (1e-15, 0.1, 3);
+    Kernel::new(KernelParts {
+        dim,
+        element,
+        unknowns,
+        solution,
+        tolerance,
+        near,
+        corrections,
+        programs,
+    })
+    .unwrap()
 }
 
 /// Adds 1 to g for each step; refuses the step that μ gives, if it is not 0.

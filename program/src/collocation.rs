@@ -1,4 +1,65 @@
-//! Gauss's nodes about the middle of a step (Hairer, Lubich, Wanner, *Geometric Numerical Integration*, II.1.3).
+//! The numbers of a step by collocation, for kernels and for the runtime's generic step: Gauss's nodes about its middle
+//! (E. Hairer, C. Lubich, G. Wanner, *Geometric Numerical Integration*, II.1.3), the series of its chart, and the limits of its
+//! solution and acceptance, which come from experiments (`docs/measurements/collocation.md`).
+
+/// Steps whose rates are kept, for the first guess of the next one.
+pub const KEPT: usize = 7;
+
+/// The largest rate of a coordinate of x beyond which fewer of these serve: rates vary too much over such steps.
+pub const LONG: f64 = 0.5;
+
+/// The most of these that serve long steps.
+pub const KEPT_LONG: usize = 5;
+
+/// The largest share of the highest polynomial in the velocity up to which steps with two nodes and more are accepted, by
+/// the number of nodes; with one node the largest product of the velocity, the force, and what that changes.
+pub const LARGEST_TAIL: [f64; MAX_NODES] = [0.08, 0.25, 0.06, 1e-2, 1e-2, 1e-2, 1e-2, 1e-2];
+
+/// The largest highest polynomial in the force, relative to the momentum: where it is larger, as where momenta grow along
+/// the step on a group that is not compact, a velocity that is resolved does not tell that the step is.
+pub const LARGEST_FORCE: f64 = 0.25;
+
+/// Sweeps allowed before the solver gives up.
+pub const MAX_SWEEPS: u32 = 60;
+
+/// The error that ends a solution, relative to the momentum. Stopping earlier is a force that works in one direction:
+/// stopped at 1e-15, the energy of a body with a root drifts by 7e-11 in 10⁶ steps.
+pub const SOLVED: f64 = 6e-17;
+
+/// The change below which a sweep that changes no less than the one before is down to rounding.
+pub const ROUNDING: f64 = 6e-14;
+
+/// Up to this dimension sweeps are corrected by a linear model, whose Hessian costs as many gradients.
+pub const LARGEST_MODEL: usize = 24;
+
+/// The powers of x a series of the exponential chart may have.
+pub const MAX_DEGREE: usize = 14;
+
+/// βₖ = (−1)ᵏ Bₖ/k! with Bernoulli's numbers, B₁ = −½: J_R = Σ βₖ (ad\*_x)ᵏ p.
+pub const BETA: [f64; MAX_DEGREE + 1] = [
+    1.0,
+    0.5,
+    1.0 / 12.0,
+    0.0,
+    -1.0 / 720.0,
+    0.0,
+    1.0 / 30_240.0,
+    0.0,
+    -1.0 / 1_209_600.0,
+    0.0,
+    1.0 / 47_900_160.0,
+    0.0,
+    -691.0 / 1_307_674_368_000.0,
+    0.0,
+    1.0 / 74_724_249_600.0,
+];
+
+/// The degree of that series in a step: the orders of the step, and that of the force at its middle, which a step with one
+/// node is judged by.
+#[must_use]
+pub const fn degree(nodes: usize) -> usize {
+    if nodes == 1 { 1 } else { 2 * nodes - 2 }
+}
 
 /// The most nodes of a step.
 pub const MAX_NODES: usize = 8;
@@ -38,7 +99,8 @@ const GAUSS: [&[(f64, f64)]; MAX_NODES] = [
 ];
 
 /// The coefficients of `M` nodes, for a step of length one.
-pub(super) struct Nodes<const M: usize> {
+#[derive(Clone, Debug)]
+pub struct Nodes<const M: usize> {
     /// cᵢ − ½, the times of the nodes from the middle.
     pub times: [f64; M],
     /// bᵢ, the weights of the whole step.
@@ -63,7 +125,10 @@ const fn legendre(degree: usize, x: f64) -> [f64; MAX_NODES + 1] {
 }
 
 impl<const M: usize> Nodes<M> {
-    pub(super) const fn new() -> Self {
+    /// The coefficients.
+    #[must_use]
+    #[allow(clippy::new_without_default)]
+    pub const fn new() -> Self {
         assert!(M >= 1 && M <= MAX_NODES, "a step has 1 to 8 nodes");
         let [mut times, mut weights, mut highest] = [[0.0; M]; 3];
         let mut values = [[0.0; MAX_NODES + 1]; M];

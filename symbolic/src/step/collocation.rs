@@ -1,0 +1,476 @@
+//! A step by collocation as a kernel: the equations, the solution and the acceptance of the runtime's `collocation`, in which a
+//! sweep is a correction.
+//!
+//! The numbers solved for are hẋᵢ of all nodes, then hṗᵢ of all, then the residual of the sweep before. A solution is read as x, two
+//! measures of how well the nodes resolve the step, each as a share of its limit, and the rates. Steps leave differences of
+//! their rates to the next one, beside the group element.
+
+use coadjoint_program::collocation::{
+    KEPT, KEPT_LONG, LARGEST_FORCE, LARGEST_MODEL, LARGEST_TAIL, LONG, MAX_SWEEPS, Nodes, ROUNDING,
+    SOLVED, degree,
+};
+use coadjoint_program::{Kernel, KernelParts, Programs};
+
+use super::product::{Moved, Part, Product};
+use super::programs::{matrix, polynomial, sound};
+use super::solving::inputs;
+use super::tables::{Structure, structure_of};
+use super::vector::{all_at_most, finite, largest};
+use crate::graph::{Graph, Id, Program};
+use crate::lie;
+use crate::smooth::Smooth;
+use crate::step::StepError;
+
+/// The coefficients of the nodes of a step, for a number of nodes known at run time.
+struct Gauss {
+    times: Vec<f64>,
+    weights: Vec<f64>,
+    /// By the node from which the weight is, then by the node to which it leads.
+    matrix: Vec<Vec<f64>>,
+    highest: Vec<f64>,
+}
+
+impl Gauss {
+    fn new(nodes: usize) -> Self {
+        fn of<const M: usize>() -> Gauss {
+            let Nodes { times, weights, matrix, highest } = Nodes::<M>::new();
+            Gauss {
+                times: times.to_vec(),
+                weights: weights.to_vec(),
+                matrix: matrix.iter().map(|row| row.to_vec()).collect(),
+                highest: highest.to_vec(),
+            }
+        }
+        match nodes {
+            1 => of::<1>(),
+            2 => of::<2>(),
+            3 => of::<3>(),
+            4 => of::<4>(),
+            5 => of::<5>(),
+            6 => of::<6>(),
+            7 => of::<7>(),
+            _ => of::<8>(),
+        }
+    }
+}
+
+/// The times of a step at which the Hamiltonian is asked for, from its beginning on and in its lengths: the beginning, the
+/// middle, the nodes.
+pub(super) fn times(nodes: usize) -> Vec<f64> {
+    let nodes = Gauss::new(nodes).times;
+    [0.0, 0.5].into_iter().chain(nodes.into_iter().map(|time| 0.5 + time)).collect()
+}
+
+/// How many numbers steps leave to the next one: how many steps there were, as far as they count, and differences of their
+/// rates.
+pub(super) fn memory(smooth: &Smooth) -> usize {
+    1 + KEPT * 2 * smooth.algebra.dim() * smooth.nodes()
+}
+
+/// The kernel of a step; the values of the symbols come first among the coefficients, after them h and, where the Hamiltonian
+/// moves, for each of the [`times`] the time and the signals then. The last part of the group is the memory of its steps.
+pub(super) fn kernel(smooth: &Smooth, group: &Product) -> Result<Kernel, StepError> {
+    let step = Collocation::new(smooth, group);
+    let rates = step.rates();
+    let programs = Programs {
+        guess: step.guess(),
+        correct: step.correct(),
+        accept: step.accept(),
+        transport: step.transport(),
+        frame: None,
+        sound: sound(group),
+        watch: step.watch(),
+        matrix: matrix(group),
+    };
+    Ok(Kernel::new(KernelParts {
+        dim: step.n,
+        element: group.element(),
+        unknowns: rates + 1,
+        solution: step.n + 2 + rates,
+        tolerance: SOLVED,
+        near: 0.0,
+        corrections: MAX_SWEEPS,
+        programs,
+    })?)
+}
+
+struct Collocation<'a> {
+    smooth: &'a Smooth,
+    group: &'a Product,
+    /// The dimension, and the numbers of a group element without the memory.
+    n: usize,
+    element: usize,
+    gauss: Gauss,
+    structure: Structure,
+    /// x, p, ω ↦ ẋ = (∂J_R/∂p)ᵀ ω, ṗ = −(∂J_R/∂x)ᵀ ω.
+    equations: Program,
+}
+
+/// Vectors at nodes.
+type Rows = Vec<Vec<Id>>;
+
+/// hẋᵢ and hṗᵢ at the nodes.
+#[derive(Clone)]
+struct Rates {
+    x: Rows,
+    p: Rows,
+}
+
+impl Rates {
+    /// From all numbers, those of x first, node by node.
+    fn new(n: usize, numbers: &[Id]) -> Self {
+        let rows: Rows = numbers.chunks(n).map(<[Id]>::to_vec).collect();
+        let (x, p) = rows.split_at(rows.len() / 2);
+        Self { x: x.to_vec(), p: p.to_vec() }
+    }
+
+    fn numbers(&self) -> Vec<Id> {
+        self.x.iter().chain(&self.p).flatten().copied().collect()
+    }
+
+    /// Each number made of its own and that of other rates.
+    fn with(&self, other: &Self, of: impl Fn(Id, Id) -> Id) -> Self {
+        let rows = |a: &Rows, b: &Rows| -> Rows {
+            a.iter()
+                .zip(b)
+                .map(|(a, b)| a.iter().zip(b).map(|(&a, &b)| of(a, b)).collect())
+                .collect()
+        };
+        Self { x: rows(&self.x, &other.x), p: rows(&self.p, &other.p) }
+    }
+}
+
+/// start + Σⱼ weightsⱼ rowsⱼ
+fn mixed(graph: &Graph, start: &[Id], weights: impl Fn(usize) -> f64, rows: &Rows) -> Vec<Id> {
+    let entry = |(k, &start): (usize, &Id)| {
+        let add = |sum, (j, row): (usize, &Vec<Id>)| {
+            graph.times_plus(graph.constant(weights(j)), row[k], sum)
+        };
+        rows.iter().enumerate().fold(start, add)
+    };
+    start.iter().enumerate().map(entry).collect()
+}
+
+/// a + s·b
+fn plus(graph: &Graph, a: &[Id], s: f64, b: &[Id]) -> Vec<Id> {
+    let s = graph.constant(s);
+    a.iter().zip(b).map(|(&a, &b)| graph.times_plus(s, b, a)).collect()
+}
+
+/// part/whole, 0 where the part is 0.
+fn share(graph: &Graph, part: Id, whole: Id) -> Id {
+    let zero = graph.zero();
+    graph.select(part, zero, zero, graph.div(part, whole))
+}
+
+impl<'a> Collocation<'a> {
+    fn new(smooth: &'a Smooth, group: &'a Product) -> Self {
+        let n = group.dim();
+        let graph = Graph::new();
+        let [x, p, omega] = [0, n, 2 * n].map(|from| inputs(&graph, from, n));
+        let momentum = group.node_momentum(&graph, &x, &p, degree(smooth.nodes()));
+        let outputs: Vec<(Id, Id)> = momentum.into_iter().zip(omega).collect();
+        let slopes = graph.pull_back(&outputs, &[&x[..], &p[..]].concat());
+        let (of_x, of_p) = slopes.split_at(n);
+        let forces = of_x.iter().map(|&slope| graph.neg(slope));
+        let rates: Vec<Id> = of_p.iter().copied().chain(forces).collect();
+        let equations = graph.finish(3 * n, &rates);
+        let structure = structure_of(&smooth.algebra);
+        let element = group.element() - memory(smooth);
+        Self { smooth, group, n, element, gauss: Gauss::new(smooth.nodes()), structure, equations }
+    }
+
+    fn nodes(&self) -> usize {
+        self.smooth.nodes()
+    }
+
+    /// How many rates there are.
+    fn rates(&self) -> usize {
+        2 * self.n * self.nodes()
+    }
+
+    /// Whether sweeps are corrected by the linear model.
+    fn models(&self) -> bool {
+        self.n <= LARGEST_MODEL
+    }
+
+    /// h.
+    fn step(&self, graph: &Graph) -> Id {
+        graph.slot(self.smooth.symbols.len())
+    }
+
+    /// A program of the Hamiltonian's at μ, at this one of the [`times`].
+    fn at(&self, graph: &Graph, program: &Program, mu: &[Id], time: usize) -> Vec<Id> {
+        let mut arguments = mu.to_vec();
+        if self.smooth.depends_on_time() {
+            let each = 1 + self.smooth.signals.len();
+            let first = self.smooth.symbols.len() + 1 + time * each;
+            arguments.extend((first..first + each).map(|slot| graph.slot(slot)));
+        }
+        graph.call(program, &arguments)
+    }
+
+    /// The increment of the step, and the momentum in its middle.
+    fn whole(&self, graph: &Graph, rates: &Rates, mu: &[Id]) -> (Vec<Id>, Vec<Id>) {
+        let zeros = vec![graph.zero(); self.n];
+        let x = mixed(graph, &zeros, |j| self.gauss.weights[j], &rates.x);
+        let p = self.group.middle_momentum(graph, &x, mu);
+        (x, p)
+    }
+
+    /// The points of the nodes.
+    fn points(&self, graph: &Graph, start: &[Id], rows: &Rows) -> Rows {
+        let weights = |node: usize| move |j: usize| self.gauss.matrix[j][node];
+        (0..self.nodes()).map(|node| mixed(graph, start, weights(node), rows)).collect()
+    }
+
+    /// ad\*_x μ
+    fn ad_star(&self, graph: &Graph, x: &[Id], mu: &[Id]) -> Vec<Id> {
+        let mut sum = vec![graph.zero(); self.n];
+        for &(i, j, k, c) in &self.structure {
+            let product = graph.mul(graph.constant(c), x[i]);
+            sum[j] = graph.times_plus(product, mu[k], sum[j]);
+        }
+        sum
+    }
+
+    /// [x, y]
+    fn bracket(&self, graph: &Graph, x: &[Id], y: &[Id]) -> Vec<Id> {
+        let mut sum = vec![graph.zero(); self.n];
+        for &(i, j, k, c) in &self.structure {
+            let product = graph.mul(graph.constant(c), x[i]);
+            sum[k] = graph.times_plus(product, y[j], sum[k]);
+        }
+        sum
+    }
+
+    /// g, μ ↦ the rates of the steps before, extrapolated by the polynomial through them; the momentum in the middle and h
+    /// times the Hessian there, which the linear model is made of.
+    fn guess(&self) -> Program {
+        let (graph, rates) = (Graph::new(), self.rates());
+        let memory = inputs(&graph, self.element, 1 + KEPT * rates);
+        let mu = inputs(&graph, self.element + memory.len(), self.n);
+        let last = Rates::new(self.n, &memory[1..1 + rates]);
+        let [zero, one] = [0.0, 1.0].map(|value| graph.constant(value));
+        let size = largest(&graph, &last.x.concat());
+        let [long, many, few] =
+            [LONG, KEPT as f64, KEPT_LONG as f64].map(|value| graph.constant(value));
+        let count = graph.min(memory[0], graph.select(size, long, many, few));
+        let mut guess = vec![zero; rates];
+        for (order, differences) in memory[1..].chunks(rates).enumerate() {
+            let weight = graph.select(graph.constant((order + 1) as f64), count, one, zero);
+            for (sum, &difference) in guess.iter_mut().zip(differences) {
+                *sum = graph.times_plus(weight, difference, *sum);
+            }
+        }
+        let mut outputs = guess.clone();
+        outputs.push(zero);
+        if self.models() {
+            let (_, p) = self.whole(&graph, &Rates::new(self.n, &guess), &mu);
+            let hessian = self.hessian(&graph, &p);
+            let step = self.step(&graph);
+            outputs.extend(p);
+            outputs.extend(hessian.into_iter().map(|entry| graph.mul(step, entry)));
+        }
+        graph.finish(self.element + memory.len() + self.n, &outputs)
+    }
+
+    /// ∂²H/∂μ² in the middle of the step, the entries (i, j) with j ≤ i, row by row.
+    fn hessian(&self, graph: &Graph, mu: &[Id]) -> Vec<Id> {
+        let own = Graph::new();
+        let variables = inputs(&own, 0, self.n);
+        let all = inputs(&own, 0, self.smooth.gradient.inputs());
+        let gradient = own.call(&self.smooth.gradient, &all);
+        let one = own.constant(1.0);
+        let row = |i: usize| own.pull_back(&[(gradient[i], one)], &variables[..=i]);
+        let entries: Vec<Id> = (0..self.n).flat_map(row).collect();
+        let program = own.finish(all.len(), &entries);
+        self.at(graph, &program, mu, 1)
+    }
+
+    /// The rates, the residual of the sweep before, μ, the momentum in the middle, the Hessian ↦ the next rates, this sweep's
+    /// residual; the solution; the error that is left, about; 0 or, where a number is not finite, none.
+    fn correct(&self) -> Program {
+        let (graph, n, count) = (Graph::new(), self.n, self.rates());
+        let rates = Rates::new(n, &inputs(&graph, 0, count));
+        let before = graph.input(count);
+        let mu = inputs(&graph, count + 1, n);
+        let constants = if self.models() { n + n * (n + 1) / 2 } else { 0 };
+        let model = inputs(&graph, count + 1 + n, constants);
+        let [zero, one, half] = [0.0, 1.0, 0.5].map(|value| graph.constant(value));
+
+        let change = self.sweep(&graph, &rates, &mu).with(&rates, |a, b| graph.sub(a, b));
+        let [x, p] = [&change.x, &change.p].map(|rows| largest(&graph, &rows.concat()));
+        let scale = largest(&graph, &mu);
+        let scale = graph.select(scale, zero, one, scale);
+        let residual = graph.max(x, graph.div(p, scale));
+        let sum = |a, b| graph.add(a, b);
+        let next = match self.models() {
+            true => {
+                let (p, hessian) = model.split_at(n);
+                let linear = self.response(&graph, &rates, &change, p, hessian);
+                rates.with(&linear, sum).with(&change, sum)
+            }
+            false => rates.with(&change, sum),
+        };
+        // Before the first sweep there was none.
+        let shrinks = graph.min(graph.div(residual, before), half);
+        let left = graph.mul(residual, graph.select(before, zero, one, shrinks));
+        let rounding = graph.constant(ROUNDING / f64::EPSILON);
+        let rounding = graph.mul(rounding, graph.epsilon());
+        let stays = graph.select(residual, rounding, zero, left);
+        let stays = graph.select(before, residual, stays, left);
+        let left = graph.select(before, zero, left, stays);
+
+        let (x, _) = self.whole(&graph, &next, &mu);
+        let measures = self.measures(&graph, &next, &mu, &model);
+        let mut outputs = next.numbers();
+        outputs.push(residual);
+        outputs.extend(x.into_iter().chain(measures).chain(next.numbers()));
+        outputs.extend([left, finite(&graph, &change.numbers())]);
+        graph.finish(count + 1 + n + constants, &outputs)
+    }
+
+    /// The rates that follow from others.
+    fn sweep(&self, graph: &Graph, rates: &Rates, mu: &[Id]) -> Rates {
+        let (_, p) = self.whole(graph, rates, mu);
+        let zeros = vec![graph.zero(); self.n];
+        let xs = self.points(graph, &zeros, &rates.x);
+        let ps = self.points(graph, &p, &rates.p);
+        let step = self.step(graph);
+        let mut next = Rates { x: Vec::new(), p: Vec::new() };
+        for (node, (x, p)) in xs.iter().zip(&ps).enumerate() {
+            let momentum = self.group.node_momentum(graph, x, p, degree(self.nodes()));
+            let gradient = self.at(graph, &self.smooth.gradient, &momentum, 2 + node);
+            let omega: Vec<Id> = gradient.iter().map(|&entry| graph.mul(step, entry)).collect();
+            let mut own = graph.call(&self.equations, &[&x[..], &p[..], &omega[..]].concat());
+            next.p.push(own.split_off(self.n));
+            next.x.push(own);
+        }
+        next
+    }
+
+    /// The change of the rates in the next sweep that follows from this one, to first order in it and in the step.
+    fn response(
+        &self,
+        graph: &Graph,
+        rates: &Rates,
+        change: &Rates,
+        p: &[Id],
+        hessian: &[Id],
+    ) -> Rates {
+        let zeros = vec![graph.zero(); self.n];
+        let half = graph.constant(0.5);
+        let x = mixed(graph, &zeros, |j| self.gauss.weights[j], &change.x);
+        let turned = self.ad_star(graph, &x, p);
+        let middle: Vec<Id> = turned.iter().map(|&entry| graph.mul(half, entry)).collect();
+        let xs = self.points(graph, &zeros, &change.x);
+        let ps = self.points(graph, &middle, &change.p);
+        let mut linear = Rates { x: Vec::new(), p: Vec::new() };
+        for (node, (x, own)) in xs.iter().zip(&ps).enumerate() {
+            let mu = plus(graph, own, 0.5, &self.ad_star(graph, x, p));
+            let velocity: Vec<Id> = (0..self.n).map(|i| row(graph, hessian, i, &mu)).collect();
+            let force = plus(graph, &zeros, 0.5, &self.ad_star(graph, &velocity, p));
+            let force = plus(graph, &force, 0.5, &self.ad_star(graph, &rates.x[node], own));
+            let bent = self.bracket(graph, x, &rates.x[node]);
+            linear.x.push(plus(graph, &velocity, 0.5, &bent));
+            linear.p.push(force);
+        }
+        linear
+    }
+
+    /// How well the nodes resolve the step, as shares of the limits: the highest polynomials through two nodes and more, of
+    /// the velocity and of the force; with one node the product of velocity, force, and what that changes.
+    fn measures(&self, graph: &Graph, rates: &Rates, mu: &[Id], model: &[Id]) -> [Id; 2] {
+        let limits = [LARGEST_TAIL[self.nodes() - 1], LARGEST_FORCE];
+        let [tail, force] = limits.map(|limit| graph.constant(1.0 / limit));
+        let size = |rows: &Rows| largest(graph, &rows.concat());
+        let (velocity, scale) = (size(&rates.x), largest(graph, mu));
+        if self.nodes() == 1 {
+            let f = share(graph, size(&rates.p), scale);
+            let gain = graph.add(self.gain(graph, model), f);
+            let product = graph.mul(graph.mul(f, velocity), gain);
+            return [graph.mul(tail, product), graph.zero()];
+        }
+        let zeros = vec![graph.zero(); self.n];
+        let highest = |rows| largest(graph, &mixed(graph, &zeros, |j| self.gauss.highest[j], rows));
+        let of_velocity = share(graph, highest(&rates.x), velocity);
+        let of_force = share(graph, highest(&rates.p), scale);
+        [graph.mul(tail, of_velocity), graph.mul(force, of_force)]
+    }
+
+    /// The largest sum of a row of h·H″·∂P/∂x, where P = μ + ½ad\*_x μ to first order; 1 where there is no model.
+    fn gain(&self, graph: &Graph, model: &[Id]) -> Id {
+        if !self.models() {
+            return graph.constant(1.0);
+        }
+        let ((p, hessian), half) = (model.split_at(self.n), graph.constant(0.5));
+        let mut sums = vec![graph.zero(); self.n];
+        for j in 0..self.n {
+            let unit: Vec<Id> =
+                (0..self.n).map(|i| graph.constant(f64::from(u8::from(i == j)))).collect();
+            let turned = self.ad_star(graph, &unit, p);
+            for (i, sum) in sums.iter_mut().enumerate() {
+                let entry = graph.abs(row(graph, hessian, i, &turned));
+                *sum = graph.times_plus(half, entry, *sum);
+            }
+        }
+        largest(graph, &sums)
+    }
+
+    /// μ, the solution, the error left, the distance ↦ 1 where the step is solved, in the chart, and resolved by its nodes.
+    fn accept(&self) -> Program {
+        let (graph, n) = (Graph::new(), self.n);
+        let solution = inputs(&graph, n, n + 2 + self.rates());
+        let end = n + solution.len();
+        let [left, distance] = [end, end + 1].map(|i| graph.input(i));
+        let tolerance = graph.constant(SOLVED / f64::EPSILON);
+        let tolerance = graph.mul(tolerance, graph.epsilon());
+        let (zero, one) = (graph.zero(), graph.constant(1.0));
+        let extent = self.group.middle_extent(&graph, &solution[..n]);
+        let [tail, force] = [solution[n], solution[n + 1]];
+        let tests = [(left, tolerance), (distance, zero), (extent, one), (tail, one), (force, one)];
+        graph.finish(end + 2, &[all_at_most(&graph, &tests)])
+    }
+
+    /// g, μ, the solution ↦ the state moved by the increment, with the differences of the rates for the next step.
+    fn transport(&self) -> Program {
+        let (graph, n, rates) = (Graph::new(), self.n, self.rates());
+        let g = inputs(&graph, 0, self.group.element());
+        let mu = inputs(&graph, g.len(), n);
+        let solution = inputs(&graph, g.len() + n, n + 2 + rates);
+        let Moved { g: mut outputs, mu } =
+            self.group.middle_transport(&graph, &g, &solution[..n], &mu);
+        outputs.truncate(self.element);
+        let memory = &g[self.element..];
+        let [one, most] = [1.0, KEPT as f64].map(|value| graph.constant(value));
+        outputs.push(graph.min(graph.add(memory[0], one), most));
+        let mut new = solution[n + 2..].to_vec();
+        for old in memory[1..].chunks(rates) {
+            outputs.extend_from_slice(&new);
+            new = new.iter().zip(old).map(|(&new, &old)| graph.sub(new, old)).collect();
+        }
+        outputs.extend(mu);
+        graph.finish(g.len() + n + solution.len(), &outputs)
+    }
+
+    /// g, μ ↦ the energy, at the time at which the step begins, and the Casimirs of low degree.
+    fn watch(&self) -> Program {
+        let graph = Graph::new();
+        let mu = inputs(&graph, self.group.element(), self.n);
+        let mut outputs = self.at(&graph, &self.smooth.value, &mu, 0);
+        for casimir in lie::watched_casimirs(&self.smooth.algebra) {
+            outputs.push(polynomial(&graph, &casimir, &mu));
+        }
+        graph.finish(self.group.element() + self.n, &outputs)
+    }
+}
+
+/// Row i of a symmetric matrix, given by its entries (i, j) with j ≤ i, times v.
+fn row(graph: &Graph, entries: &[Id], i: usize, v: &[Id]) -> Id {
+    let entry = |j: usize| {
+        let (row, column) = (i.max(j), i.min(j));
+        entries[row * (row + 1) / 2 + column]
+    };
+    v.iter().enumerate().fold(graph.zero(), |sum, (j, &v)| graph.times_plus(entry(j), v, sum))
+}

@@ -1,0 +1,106 @@
+//! Kernels of steps by collocation, beside the runtime's generic step of the same equations.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use coadjoint::collocation::Collocation;
+use coadjoint::groups::{Coordinates, Heisenberg, Power, Product, SE2, SL2, SO4, SU2, SU3};
+use coadjoint::{LieGroup, Phase, SE3, SO3};
+use coadjoint_codegen::smooth::{Hamiltonian, Smooth};
+use coadjoint_codegen::step::Step;
+use coadjoint_codegen::system::{Options, read_either};
+use coadjoint_program::Stepper;
+
+const NAMES: [&str; 8] = ["a", "b", "c", "d", "e", "f", "g", "k"];
+
+/// The Hamiltonian of this text, for steps with this number of nodes.
+fn smooth(group: &str, dim: usize, hamiltonian: &str, nodes: usize) -> Smooth {
+    let names: Vec<String> = NAMES[..dim].iter().map(|name| format!("{name:?}")).collect();
+    let text = format!(
+        "group = {group:?}\ncoordinates = [{}]\nhamiltonian = {hamiltonian:?}\n",
+        names.join(", ")
+    );
+    let options = Options { truncation: Some(2 * nodes - 1), ..Options::default() };
+    match read_either(&text, options, &[]).unwrap().problem {
+        Hamiltonian::Smooth(smooth) => *smooth,
+        Hamiltonian::Polynomial(_) => panic!("a polynomial: {hamiltonian}"),
+    }
+}
+
+/// The momenta after steps from the time 0.3, and the most sweeps of one.
+fn by_kernel(smooth: &Smooth, h: f64, steps: u64, mu: &[f64]) -> (Vec<f64>, Vec<f64>, u32) {
+    let step = Step::by_collocation(smooth).unwrap();
+    let kernel = step.kernel();
+    let mut slots = step.fold(h, &[]).unwrap();
+    let size = (kernel.programs.matrix.outputs().len() as f64).sqrt() as usize;
+    let identity: Vec<f64> =
+        (0..size * size).map(|at| f64::from(u8::from(at / size == at % size))).collect();
+    let (mut g, mut mu) = (step.element_of(&identity), mu.to_vec());
+    let mut sweeps = 0;
+    for number in 0..steps {
+        step.set_time(&mut slots, h, 0.3 + number as f64 * h);
+        let made = kernel.advance(&slots, &mut g, &mut mu, 1);
+        assert_eq!(made.steps, 1, "{}: step {number} of {h}", smooth.source);
+        sweeps = sweeps.max(made.corrections);
+    }
+    let matrix = kernel.programs.matrix.run(&g, &[]);
+    (matrix, mu, sweeps)
+}
+
+fn by_runtime<G: LieGroup<Scalar = f64>, const M: usize>(
+    group: &G,
+    smooth: &Smooth,
+    h: f64,
+    steps: u64,
+    mu: &[f64],
+) -> (Vec<f64>, Vec<f64>, u32) {
+    let symbols = smooth.symbols_at(&[]);
+    let list = |mu: &G::Vector| (0..mu.dim()).map(|i| mu[i]).collect::<Vec<f64>>();
+    let vector = |list: &[f64]| G::Vector::from_entries(list.len(), |i| list[i]);
+    let energy = (
+        |time: f64, mu: &G::Vector| smooth.energy(&symbols, time, &list(mu)),
+        |time: f64, mu: &G::Vector| vector(&smooth.gradient(&symbols, time, &list(mu))),
+    );
+    let mut step = Collocation::<_, _, M>::new(group.clone(), energy, h).unwrap();
+    let mut state = Phase::<G>::new(group.identity(), vector(mu));
+    let report = step.advance_by(&mut state, 0.3, steps).unwrap();
+    let size = group.matrix_size();
+    let entry = |at: usize| group.matrix_entry(&state.group_element, at / size, at % size);
+    ((0..size * size).map(entry).collect(), list(&state.momentum), report.iterations)
+}
+
+fn compare_at<G: LieGroup<Scalar = f64>, const M: usize>(group: &G, name: &str, hamiltonian: &str) {
+    let mu: Vec<f64> = (0..group.dim()).map(|i| 0.6 - 0.17 * i as f64).collect();
+    let smooth = smooth(name, group.dim(), hamiltonian, M);
+    let h = if M == 1 { 0.05 } else { 0.15 };
+    let (g, moved, sweeps) = by_kernel(&smooth, h, 12, &mu);
+    let (other_g, other, others) = by_runtime::<G, M>(group, &smooth, h, 12, &mu);
+    let furthest = |a: &[f64], b: &[f64]| {
+        assert_eq!(a.len(), b.len());
+        a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    };
+    let apart = f64::max(furthest(&g, &other_g), furthest(&moved, &other));
+    assert!(apart < 2e-14, "{name}, {M} nodes: {apart:e}");
+    assert!(sweeps <= others + 1, "{name}, {M} nodes: {sweeps} sweeps, {others} by the runtime");
+}
+
+fn compare<G: LieGroup<Scalar = f64>>(group: &G, name: &str, hamiltonian: &str) {
+    compare_at::<G, 1>(group, name, hamiltonian);
+    compare_at::<G, 2>(group, name, hamiltonian);
+    compare_at::<G, 4>(group, name, hamiltonian);
+}
+
+#[test]
+fn kernels_make_the_steps_of_the_runtime() {
+    let root = "sqrt(1 + a^2/2 + b^2/3 + c^2/5) + b^3/10";
+    compare(&SO3::new(), "SO3", root);
+    compare(&SU2::new(), "SU2", root);
+    compare(&SO3::new(), "SO3", "exp(-a/2)/3 + a + b*sin(2*t)/4 + ln(2 + c)*cos(t)");
+    compare(&SE2::new(), "SE2", "exp(a/3) + b^2/2 + c^2/3");
+    let six = "sqrt(1 + a^2 + b^2/2 + c^2/3) + exp(d/5) + e^2/3 + 1/(2 + f^2) + a*d/7";
+    compare(&SE3::new(), "SE3", six);
+    compare(&Heisenberg::new(), "Heisenberg", root);
+    compare(&SL2::new(), "SL2", root);
+    compare(&SO4::new(), "SO4", six);
+    compare(&Power::<SO3, 2, 6>::new(), "SO3^2", six);
+    compare(&Product::<SO3, SE2, 6>::new(), "SO3*SE2", six);
+    compare(&SU3::new(), "SU3", "sqrt(1 + a^2 + b^2/2 + c^2/3) + exp(d/5) + e^2/3 + g*k/4 + f/3");
+}
