@@ -181,7 +181,7 @@ fn laws_of_steps(
     let (mut there, mut back) =
         (|phase: &mut _| step(h, 1, phase), |phase: &mut _| step(-h, 1, phase));
     // Where the Hamiltonian depends on time, the step back would begin at another one.
-    let moves = matches!(&system.flow, Flow::Collocation(smooth, _) if smooth.moves);
+    let moves = matches!(&system.flow, Flow::Collocation(smooth, ..) if smooth.moves);
     let back: Option<&mut laws::Advance<'_, _>> = if moves { None } else { Some(&mut back) };
     let tried = laws::check_map(group, &mut there, back, &points).map_err(RunError::at_start)?;
     let mut laws = printed(&tried);

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use coadjoint_codegen::emit::c::{self, HeaderOptions, Language};
 use coadjoint_codegen::emit::{Options, check_size, collocation_file, file, potential_items};
-use coadjoint_codegen::integrator::{Integrator, Kick};
+use coadjoint_codegen::integrator::Kick;
 use coadjoint_codegen::smooth::Hamiltonian;
 use coadjoint_codegen::tolerance::Choice;
 use coadjoint_learn::{ModelFile, problem};
@@ -13,7 +13,7 @@ use coadjoint_program::print::DeviceLanguage;
 
 use crate::engine::device_text;
 use crate::error::RunError;
-use crate::load::{System, integrator, polynomial, with_kicks};
+use crate::load::{Derived, System, integrator, learned, polynomial, with_kicks};
 
 /// The targets that a system without series has.
 const INSTEAD: &str = "emit --language rust writes them, and simulate and ensemble make them";
@@ -122,30 +122,40 @@ pub fn kernel(
     precision: Precision,
     language: DeviceLanguage,
 ) -> Result<String, RunError> {
-    let (integrator, step, choice): (Integrator, f64, Option<Choice>) = match source {
+    let (system, step, choice) = match source {
         Source::Model(model) => {
             if step.is_some() {
                 return Err(RunError::Option("--step: a learned model has its own".into()));
             }
-            (integrator(path, problem(&model, "learned")?)?, model.step, None)
+            (learned(&model)?, model.step, None)
         }
         Source::System(system, choice) => {
             let step = step.or(system.run.step).ok_or_else(|| RunError::no_step(path))?;
             system.writable().map_err(RunError::of(path))?;
-            let system = polynomial(path, *system, "there is no kernel of it", INSTEAD)?;
-            (with_kicks(path, system.problem, system.potential)?, step, choice)
+            (*system, step, choice)
         }
     };
-    let problem = &integrator.problem;
+    let derived = Derived::of_file(path, system)?;
+    let Some(origin) = derived.origin().filter(|_| derived.alike()) else {
+        return Err(RunError::Option(format!(
+            "{}: no kernel is written of steps that depend on time, or that call a function",
+            path.display()
+        )));
+    };
+    let facts = derived.facts();
+    let method = match derived.series() {
+        Some(series) => {
+            format!("{} chart, K = {}", series.integrator.problem.chart, facts.truncation)
+        }
+        None => derived.label(),
+    };
     let chosen = choice.as_ref().map(|choice| format!("\n{}", chosen(choice)));
     let about = format!(
-        "{} on {}, {} chart, K = {}, step {step}.{}\nWritten by coadjoint {}.",
-        problem.name,
-        problem.algebra.name(),
-        problem.chart,
-        problem.truncation,
+        "{} on {}, {method}, step {step}.{}\nWritten by coadjoint {}.",
+        facts.name,
+        facts.algebra.name(),
         chosen.unwrap_or_default(),
         env!("CARGO_PKG_VERSION"),
     );
-    device_text(&integrator, step, precision, language, &about)
+    device_text(origin, step, precision, language, &about)
 }

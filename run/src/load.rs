@@ -17,7 +17,7 @@ use coadjoint_program::Trajectories;
 
 use crate::backend::Backend;
 use crate::engine::{
-    Charted, Compiled, Equations, Forces, Kept, Motion, Varied, collocated, product_group,
+    Charted, Compiled, Equations, Forces, Kept, Motion, Origin, Varied, collocated, product_group,
     whole_group,
 };
 use crate::error::RunError;
@@ -155,8 +155,8 @@ pub struct Derived {
 pub enum Flow {
     /// The series of a polynomial, as programs.
     Series(Box<Expansion>),
-    /// Collocation on a group.
-    Collocation(Box<Smooth>, Arc<DirectProduct<MatrixGroup>>),
+    /// Collocation on a group, and the programs compiled so far.
+    Collocation(Box<Smooth>, Arc<DirectProduct<MatrixGroup>>, Kept),
 }
 
 /// The series of a polynomial as programs, with the kicks of a potential between flows.
@@ -214,7 +214,7 @@ impl Derived {
             }
             Hamiltonian::Smooth(smooth) => {
                 let group = Arc::new(product_group(file, &smooth.algebra)?);
-                Flow::Collocation(smooth, group)
+                Flow::Collocation(smooth, group, Kept::default())
             }
         };
         Ok(Self { file: file.to_owned(), flow, invariants })
@@ -231,7 +231,7 @@ impl Derived {
                     series.forces.as_ref().and_then(|forces| forces.kick.potential.alone());
                 inputs::reach(&self.file, torque.map_or(&[], |torque| &torque.signals), end)
             }
-            Flow::Collocation(smooth, _) => inputs::reach(&self.file, &smooth.signals, end),
+            Flow::Collocation(smooth, ..) => inputs::reach(&self.file, &smooth.signals, end),
         }
     }
 
@@ -239,7 +239,7 @@ impl Derived {
     pub fn facts(&self) -> Facts<'_> {
         match &self.flow {
             Flow::Series(series) => series.integrator.problem.facts(),
-            Flow::Collocation(smooth, _) => smooth.facts(),
+            Flow::Collocation(smooth, ..) => smooth.facts(),
         }
     }
 
@@ -251,10 +251,15 @@ impl Derived {
         }
     }
 
-    /// Whether states move alike at all times and without those before them, so that many may move side by side.
+    /// Whether states move alike at all times, so that many may move side by side.
     pub fn alike(&self) -> bool {
-        let moves = |forces: &Forces| forces.kick.potential.moves();
-        self.series().is_some_and(|series| !series.forces.as_ref().is_some_and(moves))
+        match &self.flow {
+            Flow::Series(series) => {
+                let moves = |forces: &Forces| forces.kick.potential.moves();
+                !series.forces.as_ref().is_some_and(moves)
+            }
+            Flow::Collocation(smooth, ..) => smooth.given.is_none() && !smooth.depends_on_time(),
+        }
     }
 
     /// The group that the equations are on.
@@ -283,17 +288,30 @@ impl Derived {
         match &self.flow {
             Flow::Series(series) => {
                 let Expansion { integrator, kept, .. } = &**series;
-                Compiled::new(integrator, step, backend, steps, trajectories, kept)
+                let origin = Origin::Series(integrator);
+                Compiled::new(origin, step, backend, steps, trajectories, kept)
             }
-            Flow::Collocation(..) if matches!(backend, Backend::Auto | Backend::Interpreter) => {
-                Ok(None)
+            Flow::Collocation(smooth, ..) if smooth.given.is_some() => match backend {
+                Backend::Auto | Backend::Interpreter => Ok(None),
+                _ => Err(RunError::Option(format!(
+                    "{}: no compiled --backend: the Hamiltonian is a function that is called; leave it out",
+                    self.file.display()
+                ))),
+            },
+            Flow::Collocation(smooth, _, kept) => {
+                let origin = Origin::Collocation(smooth);
+                Compiled::new(origin, step, backend, steps, trajectories, kept)
             }
-            Flow::Collocation(smooth, _) => Err(not_of_series(
-                &self.file,
-                smooth,
-                "no compiled --backend",
-                "leave it out: ∂H/∂μ is interpreted",
-            )),
+        }
+    }
+
+    /// What the programs of steps are made from, where they are.
+    pub(crate) fn origin(&self) -> Option<Origin<'_>> {
+        match &self.flow {
+            Flow::Series(series) => Some(Origin::Series(&series.integrator)),
+            Flow::Collocation(smooth, ..) => {
+                smooth.given.is_none().then(|| Origin::Collocation(smooth))
+            }
         }
     }
 
@@ -311,7 +329,9 @@ impl Derived {
             Flow::Series(series) => {
                 Ok(series.group.steps(series.equations(parameters), step, compiled.cloned()))
             }
-            Flow::Collocation(smooth, group) => collocated(smooth, group, step, &parameters),
+            Flow::Collocation(smooth, group, _) => {
+                collocated(smooth, group, step, &parameters, compiled)
+            }
         }
     }
 
@@ -329,7 +349,9 @@ impl Derived {
             Flow::Series(series) => {
                 series.group.anew(series.equations(parameters.to_vec()), step, compiled)
             }
-            Flow::Collocation(smooth, group) => Ok(collocated(smooth, group, step, parameters)?),
+            Flow::Collocation(smooth, group, _) => {
+                Ok(collocated(smooth, group, step, parameters, compiled)?)
+            }
         }
     }
 
@@ -354,7 +376,7 @@ impl Derived {
                 }
                 label
             }
-            Flow::Collocation(smooth, _) => format!("collocation, {} nodes", smooth.nodes()),
+            Flow::Collocation(smooth, ..) => format!("collocation, {} nodes", smooth.nodes()),
         }
     }
 }

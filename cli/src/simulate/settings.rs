@@ -189,7 +189,7 @@ impl Header {
                 let splitting = series.forces.as_ref().map(|forces| forces.splitting.name());
                 own.extend(splitting.map(|splitting| ("splitting", json!(splitting))));
             }
-            Flow::Collocation(smooth, _) => {
+            Flow::Collocation(smooth, ..) => {
                 own.extend([("method", json!("collocation")), ("nodes", json!(smooth.nodes()))])
             }
         }

@@ -1,25 +1,22 @@
 //! Steps for devices: compiled, or as a text.
 
-use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::step::Step;
 use coadjoint_native::cards::{Card, Device};
 use coadjoint_program::Precision;
 use coadjoint_program::print::{DeviceLanguage, device_unit};
 
-use super::compiled::MOST_OPERATIONS;
-use super::interpreter::coefficients;
+use super::compiled::{MOST_OPERATIONS, Origin};
 use crate::error::RunError;
 
 /// The programs of a step in this precision, and their folded coefficients. `option` is what the user asked for them by.
 fn programs(
-    integrator: &Integrator,
+    origin: Origin<'_>,
     step_size: f64,
     precision: Precision,
     option: &str,
 ) -> Result<(Step, Vec<f64>), RunError> {
     let failed = |why: &dyn std::fmt::Display| RunError::Option(format!("{option}: {why}"));
-    let step = Step::build_in(integrator, precision);
-    let step = step.map_err(|error| failed(&error))?;
+    let step = origin.step(precision).map_err(|error| failed(&error))?;
     let programs = &step.kernel().programs;
     let operations = programs.correct.nodes().len() + programs.transport.nodes().len();
     if operations > MOST_OPERATIONS {
@@ -27,7 +24,7 @@ fn programs(
             "a step has {operations} operations, more than the {MOST_OPERATIONS} that are compiled; lower the truncation"
         )));
     }
-    let slots = coefficients(integrator, &step, step_size, &[]).map_err(RunError::at_start)?;
+    let slots = origin.coefficients(&step, step_size, &[]).map_err(RunError::at_start)?;
     Ok((step, slots))
 }
 
@@ -36,12 +33,12 @@ fn programs(
 /// # Errors
 /// Where they are not made of programs, or the device cannot be had.
 pub(crate) fn card(
-    integrator: &Integrator,
+    origin: Origin<'_>,
     step_size: f64,
     device: Device,
     precision: Precision,
 ) -> Result<Card, RunError> {
-    let (step, slots) = programs(integrator, step_size, precision, "--device")?;
+    let (step, slots) = programs(origin, step_size, precision, "--device")?;
     let card = Card::new(device, step.kernel(), &slots);
     card.map_err(|error| RunError::Option(format!("--device: {error}")))
 }
@@ -51,12 +48,12 @@ pub(crate) fn card(
 /// # Errors
 /// Where they are not made of programs.
 pub(crate) fn device_text(
-    integrator: &Integrator,
+    origin: Origin<'_>,
     step_size: f64,
     precision: Precision,
     language: DeviceLanguage,
     about: &str,
 ) -> Result<String, RunError> {
-    let (step, slots) = programs(integrator, step_size, precision, "--language")?;
+    let (step, slots) = programs(origin, step_size, precision, "--language")?;
     Ok(device_unit(step.kernel(), &slots, language, about))
 }

@@ -1,15 +1,17 @@
-//! Steps by collocation, for Hamiltonians that are no polynomials: the gradient is interpreted.
+//! Steps by collocation, for Hamiltonians that are no polynomials: by programs where there are any, else, and where these refuse a
+//! step, by the runtime's.
 
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use coadjoint::collocation::{Collocation, Energy, Undefined};
 use coadjoint::groups::{DirectProduct, Exponential, MatrixGroup};
+use coadjoint::steps::StepReport;
 use coadjoint::{LieGroup, Phase, StepError};
 use coadjoint_codegen::cancel;
 use coadjoint_codegen::smooth::Smooth;
 use nalgebra::DVector;
 
-use super::compiled::{Folded, Numbers, Solves};
+use super::compiled::{Compiled, Folded, Numbers, Origin, Solves};
 use super::linear::{Differentiable, Linear};
 use super::motion::{Motion, Varied, advise, one_by_one};
 use super::response::Response;
@@ -25,22 +27,28 @@ pub(crate) fn collocated<'a>(
     group: &Arc<Group>,
     size: f64,
     parameters: &[f64],
+    compiled: Option<&Arc<Compiled>>,
 ) -> Result<Box<dyn Varied + 'a>, StepError> {
+    let compiled = compiled.map(|compiled| {
+        let mut own = (**compiled).clone();
+        own.with(own.fold(Origin::Collocation(smooth), size, parameters)?);
+        Ok::<_, StepError>(Arc::new(own))
+    });
     let symbols: Arc<[f64]> = smooth.symbols_at(parameters).into();
     if let Some(value) = symbols.iter().copied().find(|value| !value.is_finite()) {
         return Err(StepError::InvalidParameter { name: "of the Hamiltonian", value });
     }
     let energy = Interpreted { smooth, symbols, parameters: parameters.into() };
-    let group = group.clone();
+    let elements = Elements { group: group.clone(), compiled: compiled.transpose()? };
     Ok(match smooth.nodes() {
-        1 => Box::new(Collocated::<1>::new(group, energy, size)?),
-        2 => Box::new(Collocated::<2>::new(group, energy, size)?),
-        3 => Box::new(Collocated::<3>::new(group, energy, size)?),
-        4 => Box::new(Collocated::<4>::new(group, energy, size)?),
-        5 => Box::new(Collocated::<5>::new(group, energy, size)?),
-        6 => Box::new(Collocated::<6>::new(group, energy, size)?),
-        7 => Box::new(Collocated::<7>::new(group, energy, size)?),
-        _ => Box::new(Collocated::<8>::new(group, energy, size)?),
+        1 => Box::new(Collocated::<1>::new(elements, energy, size)?),
+        2 => Box::new(Collocated::<2>::new(elements, energy, size)?),
+        3 => Box::new(Collocated::<3>::new(elements, energy, size)?),
+        4 => Box::new(Collocated::<4>::new(elements, energy, size)?),
+        5 => Box::new(Collocated::<5>::new(elements, energy, size)?),
+        6 => Box::new(Collocated::<6>::new(elements, energy, size)?),
+        7 => Box::new(Collocated::<7>::new(elements, energy, size)?),
+        _ => Box::new(Collocated::<8>::new(elements, energy, size)?),
     })
 }
 
@@ -80,10 +88,33 @@ struct Collocated<'a, const M: usize> {
 }
 
 impl<'a, const M: usize> Collocated<'a, M> {
-    fn new(group: Arc<Group>, energy: Interpreted<'a>, size: f64) -> Result<Self, StepError> {
-        let step = Mutex::new(Collocation::new((*group).clone(), energy, size)?);
-        let elements = Elements { group, compiled: None };
+    fn new(
+        elements: Elements<Group>,
+        energy: Interpreted<'a>,
+        size: f64,
+    ) -> Result<Self, StepError> {
+        let step = Mutex::new(Collocation::new((*elements.group).clone(), energy, size)?);
         Ok(Self { elements, step, response: OnceLock::new() })
+    }
+
+    fn step(&self) -> MutexGuard<'_, Collocation<Group, Interpreted<'a>, M>> {
+        // A thread that panicked has left whole steps, if any.
+        self.step.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// One step from this time, which knows no steps before it, by the runtime. The error of one that cannot be made names a size
+    /// that works.
+    fn rescue(&self, state: &mut Numbers, time: f64, size: f64) -> Result<Solves, StepError> {
+        let step = self.step();
+        let mut phase = self.elements.phase(state);
+        let made = Self::alone(&step, &mut phase, time, size);
+        let report = made.map_err(|error| {
+            let works =
+                |size| Self::alone(&step, &mut self.elements.phase(state), time, size).is_ok();
+            advise(error, size, works)
+        })?;
+        *state = self.elements.state(&phase);
+        Ok(Some((report.iterations, report.residual)))
     }
 
     /// One step of another size from this time, which knows no steps before it.
@@ -92,10 +123,9 @@ impl<'a, const M: usize> Collocated<'a, M> {
         phase: &mut Phase<Group>,
         time: f64,
         size: f64,
-    ) -> Result<(), StepError> {
+    ) -> Result<StepReport<f64>, StepError> {
         let (group, energy) = (step.group().clone(), step.energy().clone());
-        let mut step = Collocation::<_, _, M>::new(group, energy, size)?;
-        step.advance(phase, time).map(|_| ())
+        Collocation::<_, _, M>::new(group, energy, size)?.advance(phase, time)
     }
 }
 
@@ -110,44 +140,54 @@ impl<const M: usize> Motion for Collocated<'_, M> {
         first: u64,
         count: u64,
     ) -> Result<Solves, (u64, StepError)> {
-        // A thread that panicked has left whole steps, if any.
-        let mut step = self.step.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut number = first;
+        let size = self.step().step();
+        if let Some(compiled) = &self.elements.compiled {
+            let rescue =
+                |state: &mut Numbers, number| self.rescue(state, number as f64 * size, size);
+            let made = compiled.advance(state, [first, count], rescue)?;
+            return Ok(Some((made.corrections, made.residual)));
+        }
+        // Steps of a system too large for programs begin anew: so their bits do not depend on how a run is cut.
+        let remembers = self.step().energy().smooth.given.is_some();
+        let mut numbers = (first..).map(|number| number as f64 * size);
         one_by_one(count, || {
-            let mut phase = self.elements.phase(state);
-            let time = number as f64 * step.step();
-            number += 1;
-            let report = step.advance(&mut phase, time).map_err(|error| {
-                let works =
-                    |size| Self::alone(&step, &mut self.elements.phase(state), time, size).is_ok();
-                advise(error, step.step(), works)
-            })?;
-            *state = self.elements.state(&phase);
-            Ok(Some((report.iterations, report.residual)))
+            let time = numbers.next().unwrap_or(size);
+            if remembers {
+                let mut phase = self.elements.phase(state);
+                if let Ok(report) = self.step().advance(&mut phase, time) {
+                    *state = self.elements.state(&phase);
+                    return Ok(Some((report.iterations, report.residual)));
+                }
+            }
+            self.rescue(state, time, size)
         })
     }
 
     fn beside(&self, state: &Numbers, time: f64, size: f64) -> Result<Numbers, StepError> {
-        let step = self.step.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut phase = self.elements.phase(state);
-        Self::alone(&step, &mut phase, time, size)?;
-        Ok(self.elements.state(&phase))
+        let mut state = state.clone();
+        if let Some(compiled) = &self.elements.compiled {
+            let mut other = (**compiled).clone();
+            let energy = self.step().energy().clone();
+            other.with(other.fold(Origin::Collocation(energy.smooth), size, &energy.parameters)?);
+            if other.one_at(&mut state, time) {
+                return Ok(state);
+            }
+        }
+        self.rescue(&mut state, time, size)?;
+        Ok(state)
     }
 
     fn one_at(&self, state: &mut Numbers, time: f64) -> Result<(), StepError> {
-        let size = self.step.lock().unwrap_or_else(PoisonError::into_inner).step();
-        *state = self.beside(state, time, size)?;
-        Ok(())
+        let made = self.elements.compiled.as_ref().is_some_and(|own| own.one_at(state, time));
+        if made {
+            return Ok(());
+        }
+        let size = self.step().step();
+        self.rescue(state, time, size).map(drop)
     }
 
-    fn memory(&self, mu: &[f64]) -> Vec<f64> {
-        let step = self.step.lock().unwrap_or_else(PoisonError::into_inner);
-        step.memory(&DVector::from_column_slice(mu)).collect()
-    }
-
-    fn recall(&self, mu: &[f64], memory: &[f64]) -> bool {
-        let mut step = self.step.lock().unwrap_or_else(PoisonError::into_inner);
-        step.recall(&DVector::from_column_slice(mu), memory)
+    fn lanes(&self) -> Option<&Compiled> {
+        self.elements.compiled.as_deref().filter(|compiled| !compiled.moves())
     }
 
     /// There is no series.
@@ -157,12 +197,12 @@ impl<const M: usize> Motion for Collocated<'_, M> {
 
     /// Of a function of the user's there is no Hessian.
     fn differentiable(&self) -> Option<&dyn Differentiable> {
-        let step = self.step.lock().unwrap_or_else(PoisonError::into_inner);
+        let step = self.step();
         step.energy().smooth.given.is_none().then_some(self)
     }
 
     fn defined(&self, state: &Numbers) -> Result<(), StepError> {
-        let step = self.step.lock().unwrap_or_else(PoisonError::into_inner);
+        let step = self.step();
         let found = step.energy().undefined(0.0, &DVector::from_column_slice(&state.mu));
         found.map_or(Ok(()), |Undefined { expression, argument }| {
             Err(StepError::Undefined { expression, argument, time: 0.0, at: None })
@@ -172,7 +212,10 @@ impl<const M: usize> Motion for Collocated<'_, M> {
 
 impl<const M: usize> Varied for Collocated<'_, M> {
     /// The steps made before are forgotten.
-    fn vary(&mut self, parameters: &[f64], _: Option<Folded>) {
+    fn vary(&mut self, parameters: &[f64], folded: Option<Folded>) {
+        if let (Some(compiled), Some(folded)) = (&mut self.elements.compiled, folded) {
+            Arc::make_mut(compiled).with(folded);
+        }
         let step = self.step.get_mut().unwrap_or_else(PoisonError::into_inner);
         let (group, size) = (step.group().clone(), step.step());
         let mut energy = step.energy().clone();
@@ -187,12 +230,12 @@ impl<const M: usize> Varied for Collocated<'_, M> {
 
 impl<const M: usize> Differentiable for Collocated<'_, M> {
     fn parameters(&self) -> usize {
-        let step = self.step.lock().unwrap_or_else(PoisonError::into_inner);
+        let step = self.step();
         step.energy().parameters.len()
     }
 
     fn linear(&self, state: &Numbers, first: u64) -> Result<Linear, StepError> {
-        let step = self.step.lock().unwrap_or_else(PoisonError::into_inner);
+        let step = self.step();
         let (group, place) = (step.group(), (Exponential, step.group()));
         let response = self.response.get_or_init(|| {
             let Interpreted { smooth, symbols, parameters } = step.energy().clone();

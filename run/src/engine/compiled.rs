@@ -6,10 +6,12 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use coadjoint::StepError;
 use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::step::{Spatial, Step};
-use coadjoint_program::{Kernel, Outcome, Trajectories, WIDTH};
+use coadjoint_codegen::problem::Symbol;
+use coadjoint_codegen::smooth::{Facts, Smooth};
+use coadjoint_codegen::step::{self, Spatial, Step};
+use coadjoint_program::{Kernel, Outcome, Precision, Trajectories, WIDTH};
 
-use super::interpreter::{STEEP, coefficients, refusal, symbols};
+use super::interpreter::{STEEP, refusal};
 use crate::backend::{Backend, Code};
 use crate::error::RunError;
 
@@ -30,7 +32,7 @@ pub struct Numbers {
 
 /// The compiled programs of one integrator, for later runs: programs do not depend on the size of a step.
 #[derive(Default)]
-pub(crate) struct Kept {
+pub struct Kept {
     programs: OnceLock<Arc<Programs>>,
     codes: Mutex<Vec<(Backend, Trajectories, Arc<Code>)>>,
 }
@@ -43,10 +45,75 @@ struct Programs {
 }
 
 impl Programs {
-    fn build(integrator: &Integrator) -> Result<Arc<Self>, coadjoint_codegen::step::StepError> {
-        let step = Step::build(integrator)?;
+    fn build(origin: Origin<'_>) -> Result<Arc<Self>, step::StepError> {
+        let step = origin.step(Precision::Double)?;
         let spatial = Spatial::new(&step);
         Ok(Arc::new(Self { step, spatial }))
+    }
+}
+
+/// The system that the programs of a step are made from.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Origin<'a> {
+    /// A polynomial, by its series.
+    Series(&'a Integrator),
+    /// A smooth Hamiltonian, by collocation.
+    Collocation(&'a Smooth),
+}
+
+impl Origin<'_> {
+    /// The programs of a step in numbers of this precision.
+    ///
+    /// # Errors
+    /// Where it has none.
+    pub(crate) fn step(self, precision: Precision) -> Result<Step, step::StepError> {
+        match self {
+            Self::Series(integrator) => Step::build_in(integrator, precision),
+            Self::Collocation(smooth) => Step::by_collocation(smooth, precision),
+        }
+    }
+
+    /// The facts of the system.
+    pub(crate) fn facts(&self) -> Facts<'_> {
+        match self {
+            Self::Series(integrator) => integrator.problem.facts(),
+            Self::Collocation(smooth) => smooth.facts(),
+        }
+    }
+
+    fn symbols(&self) -> &[Symbol] {
+        match self {
+            Self::Series(integrator) => &integrator.problem.symbols,
+            Self::Collocation(smooth) => &smooth.symbols,
+        }
+    }
+
+    /// The coefficients that the programs of a step of this size read.
+    ///
+    /// # Errors
+    /// Where one is not finite.
+    pub(crate) fn coefficients(
+        &self,
+        step: &Step,
+        size: f64,
+        parameters: &[f64],
+    ) -> Result<Vec<f64>, StepError> {
+        let values = || -> Vec<f64> {
+            self.symbols().iter().map(|symbol| symbol.expr.evaluate(parameters)).collect()
+        };
+        step.fold(size, parameters).map_err(|error| refusal(error, size, &values()))
+    }
+
+    fn fold(&self, step: &Step, size: f64, parameters: &[f64]) -> Result<Folded, StepError> {
+        let symbols = self.symbols().iter().map(|symbol| symbol.expr.evaluate(parameters));
+        let symbols: Vec<f64> = symbols.collect();
+        if step.kernel().flows().is_some() {
+            let slots = self.coefficients(step, size, parameters)?;
+            return Ok(Folded { size, slots, quiet: 0.0 });
+        }
+        let folded = step.fold_rows(size, &symbols, STEEP);
+        let (slots, quiet) = folded.map_err(|error| refusal(error, size, &symbols))?;
+        Ok(Folded { size, slots, quiet })
     }
 }
 
@@ -123,7 +190,7 @@ impl Compiled {
     /// # Errors
     /// Where the backend that the user named cannot be had.
     pub(crate) fn new(
-        integrator: &Integrator,
+        origin: Origin<'_>,
         size: f64,
         backend: Backend,
         steps: f64,
@@ -136,7 +203,7 @@ impl Compiled {
         };
         let programs = match kept.programs.get() {
             Some(programs) => programs.clone(),
-            None => match Programs::build(integrator) {
+            None => match Programs::build(origin) {
                 Ok(programs) => kept.programs.get_or_init(|| programs).clone(),
                 Err(error) => return unfit(&error),
             },
@@ -152,7 +219,7 @@ impl Compiled {
             ));
         }
         let backend = if large { Backend::Interpreter } else { backend };
-        let folded = fold(integrator, step, size, &integrator.problem.facts().defaults());
+        let folded = origin.fold(step, size, &origin.facts().defaults());
         let folded = folded.map_err(RunError::at_start)?;
         let framed = parts.frame.is_some();
         let code = match kept.find(backend, trajectories) {
@@ -178,17 +245,17 @@ impl Compiled {
     /// Where a coefficient is not finite.
     pub(crate) fn fold(
         &self,
-        integrator: &Integrator,
+        origin: Origin<'_>,
         size: f64,
         parameters: &[f64],
     ) -> Result<Folded, StepError> {
-        fold(integrator, &self.programs.step, size, parameters)
+        origin.fold(&self.programs.step, size, parameters)
     }
 
     /// The same for at most [`WIDTH`] rows of values of the parameters, side by side.
     pub(crate) fn fold_rows(
         &self,
-        integrator: &Integrator,
+        origin: Origin<'_>,
         size: f64,
         parameters: &[Vec<f64>],
     ) -> Vec<Result<Folded, StepError>> {
@@ -198,8 +265,8 @@ impl Compiled {
         let count = parameters.first().map_or(0, Vec::len);
         let beside = |i: usize| from_fn(|lane| of(lane).map_or(f64::NAN, |own| own[i]));
         let beside: Vec<[f64; WIDTH]> = (0..count).map(beside).collect();
-        let symbols = integrator.problem.symbols.iter();
-        let symbols: Vec<_> = symbols.map(|symbol| symbol.expr.evaluate_rows(&beside)).collect();
+        let symbols = origin.symbols().iter().map(|symbol| symbol.expr.evaluate_rows(&beside));
+        let symbols: Vec<_> = symbols.collect();
         match step.fold_rows(size, &symbols, STEEP) {
             Ok((slots, quiet)) => {
                 let own = |lane: usize| Folded {
@@ -210,7 +277,7 @@ impl Compiled {
                 (0..parameters.len()).map(|lane| Ok(own(lane))).collect()
             }
             // Of one row, perhaps.
-            Err(_) => parameters.iter().map(|own| self.fold(integrator, size, own)).collect(),
+            Err(_) => parameters.iter().map(|own| self.fold(origin, size, own)).collect(),
         }
     }
 
@@ -280,6 +347,29 @@ impl Compiled {
         Ok(total)
     }
 
+    /// Makes one step from this time, whatever steps came before; whether the programs accept it. The state is else as it was.
+    pub(crate) fn one_at(&self, numbers: &mut Numbers, time: f64) -> bool {
+        let step = &self.programs.step;
+        let mut slots = Cow::Borrowed(self.coefficients());
+        if step.moves() {
+            step.set_time(slots.to_mut(), self.folded.size, time);
+        }
+        let mut alone = numbers.clone();
+        let own = alone.g.len().saturating_sub(step.memory());
+        alone.g.iter_mut().skip(own).for_each(|number| *number = 0.0);
+        let Numbers { g, mu } = &mut alone;
+        let made = self.code().stepper(self.kernel()).advance(&slots, g, mu, 1).steps == 1;
+        if made {
+            *numbers = alone;
+        }
+        made
+    }
+
+    /// Whether states are moved alike at all times.
+    pub(crate) fn moves(&self) -> bool {
+        self.programs.step.moves()
+    }
+
     /// The numbers of the element with this matrix, row by row.
     pub(crate) fn element_of(&self, matrix: &[f64]) -> Vec<f64> {
         self.programs.step.element_of(matrix)
@@ -300,22 +390,6 @@ impl Compiled {
     ) -> [u64; WIDTH] {
         self.code().stepper(self.kernel()).advance_lanes(self.coefficients(), g, mu, steps, live)
     }
-}
-
-fn fold(
-    integrator: &Integrator,
-    step: &Step,
-    size: f64,
-    parameters: &[f64],
-) -> Result<Folded, StepError> {
-    if integrator.kicks.is_some() {
-        let slots = coefficients(integrator, step, size, parameters)?;
-        return Ok(Folded { size, slots, quiet: 0.0 });
-    }
-    let symbols = symbols(&integrator.problem, parameters);
-    let folded = step.fold_rows(size, &symbols, STEEP);
-    let (slots, quiet) = folded.map_err(|error| refusal(error, size, &symbols))?;
-    Ok(Folded { size, slots, quiet })
 }
 
 fn note(total: &mut Outcome, corrections: u32, residual: f64) {

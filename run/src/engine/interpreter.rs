@@ -11,7 +11,6 @@ use coadjoint_codegen::cancel;
 use coadjoint_codegen::graph::{self, Arithmetic, Id, Program};
 use coadjoint_codegen::integrator::{FoldTable, Integrator, Predictor};
 use coadjoint_codegen::problem::{self, Problem};
-use coadjoint_codegen::step::Step;
 use coadjoint_program::fold::FoldError;
 
 /// Above this ratio of terms a run says so; above twice this its steps are refused.
@@ -46,17 +45,6 @@ pub(super) fn refusal(error: FoldError, step: f64, symbols: &[f64]) -> StepError
             StepError::InvalidParameter { name: "of the generating function", value }
         }
     }
-}
-
-/// The coefficients that the programs of a step of this size read.
-pub(super) fn coefficients(
-    integrator: &Integrator,
-    step: &Step,
-    size: f64,
-    parameters: &[f64],
-) -> Result<Vec<f64>, StepError> {
-    step.fold(size, parameters)
-        .map_err(|error| refusal(error, size, &symbols(&integrator.problem, parameters)))
 }
 
 /// The truncated series of an integrator for one step size, on any group with its algebra; solved as its plan says.

@@ -13,8 +13,8 @@ mod tangent;
 
 pub(crate) use card::{card, device_text};
 pub(crate) use collocation::collocated;
-pub(crate) use compiled::Kept;
-pub use compiled::{Compiled, Folded, Numbers, Solves};
+pub(crate) use compiled::Origin;
+pub use compiled::{Compiled, Folded, Kept, Numbers, Solves};
 pub(crate) use interpreter::Interpreter;
 pub use interpreter::STEEP;
 pub(crate) use kick::Map;

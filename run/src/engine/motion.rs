@@ -11,7 +11,7 @@ use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;
 use nalgebra::DVector;
 
-use super::compiled::{Compiled, Folded, Numbers, Solves};
+use super::compiled::{Compiled, Folded, Numbers, Origin, Solves};
 use super::interpreter::Interpreter;
 use super::kick::{Forces, Map, map};
 use super::linear::{Differentiable, Linear};
@@ -49,16 +49,6 @@ pub trait Motion: Send + Sync {
     /// Why there is none.
     fn one_at(&self, state: &mut Numbers, _time: f64) -> Result<(), StepError> {
         self.advance(state, 0, 1).map(drop).map_err(|(_, error)| error)
-    }
-
-    /// The numbers that the steps made so far leave to the next one from this momentum beside the state.
-    fn memory(&self, _mu: &[f64]) -> Vec<f64> {
-        Vec::new()
-    }
-
-    /// Takes the memory of steps that led to this momentum; whether it is one.
-    fn recall(&self, _mu: &[f64], memory: &[f64]) -> bool {
-        memory.is_empty()
     }
 
     /// The ratio of the last two terms of the series at a momentum, where it may be worth a warning; else 0.
@@ -175,7 +165,8 @@ impl Charted {
         compiled: Option<&Arc<Compiled>>,
     ) -> Result<Box<dyn Motion + 'a>, StepError> {
         let Equations { integrator, parameters, .. } = &equations;
-        let folded = compiled.map(|compiled| compiled.fold(integrator, size, parameters));
+        let folded =
+            compiled.map(|compiled| compiled.fold(Origin::Series(integrator), size, parameters));
         let (folded, parameters) = (folded.transpose()?, parameters.clone());
         let mut steps = self.steps(equations, size, compiled.cloned());
         steps.vary(&parameters, folded);

@@ -186,7 +186,7 @@ impl<'a> Engine<'a> {
         } else if how.device.is_some() {
             let what = match alike {
                 true => {
-                    "--device: steps by collocation, or with torques that depend on time, are not made on devices"
+                    "--device: steps that depend on time, or that call a function, are not made on devices"
                 }
                 false => "--device: parameters that vary from row to row are not made on devices",
             };
@@ -195,9 +195,8 @@ impl<'a> Engine<'a> {
             (Trajectories::One, how.work * WIDTH as f64)
         };
         let compiled = system.compiled(step, how.backend, work, trajectories)?;
-        let asked = how.device.zip(system.series());
-        let card = asked
-            .map(|((device, precision), series)| card(&series.integrator, step, device, precision));
+        let asked = how.device.zip(system.origin());
+        let card = asked.map(|((device, precision), origin)| card(origin, step, device, precision));
         let card = card.transpose()?.map(Mutex::new);
         let motion = system.steps(step, compiled.as_ref());
         let motion = motion.map_err(RunError::at_start)?;
@@ -296,7 +295,7 @@ impl<'a> Engine<'a> {
                 Err(reason) => rows.rejected.push(Rejected { row, step: 0, reason }),
             }
         }
-        // Steps by collocation go by those before them, so that each row has its own; so it has where times differ.
+        // Where steps depend on the time each row has its own.
         let ways = if layout.parameters.is_empty() && self.system.alike() {
             self.march(before.clone(), course, watch)?
         } else {
@@ -527,7 +526,7 @@ impl<'a> Engine<'a> {
         course: &Course,
         watch: &Watch<'_>,
     ) -> Vec<Way> {
-        let (series, places) = (self.system.series(), self.places(layout));
+        let (origin, places) = (self.system.origin(), self.places(layout));
         let parts = course.stops.iter().map(|stop| stop.part);
         let sizes: Vec<f64> = [self.step].into_iter().chain(parts).collect();
         // The steps, and the shorter ones to each stop, where there are any: those of size 0 are not made.
@@ -542,9 +541,8 @@ impl<'a> Engine<'a> {
             let parameters: Vec<Vec<f64>> = parameters.collect();
             let fold = |&size: &f64| {
                 let compiled = self.compiled.as_ref().filter(|_| size != 0.0);
-                let rows = compiled.zip(series);
-                let rows =
-                    rows.map(|(own, series)| own.fold_rows(&series.integrator, size, &parameters));
+                let rows = compiled.zip(origin);
+                let rows = rows.map(|(own, origin)| own.fold_rows(origin, size, &parameters));
                 rows.unwrap_or_default().into_iter()
             };
             let mut folded: Vec<_> = sizes.iter().map(fold).collect();

@@ -136,10 +136,9 @@ impl Subject<'_> {
 impl March<'_> {
     /// Puts the state of an earlier run in place.
     fn resume(&mut self, resume: Resume) -> Result<(), RunError> {
-        let Resume { step, momentum, element, memory, times, tally } = resume;
+        let Resume { step, momentum, element, times, tally } = resume;
         let Numbers { g, mu } = &self.state;
-        let fits = (g.len(), mu.len()) == (element.len(), momentum.len())
-            && self.motion.recall(&momentum, &memory);
+        let fits = (g.len(), mu.len()) == (element.len(), momentum.len());
         if !fits || step > self.setup.schedule.steps {
             return Err(RunError::Option("the state is none of this system".into()));
         }
@@ -345,12 +344,12 @@ impl March<'_> {
     }
 
     fn pause(&mut self) -> Result<(), RunError> {
-        let Self { setup, motion, state, recorder, n, times, ended, .. } = self;
+        let Self { setup, state, recorder, n, times, ended, .. } = self;
         let end = *n == setup.schedule.steps || ended.is_some();
         let resume = || {
             let Numbers { g, mu } = state.clone();
-            let (memory, tally) = (motion.memory(&mu), recorder.tally);
-            Resume { step: *n, momentum: mu, element: g, memory, times: *times, tally }
+            let (step, times, tally) = (*n, *times, recorder.tally);
+            Resume { step, momentum: mu, element: g, times, tally }
         };
         let paused = self.sink.pause(*n, end, &resume);
         paused.map_err(|_| self.halted())

@@ -82,10 +82,8 @@ pub struct Resume {
     pub step: u64,
     /// μ.
     pub momentum: Vec<f64>,
-    /// The numbers of g, as what makes the steps has them.
+    /// The numbers of g, as what makes the steps has them, and those that steps by collocation leave to the next one.
     pub element: Vec<f64>,
-    /// The numbers that the steps made leave to the next one beside the state.
-    pub memory: Vec<f64>,
     /// How many of the times asked for are recorded.
     pub times: usize,
     /// The maxima so far.

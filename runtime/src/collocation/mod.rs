@@ -171,31 +171,6 @@ where
         Ok(worst)
     }
 
-    /// The rates of the last steps, the oldest first, from which the next one from the momentum μ is guessed; none where it
-    /// does not go on from their end.
-    pub fn memory(&self, mu: &G::Vector) -> impl Iterator<Item = f64> {
-        let follows = self.end.as_ref() == Some(mu);
-        let (dim, kept) = (mu.dim(), if follows { self.noted.min(KEPT) } else { 0 });
-        let last = self.noted - kept..self.noted;
-        let rates = last.filter_map(|step| self.rates[step % KEPT].as_ref());
-        rates.flat_map(move |rates| rates.numbers(dim))
-    }
-
-    /// Goes on from the momentum μ as the steps do that had this [`Collocation::memory`] there: to the same bits. False,
-    /// with nothing changed, where it is no memory of such steps.
-    pub fn recall(&mut self, mu: &G::Vector, memory: &[f64]) -> bool {
-        let size = 2 * mu.dim() * M;
-        if !memory.len().is_multiple_of(size) || memory.len() > KEPT * size {
-            return false;
-        }
-        self.noted = memory.len() / size;
-        for (place, numbers) in self.rates.iter_mut().zip(memory.chunks_exact(size)) {
-            *place = Some(Rates::of_numbers(mu.dim(), numbers));
-        }
-        self.end = Some(mu.clone());
-        true
-    }
-
     fn equations<'a>(&'a self, mu: &'a G::Vector, middle: f64) -> Equations<'a, G, E, M> {
         Equations { group: &self.group, energy: &self.energy, mu, middle, step: self.step }
     }

@@ -88,23 +88,6 @@ impl<V: Coordinates<f64>, const M: usize> Rates<V, M> {
         Self { x: V::zero_rows::<M>(dim), p: V::zero_rows::<M>(dim) }
     }
 
-    /// All of them: x, then p, coordinate by coordinate, each at its nodes.
-    pub(super) fn numbers(&self, dim: usize) -> impl Iterator<Item = f64> {
-        let rows =
-            [&self.x, &self.p].into_iter().flat_map(move |rows| (0..dim).map(move |k| rows[k]));
-        rows.flatten()
-    }
-
-    /// Those that are these [`Rates::numbers`].
-    pub(super) fn of_numbers(dim: usize, numbers: &[f64]) -> Self {
-        let mut rates = Self::zero(dim);
-        for (at, row) in numbers.as_chunks::<M>().0.iter().enumerate() {
-            let rows = if at < dim { &mut rates.x } else { &mut rates.p };
-            rows[at % dim] = *row;
-        }
-        rates
-    }
-
     /// self ← self + s·other
     #[inline(always)]
     pub(super) fn add(&mut self, dim: usize, s: f64, other: &Self) {

@@ -67,6 +67,13 @@ pub(super) fn memory(smooth: &Smooth) -> usize {
     1 + KEPT * 2 * smooth.algebra.dim() * smooth.nodes()
 }
 
+/// About the operations of a sweep.
+pub(super) fn operations(smooth: &Smooth) -> usize {
+    let Smooth { algebra, gradient, .. } = smooth;
+    let brackets = 3 * (degree(smooth.nodes()) + 2) * structure_of(algebra).len();
+    smooth.nodes().saturating_mul(gradient.operations().saturating_add(brackets))
+}
+
 /// The kernel of a step; the values of the symbols come first among the coefficients, after them h and, where the Hamiltonian
 /// moves, for each of the [`times`] the time and the signals then. The last part of the group is the memory of its steps.
 pub(super) fn kernel(smooth: &Smooth, group: &Product) -> Result<Kernel, StepError> {
@@ -214,7 +221,7 @@ impl<'a> Collocation<'a> {
     fn whole(&self, graph: &Graph, rates: &Rates, mu: &[Id]) -> (Vec<Id>, Vec<Id>) {
         let zeros = vec![graph.zero(); self.n];
         let x = mixed(graph, &zeros, |j| self.gauss.weights[j], &rates.x);
-        let p = self.group.middle_momentum(graph, &x, mu);
+        let p = self.group.pull_back(graph, &x, mu);
         (x, p)
     }
 
@@ -427,7 +434,8 @@ impl<'a> Collocation<'a> {
         let tolerance = graph.constant(SOLVED / f64::EPSILON);
         let tolerance = graph.mul(tolerance, graph.epsilon());
         let (zero, one) = (graph.zero(), graph.constant(1.0));
-        let extent = self.group.middle_extent(&graph, &solution[..n]);
+        // The formulas hold up to half a half turn.
+        let extent = graph.mul(graph.constant(4.0), self.group.extent(&graph, &solution[..n]));
         let [tail, force] = [solution[n], solution[n + 1]];
         let tests = [(left, tolerance), (distance, zero), (extent, one), (tail, one), (force, one)];
         graph.finish(end + 2, &[all_at_most(&graph, &tests)])
@@ -439,8 +447,7 @@ impl<'a> Collocation<'a> {
         let g = inputs(&graph, 0, self.group.element());
         let mu = inputs(&graph, g.len(), n);
         let solution = inputs(&graph, g.len() + n, n + 2 + rates);
-        let Moved { g: mut outputs, mu } =
-            self.group.middle_transport(&graph, &g, &solution[..n], &mu);
+        let Moved { g: mut outputs, mu } = self.group.transport(&graph, &g, &solution[..n], &mu);
         outputs.truncate(self.element);
         let memory = &g[self.element..];
         let [one, most] = [1.0, KEPT as f64].map(|value| graph.constant(value));

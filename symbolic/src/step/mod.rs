@@ -53,6 +53,7 @@ pub struct Step {
     splitting: Option<Splitting>,
     /// The times among the coefficients, where a step depends on them.
     moving: Option<Moving>,
+    memory: usize,
 }
 
 /// The times at which the programs of a step read the time and the signals then.
@@ -118,26 +119,28 @@ impl Step {
             times: Vec::new(),
             signals: torque.signals.clone(),
         });
-        Ok(Self { kernel, group, fold, symbols, radius_at, splitting, moving })
+        Ok(Self { kernel, group, fold, symbols, radius_at, splitting, moving, memory: 0 })
     }
 
-    /// The programs of a step of collocation. Elements then have numbers that steps leave to the next one.
+    /// The programs of a step of collocation in numbers of this precision, in the exponential chart about its middle. Elements then have numbers that steps leave
+    /// to the next one.
     ///
     /// # Errors
     /// [`StepError`] where the step has no straight-line programs.
-    pub fn by_collocation(smooth: &Smooth) -> Result<Self, StepError> {
-        let algebra = &smooth.algebra;
-        let part = |factor: &LieAlgebra| {
-            let chart = match ["SE3", "SE2"].iter().any(|name| is(factor, name)) {
-                true => Chart::Cayley,
-                false => Chart::Exponential,
-            };
-            part(factor, chart, Scheme::FixedPoint)
-        };
-        let parts: Result<Vec<_>, _> = algebra.factors().iter().map(part).collect();
+    pub fn by_collocation(smooth: &Smooth, precision: Precision) -> Result<Self, StepError> {
+        let part = |factor: &LieAlgebra| part(factor, Chart::Exponential, Scheme::FixedPoint);
+        let parts: Result<Vec<_>, _> = smooth.algebra.factors().iter().map(part).collect();
         let mut group = Product(parts?);
-        group.0.push(Box::new(Memory { numbers: collocation::memory(smooth) }));
-        let kernel = collocation::kernel(smooth, &group)?;
+        if collocation::operations(smooth) > MOST_OF_TABLES {
+            return Err(StepError::TooLarge {
+                group: smooth.algebra.name().to_owned(),
+                dimension: smooth.algebra.dim(),
+                rows: smooth.algebra.matrix_size(),
+            });
+        }
+        let memory = collocation::memory(smooth);
+        group.0.push(Box::new(Memory { numbers: memory }));
+        let kernel = collocation::kernel(smooth, &group)?.in_precision(precision);
         let symbols = smooth.symbols.iter().map(|symbol| symbol.expr.clone()).collect();
         let radius_at = smooth.symbols.len();
         let moving = smooth.depends_on_time().then(|| Moving {
@@ -146,7 +149,8 @@ impl Step {
             signals: smooth.signals.clone(),
         });
         let fold = FoldTable::of_symbols(radius_at);
-        Ok(Self { kernel, group, fold, symbols, radius_at, splitting: None, moving })
+        let splitting = None;
+        Ok(Self { kernel, group, fold, symbols, radius_at, splitting, moving, memory })
     }
 
     /// The programs.
@@ -211,6 +215,12 @@ impl Step {
         }
     }
 
+    /// How many of an element's numbers, the last ones, steps leave to the next one. They may be set to 0.
+    #[must_use]
+    pub fn memory(&self) -> usize {
+        self.memory
+    }
+
     /// The coefficients of a flow, of rows side by side, for the values of the symbols; and the |μ| up to which the last two
     /// terms of the series have at most this ratio.
     ///
@@ -222,7 +232,9 @@ impl Step {
         symbols: &[T],
         ratio: f64,
     ) -> Result<(Vec<T>, T), FoldError> {
-        self.fold.fold_rows(step, symbols, ratio)
+        let (mut slots, radius) = self.fold.fold_rows(step, symbols, ratio)?;
+        slots.resize(slots.len().max(self.kernel.slots_of_flow()), T::each(|_| f64::NAN));
+        Ok((slots, radius))
     }
 
     /// The place among the coefficients of the square of the |μ| up to which the series can be trusted.
@@ -262,14 +274,11 @@ impl Step {
     }
 }
 
-/// Whether this algebra is the one of this name in the catalogue.
-fn is(algebra: &LieAlgebra, name: &str) -> bool {
-    catalogue::lookup(name).is_ok_and(|known| known.renamed(algebra.name()) == *algebra)
-}
-
 /// The formulas of a group that is no product.
 fn part(algebra: &LieAlgebra, chart: Chart, scheme: Scheme) -> Result<Box<dyn Part>, StepError> {
-    let is = |name: &str| is(algebra, name);
+    let is = |name: &str| {
+        catalogue::lookup(name).is_ok_and(|known| known.renamed(algebra.name()) == *algebra)
+    };
     if is("SO3") {
         return Ok(Box::new(Rotation { chart, double_cover: false }));
     }

@@ -3,7 +3,7 @@
 use crate::graph::{Graph, Id};
 use crate::lie::Chart;
 use crate::step::entire::{Accuracy, Angle, WideAngle};
-use crate::step::product::{Moved, Part};
+use crate::step::product::{Moved, Part, series_momentum};
 use crate::step::rotation::{
     Dexp, QUARTER_TURN, Rotation, compose, dexp_transpose, dexp_with_derivative, quaternion_of,
     rotate_back, rotation_matrix, turned,
@@ -212,20 +212,13 @@ impl Part for Motion {
         (join(&angular, &linear), derivative)
     }
 
-    fn is_centred_by_halves(&self) -> bool {
-        self.chart == Chart::Cayley
-    }
-
-    /// Cayley's, a polynomial in x = (a, b) and p = (n, f): (n + ½(n×a + f×b) + ¼(a·n)a − ¼ b×(f×a), f + ½ f×a).
-    fn node_momentum(&self, graph: &Graph, x: &[Id], p: &[Id], _degree: usize) -> Vec<Id> {
-        let (a, b, n, f) = (three(x, 0), three(x, 3), three(p, 0), three(p, 3));
-        let (half, quarter) = (graph.constant(0.5), graph.constant(0.25));
-        let bent = cross(graph, &f, &a);
-        let turned = sum(graph, &cross(graph, &n, &a), &cross(graph, &f, &b));
-        let along = graph.mul(quarter, dot(graph, &a, &n));
-        let angular = plus(graph, &plus(graph, &n, half, &turned), along, &a);
-        let back = cross(graph, &bent, &b);
-        join(&plus(graph, &angular, quarter, &back), &plus(graph, &f, half, &bent))
+    /// exp's, by its series, with ad\*_(a, b) (n, f) = (n×a + f×b, f×a).
+    fn node_momentum(&self, graph: &Graph, x: &[Id], p: &[Id], degree: usize) -> Vec<Id> {
+        let (a, b) = (three(x, 0), three(x, 3));
+        series_momentum(graph, p, degree, |p| {
+            let (n, f) = (three(p, 0), three(p, 3));
+            join(&sum(graph, &cross(graph, &n, &a), &cross(graph, &f, &b)), &cross(graph, &f, &a))
+        })
     }
 
     fn transport(&self, graph: &Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved {
@@ -348,10 +341,6 @@ impl Part for Plane {
         let (x, mu) = (lift(graph, x, &PLACES, [(); 6]), lift(graph, mu, &PLACES, [(); 6]));
         let (p, slope) = self.space().pull_back_with_derivative(graph, &x, &mu);
         (drop(&p, &PLACES), Matrix::new(3, 3, |i, j| slope.at(PLACES[i], PLACES[j])))
-    }
-
-    fn is_centred_by_halves(&self) -> bool {
-        self.chart == Chart::Cayley
     }
 
     fn node_momentum(&self, graph: &Graph, x: &[Id], p: &[Id], degree: usize) -> Vec<Id> {

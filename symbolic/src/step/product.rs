@@ -3,6 +3,8 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
+use coadjoint_program::collocation::BETA;
+
 use crate::graph::{Graph, Id};
 use crate::step::vector::{Matrix, finite, largest};
 
@@ -34,31 +36,6 @@ impl Product {
     pub(crate) fn whole_factors(&self, coordinates: &BTreeSet<usize>) -> Vec<Range<usize>> {
         let factors = self.factors().into_iter().map(|factor| factor.own);
         factors.filter(|own| own.clone().any(|i| coordinates.contains(&i))).collect()
-    }
-
-    /// The states of the factors as `own` moves them.
-    fn moved(&self, own: impl FnMut(Factor<'_>) -> Moved) -> Moved {
-        let mut moved = Moved { g: Vec::new(), mu: Vec::new() };
-        for Moved { g, mu } in self.factors().into_iter().map(own) {
-            moved.g.extend(g);
-            moved.mu.extend(mu);
-        }
-        moved
-    }
-
-    /// The largest extent of a factor; more than one where any is not a number.
-    fn largest_extent(&self, graph: &Graph, extent: impl Fn(&dyn Part, Range<usize>) -> Id) -> Id {
-        let extents: Vec<Id> =
-            self.factors().into_iter().map(|factor| extent(factor.part, factor.own)).collect();
-        // The larger of two may hide what is not a number; their sum does not.
-        let (zero, mut sum) = (graph.zero(), graph.zero());
-        for &extent in &extents {
-            sum = graph.add(sum, extent);
-        }
-        let largest = largest(graph, &extents);
-        let one = graph.constant(1.0);
-        let valid = graph.select(sum, graph.constant(f64::MAX), zero, one);
-        graph.add(largest, graph.add(valid, valid))
     }
 
     /// The rows of a factor's matrices.
@@ -103,9 +80,13 @@ impl Part for Product {
     }
 
     fn transport(&self, graph: &Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved {
-        self.moved(|Factor { part, own, element }| {
-            part.transport(graph, &g[element], &x[own.clone()], &mu[own])
-        })
+        let mut moved = Moved { g: Vec::new(), mu: Vec::new() };
+        for Factor { part, own, element } in self.factors() {
+            let own_moved = part.transport(graph, &g[element], &x[own.clone()], &mu[own]);
+            moved.g.extend(own_moved.g);
+            moved.mu.extend(own_moved.mu);
+        }
+        moved
     }
 
     fn move_frame(&self, graph: &Graph, g: &[Id], y: &[Id], mu: &[Id]) -> Option<Moved> {
@@ -128,24 +109,6 @@ impl Part for Product {
             part.node_momentum(graph, &x[own.clone()], &p[own], degree)
         };
         factors.flat_map(own).collect()
-    }
-
-    fn middle_momentum(&self, graph: &Graph, x: &[Id], mu: &[Id]) -> Vec<Id> {
-        let factors = self.factors().into_iter();
-        let own = |Factor { part, own, .. }: Factor<'_>| {
-            part.middle_momentum(graph, &x[own.clone()], &mu[own])
-        };
-        factors.flat_map(own).collect()
-    }
-
-    fn middle_transport(&self, graph: &Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved {
-        self.moved(|Factor { part, own, element }| {
-            part.middle_transport(graph, &g[element], &x[own.clone()], &mu[own])
-        })
-    }
-
-    fn middle_extent(&self, graph: &Graph, x: &[Id]) -> Id {
-        self.largest_extent(graph, |part, own| part.middle_extent(graph, &x[own]))
     }
 
     fn spatial(&self, graph: &Graph, g: &[Id], back: &[Id], mu: &[Id]) -> Vec<Id> {
@@ -171,7 +134,21 @@ impl Part for Product {
     }
 
     fn extent(&self, graph: &Graph, x: &[Id]) -> Id {
-        self.largest_extent(graph, |part, own| part.extent(graph, &x[own]))
+        let extents: Vec<Id> = self
+            .factors()
+            .into_iter()
+            .map(|factor| factor.part.extent(graph, &x[factor.own]))
+            .collect();
+        // The larger of two may hide what is not a number; their sum does not.
+        let (zero, mut sum) = (graph.zero(), graph.zero());
+        for &extent in &extents {
+            sum = graph.add(sum, extent);
+        }
+        let largest = largest(graph, &extents);
+        let one = graph.constant(1.0);
+        let valid = graph.select(sum, graph.constant(f64::MAX), zero, one);
+        // More than one where any is not a number.
+        graph.add(largest, graph.add(valid, valid))
     }
 
     fn defect(&self, graph: &Graph, g: &[Id]) -> Id {
@@ -248,50 +225,9 @@ pub(crate) trait Part: std::fmt::Debug + Send + Sync {
     /// g·τ(x) and Ad\*_{τ(x)⁻¹} μ.
     fn transport(&self, graph: &Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved;
 
-    // The chart σ about the middle of a step of collocation, as the runtime's `LieGroup` has it: exp, or where steps are by
-    // Cayley's map σ(x) = cay(x) with x halved.
-
-    /// Whether that is Cayley's.
-    fn is_centred_by_halves(&self) -> bool {
-        false
-    }
-
-    /// J_R(x, p) at a point of that chart. A series in x ends with the power `degree`.
+    /// J_R(x, p), the body momentum at a point of the exponential chart about the middle of a step of collocation. A series in x
+    /// ends with the power `degree`.
     fn node_momentum(&self, graph: &Graph, x: &[Id], p: &[Id], degree: usize) -> Vec<Id>;
-
-    /// The canonical momentum in the middle of the step that moves μ by x.
-    fn middle_momentum(&self, graph: &Graph, x: &[Id], mu: &[Id]) -> Vec<Id> {
-        if !self.is_centred_by_halves() {
-            return self.pull_back(graph, x, mu);
-        }
-        // ½(q₀ + q₁), the pull-backs of μ and of the momentum in the middle by y = x/2.
-        let half = graph.constant(0.5);
-        let halved = |list: Vec<Id>| list.iter().map(|&entry| graph.mul(half, entry)).collect();
-        let y: Vec<Id> = halved(x.to_vec());
-        let first = self.pull_back(graph, &y, mu);
-        let zeros = vec![graph.zero(); self.element()];
-        let middle = self.transport(graph, &zeros, &y, mu).mu;
-        let second = self.pull_back(graph, &y, &middle);
-        halved(first.iter().zip(second).map(|(&a, b)| graph.add(a, b)).collect())
-    }
-
-    /// g·k and Ad\*_{k⁻¹} μ, k being the increment of that step.
-    fn middle_transport(&self, graph: &Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved {
-        if !self.is_centred_by_halves() {
-            return self.transport(graph, g, x, mu);
-        }
-        let half = graph.constant(0.5);
-        let y: Vec<Id> = x.iter().map(|&entry| graph.mul(half, entry)).collect();
-        let Moved { g, mu } = self.transport(graph, g, &y, mu);
-        self.transport(graph, &g, &y, &mu)
-    }
-
-    /// How far that step goes into the domain in which these formulas hold, which reaches to one; as [`Part::extent`].
-    fn middle_extent(&self, graph: &Graph, x: &[Id]) -> Id {
-        // Those of exp end at half a half turn, those of Cayley's where the chart does.
-        let times = if self.is_centred_by_halves() { 0.25 } else { 4.0 };
-        graph.mul(graph.constant(times), self.extent(graph, x))
-    }
 
     /// g·exp(y) and Ad\*_{exp(−y)} μ: the motion of a comoving frame, of any length.
     fn move_frame(&self, graph: &Graph, g: &[Id], y: &[Id], mu: &[Id]) -> Option<Moved>;
@@ -326,6 +262,22 @@ pub(crate) trait Part: std::fmt::Debug + Send + Sync {
 
     /// The numbers of the element with this matrix, row by row.
     fn element_of(&self, matrix: &[f64]) -> Vec<f64>;
+}
+
+/// Σ βₖ (ad\*_x)ᵏ p up to this degree, given ad\*_x.
+pub(crate) fn series_momentum(
+    graph: &Graph,
+    p: &[Id],
+    degree: usize,
+    ad_star: impl Fn(&[Id]) -> Vec<Id>,
+) -> Vec<Id> {
+    let (mut power, mut sum) = (p.to_vec(), p.to_vec());
+    for &beta in BETA.iter().take(degree + 1).skip(1) {
+        power = ad_star(&power);
+        let beta = graph.constant(beta);
+        sum = sum.iter().zip(&power).map(|(&sum, &w)| graph.times_plus(beta, w, sum)).collect();
+    }
+    sum
 }
 
 /// A state moved on.

@@ -1,12 +1,10 @@
 //! Any group by its structure constants and the matrices of its basis; elements as matrices, row by row.
 
-use coadjoint_program::collocation::BETA;
-
 use crate::graph::{Graph, Id};
 use crate::lie::{Chart, LieAlgebra, RationalMatrix};
 use crate::number::nearest_float;
 use crate::step::MOST_OF_TABLES;
-use crate::step::product::{Moved, Part};
+use crate::step::product::{Moved, Part, series_momentum};
 use crate::step::vector::{Matrix, dot, finite, largest, solve};
 
 /// The norm of ad_x and of the matrix of x up to which series are exact to rounding: up to it steps are accepted at once.
@@ -391,17 +389,10 @@ impl Part for Tables {
         }
     }
 
-    /// exp's, by its series Σ βₖ (ad\*_x)ᵏ p.
+    /// exp's, by its series.
     fn node_momentum(&self, graph: &Graph, x: &[Id], p: &[Id], degree: usize) -> Vec<Id> {
         let a = self.ad_transpose(graph, x);
-        let (mut power, mut sum) = (p.to_vec(), p.to_vec());
-        for &beta in BETA.iter().take(degree + 1).skip(1) {
-            power = a.apply(graph, &power);
-            let beta = graph.constant(beta);
-            let added = sum.iter().zip(&power);
-            sum = added.map(|(&sum, &power)| graph.times_plus(beta, power, sum)).collect();
-        }
-        sum
+        series_momentum(graph, p, degree, |p| a.apply(graph, p))
     }
 
     fn transport(&self, graph: &Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved {
