@@ -8,19 +8,19 @@ pub use coadjoint_symbolic::expr::{Function, ParameterExpr};
 
 /// The identity of a node in its [`Arena`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct ExprId(u32);
+pub(crate) struct ExprId(u32);
 
 impl ExprId {
     /// The index of the node in its arena; its operands have smaller ones.
     #[must_use]
-    pub fn index(self) -> usize {
+    pub(crate) fn index(self) -> usize {
         self.0 as usize
     }
 }
 
 /// A number, a variable, or an operation on earlier nodes.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Node {
+pub(crate) enum Node {
     /// An exact number.
     Number(Rational),
     /// A coordinate of the momentum.
@@ -74,14 +74,14 @@ impl Node {
 /// An arena instead of a tree: passes are loops, so deep nesting costs no stack, and a `let` that
 /// is used twice is one node.
 #[derive(Clone, Debug, Default)]
-pub struct Arena {
+pub(crate) struct Arena {
     nodes: Vec<(Node, Span)>,
 }
 
 impl Arena {
     /// An arena without nodes.
     #[must_use]
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self::default()
     }
 
@@ -95,20 +95,8 @@ impl Arena {
 
     /// The number of nodes.
     #[must_use]
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.nodes.len()
-    }
-
-    /// Whether there are no nodes.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.nodes.is_empty()
-    }
-
-    /// The node of this identity.
-    #[must_use]
-    pub fn node(&self, id: ExprId) -> &Node {
-        &self.nodes[id.index()].0
     }
 
     /// The place in the input where the node was read.
@@ -117,7 +105,7 @@ impl Arena {
     }
 
     /// The nodes in their order, with identity and place.
-    pub fn iter(&self) -> impl Iterator<Item = (ExprId, &Node, Span)> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (ExprId, &Node, Span)> {
         self.nodes.iter().enumerate().map(|(i, (node, span))| (ExprId(i as u32), node, *span))
     }
 }

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use crc32fast::Hasher;
 
 /// The environment variable with the size, in megabytes, up to which files are read as a whole.
-pub const LIMIT: &str = "COADJOINT_MAX_MEGABYTES";
+pub(crate) const LIMIT: &str = "COADJOINT_MAX_MEGABYTES";
 /// The size without that variable.
 const MEGABYTES: u64 = 64;
 /// The ending of passing names.
@@ -259,7 +259,7 @@ impl Output {
     ///
     /// # Errors
     /// As [`Output::open`].
-    pub fn open_as(path: &Path, passing: &Path, inputs: &[&Path]) -> io::Result<Self> {
+    pub(crate) fn open_as(path: &Path, passing: &Path, inputs: &[&Path]) -> io::Result<Self> {
         check(path, inputs)?;
         let special = is_special(path);
         let passing = if special { path } else { passing };

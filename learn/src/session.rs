@@ -42,7 +42,7 @@ pub enum Kind {
 
 impl Kind {
     /// The name users write.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Auto => "auto",
             Self::Polynomial => "polynomial",

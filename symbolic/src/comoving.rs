@@ -45,7 +45,7 @@ impl Frame {
     }
 
     /// The summands of f that are not zero. Their flows commute, and each takes an exponential of its own.
-    pub fn parts(&self) -> impl Iterator<Item = &Polynomial> {
+    pub(crate) fn parts(&self) -> impl Iterator<Item = &Polynomial> {
         [&self.spin, &self.casimirs].into_iter().filter(|part| !part.is_zero())
     }
 }

@@ -84,7 +84,7 @@ impl Function {
 
     /// The derivative of the function at `x`.
     #[must_use]
-    pub fn slope(self, x: f64) -> f64 {
+    pub(crate) fn slope(self, x: f64) -> f64 {
         match self {
             Self::Sqrt => 0.5 / x.sqrt(),
             Self::Sin => x.cos(),

@@ -29,7 +29,7 @@ pub struct SlotTerm {
 }
 
 /// A polynomial in the inputs whose coefficients are slots.
-pub type SlotPolynomial = Vec<SlotTerm>;
+pub(crate) type SlotPolynomial = Vec<SlotTerm>;
 
 /// Adds the evaluation of `polynomial` to `graph` and returns its node.
 ///

@@ -201,7 +201,7 @@ impl Potential {
     /// A basis of the ξ ∈ 𝔤 with ⟨J_L, ξ⟩ conserved, their largest coordinate being 1: of a polynomial exactly, of another V by
     /// its slopes at random elements of the group. Of a torque without potential there are none.
     #[must_use]
-    pub fn directions(&self) -> Vec<Vec<f64>> {
+    pub(crate) fn directions(&self) -> Vec<Vec<f64>> {
         let found = match &self.force {
             Force::Polynomial(energy) => {
                 let float = |x: &Rational| x.to_f64().unwrap_or(f64::NAN);

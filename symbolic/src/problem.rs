@@ -104,7 +104,7 @@ impl Solver {
     /// costs nearly the same either way; but the Hessian's code grows with the square of the
     /// dimension where the couplings are dense, and so do the times of generation and compilation.
     /// Below, Newton's method is mostly the faster, and it converges for longer steps.
-    pub const NEWTON_DIMENSIONS: usize = 24;
+    pub(crate) const NEWTON_DIMENSIONS: usize = 24;
 
     /// The names users write, `newton` and `fixed_point`.
     pub const NAMES: [&str; 2] = ["newton", "fixed_point"];

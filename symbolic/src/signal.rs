@@ -83,7 +83,7 @@ impl Signal {
 
     /// u(t); NaN outside the table, whose ends reach as far as times are rounded.
     #[must_use]
-    pub fn at(&self, time: f64) -> f64 {
+    pub(crate) fn at(&self, time: f64) -> f64 {
         let Self { times, values, slopes, .. } = self;
         let [first, end] = self.range();
         let rounding = 1e-12 * (end - first);

@@ -98,7 +98,7 @@ impl Diagnostics {
 
     /// The number of mistakes.
     #[must_use]
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.list.borrow().len()
     }
 

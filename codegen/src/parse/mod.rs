@@ -5,11 +5,14 @@ mod decimal;
 mod names;
 pub mod rust;
 mod sum;
-pub mod text;
+pub(crate) mod text;
 mod token;
 
 pub(crate) use brackets::bracket;
 pub use decimal::rational;
 pub(crate) use decimal::{decimal, fraction, rows};
-pub use names::{Name, Names};
-pub use token::words;
+#[cfg(feature = "system")]
+pub(crate) use names::Name;
+pub(crate) use names::Names;
+#[cfg(feature = "system")]
+pub(crate) use token::words;

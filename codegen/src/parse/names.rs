@@ -8,7 +8,9 @@ use crate::number::Rational;
 
 /// The meaning of a name.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Name {
+// Some are those of files alone.
+#[cfg_attr(not(feature = "system"), allow(dead_code))]
+pub(crate) enum Name {
     /// A coordinate of the momentum, counted from 0.
     Coordinate(usize),
     /// A scalar parameter, counted through all parameters flattened.
@@ -34,7 +36,7 @@ impl Name {
 
 /// Names and what they stand for.
 #[derive(Clone, Debug, Default)]
-pub struct Names {
+pub(crate) struct Names {
     known: BTreeMap<String, Name>,
     /// In the order given, for messages.
     order: Vec<String>,
@@ -57,7 +59,7 @@ impl Names {
     }
 
     /// Adds a name, or reports that it is no name or already taken.
-    pub fn add(&mut self, name: &str, meaning: Name, span: Span, diagnostics: &Diagnostics) {
+    pub(crate) fn add(&mut self, name: &str, meaning: Name, span: Span, diagnostics: &Diagnostics) {
         let taken = if !is_name(name) {
             return diagnostics.report(span, Mistake::BadName(name.to_owned()));
         } else if Function::lookup(name).is_some() || name == "sum" {

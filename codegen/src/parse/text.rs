@@ -22,7 +22,7 @@ const MOST_MISTAKES: usize = 20;
 
 /// Reads `text` into `arena`, where `indices` stand for integers. Every mistake goes to `diagnostics`, at its bytes in
 /// `text` moved right by `offset`; where there was one, the result stands for something [`Node::Wrong`].
-pub fn parse(
+pub(crate) fn parse(
     text: &str,
     offset: usize,
     indices: &[(&str, i64)],

@@ -80,7 +80,8 @@ impl<'a> Tokens<'a> {
 }
 
 /// The words of a text: names without their indices.
-pub fn words(text: &str) -> impl Iterator<Item = String> + '_ {
+#[cfg(feature = "system")]
+pub(crate) fn words(text: &str) -> impl Iterator<Item = String> + '_ {
     let word = |c: char| !continues_name(c);
     text.split(word).filter(|word| is_word(word)).map(str::to_owned)
 }

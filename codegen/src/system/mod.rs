@@ -142,7 +142,7 @@ pub fn read(text: &str, options: Options) -> Result<System, Diagnostics> {
 ///
 /// # Errors
 /// As [`read`], and where other numbers of the file follow from one of them.
-pub fn read_varying(
+pub(crate) fn read_varying(
     text: &str,
     options: Options,
     varied: &[String],

@@ -22,12 +22,12 @@ pub struct MomentumPairs {
 
 impl MomentumPairs {
     /// N, the number of samples.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.before.ncols()
     }
 
     /// The samples with the numbers given.
-    pub fn select(&self, samples: &[usize]) -> Self {
+    pub(crate) fn select(&self, samples: &[usize]) -> Self {
         Self {
             before: self.before.select_columns(samples),
             after: self.after.select_columns(samples),
@@ -54,7 +54,7 @@ impl ReducedData {
     }
 
     /// The samples with the numbers given.
-    pub fn select(&self, samples: &[usize]) -> Self {
+    pub(crate) fn select(&self, samples: &[usize]) -> Self {
         Self {
             x: self.x.select_columns(samples),
             p: self.p.select_columns(samples),

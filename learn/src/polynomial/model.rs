@@ -34,7 +34,7 @@ impl Scaling {
     }
 
     /// u, the normalised coordinate number `index` of `p`.
-    pub fn normalise(&self, index: usize, p: f64) -> f64 {
+    pub(crate) fn normalise(&self, index: usize, p: f64) -> f64 {
         (p - self.centre[index]) / self.half_width[index]
     }
 }

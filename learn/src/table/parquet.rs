@@ -17,7 +17,7 @@ use ::parquet::schema::types::Type;
 const ROWS: usize = 1024;
 
 /// The rows of a file, row group by row group.
-pub struct Source {
+pub(crate) struct Source {
     reader: SerializedFileReader<File>,
     /// The columns that hold floats.
     columns: Vec<usize>,
@@ -33,7 +33,7 @@ pub struct Source {
 
 impl Source {
     /// The rows, the names of the columns of floats, and those of others.
-    pub fn open(file: File) -> Result<(Self, Vec<String>, Vec<String>), ParquetError> {
+    pub(crate) fn open(file: File) -> Result<(Self, Vec<String>, Vec<String>), ParquetError> {
         let reader = SerializedFileReader::new(file)?;
         let (mut columns, mut names, mut others) = (Vec::new(), Vec::new(), Vec::new());
         let schema = reader.metadata().file_metadata().schema_descr();
@@ -54,7 +54,7 @@ impl Source {
     }
 
     /// The number of rows.
-    pub fn rows(&self) -> u64 {
+    pub(crate) fn rows(&self) -> u64 {
         u64::try_from(self.reader.metadata().file_metadata().num_rows()).unwrap_or(0)
     }
 
@@ -85,14 +85,14 @@ impl Source {
     }
 
     /// Goes to a row.
-    pub fn seek(&mut self, row: u64) -> Result<(), ParquetError> {
+    pub(crate) fn seek(&mut self, row: u64) -> Result<(), ParquetError> {
         (self.group, self.left, self.taken) = (0, 0, 0);
         self.values.clear();
         self.enter(usize::try_from(row).unwrap_or(usize::MAX)).map(drop)
     }
 
     /// Adds the numbers of the next row, if there is one; NaN for null.
-    pub fn read(&mut self, numbers: &mut Vec<f64>) -> Result<bool, ParquetError> {
+    pub(crate) fn read(&mut self, numbers: &mut Vec<f64>) -> Result<bool, ParquetError> {
         let width = self.columns.len();
         if self.taken == self.values.len() {
             if self.left == 0 && !self.enter(0)? {
@@ -140,7 +140,7 @@ fn read_column(column: &mut ColumnReader, count: usize) -> Result<Vec<f64>, Parq
 ///
 /// # Errors
 /// Where the rows cannot be had, or the file cannot be written.
-pub fn write_parquet(
+pub(crate) fn write_parquet(
     to: impl Write + Send,
     names: &[String],
     mut next: impl FnMut() -> std::io::Result<Vec<f64>>,

@@ -27,12 +27,6 @@ pub struct GeneratingSeries {
 }
 
 impl GeneratingSeries {
-    /// The dimension of the algebra; the first `dim` variables of every S_k are the momenta p.
-    #[must_use]
-    pub fn dim(&self) -> usize {
-        self.dimension
-    }
-
     /// The chart in which S generates the flow.
     #[must_use]
     pub fn chart(&self) -> Chart {

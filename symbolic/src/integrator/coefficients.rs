@@ -41,7 +41,7 @@ impl Coefficients {
     }
 
     /// Adds the bases and slots of another table, whose symbols come after `symbols` of this one; the number of its first slot.
-    pub fn append(&mut self, other: &Self, symbols: usize) -> usize {
+    pub(crate) fn append(&mut self, other: &Self, symbols: usize) -> usize {
         let (base, slot) = (self.bases.len(), self.slots.len());
         let shifted = |term: &Contribution| {
             let symbol_powers = [&vec![0; symbols][..], &term.symbol_powers].concat();
@@ -70,7 +70,7 @@ impl Coefficients {
     }
 
     /// The slot that holds `scale` times base number `base`.
-    pub fn slot(&mut self, base: usize, scale: u32) -> usize {
+    pub(crate) fn slot(&mut self, base: usize, scale: u32) -> usize {
         if let Some(&slot) = self.known.get(&(base, scale)) {
             return slot;
         }
@@ -92,7 +92,7 @@ impl Coefficients {
     }
 
     /// For each base its parts: the summands of one power of h.
-    pub fn parts(&self) -> impl Iterator<Item = impl Iterator<Item = &[Contribution]>> {
+    pub(crate) fn parts(&self) -> impl Iterator<Item = impl Iterator<Item = &[Contribution]>> {
         self.bases.iter().map(|base| base.chunk_by(|a, b| a.step_power == b.step_power))
     }
 
@@ -124,7 +124,7 @@ impl Contribution {
 /// A polynomial in the momenta whose coefficients are bases of a [`Coefficients`] table: S_h(p),
 /// one component of the predictor, or the energy.
 #[derive(Clone, Debug)]
-pub struct BaseTerm {
+pub(crate) struct BaseTerm {
     /// (coordinate, exponent), ascending, exponents positive.
     pub factors: Vec<(u32, u32)>,
     /// The number of the base coefficient.
@@ -136,7 +136,7 @@ pub struct BaseTerm {
 impl BaseTerm {
     /// The exponent of a coordinate.
     #[must_use]
-    pub fn exponent(&self, coordinate: usize) -> u32 {
+    pub(crate) fn exponent(&self, coordinate: usize) -> u32 {
         let found = self.factors.binary_search_by_key(&coordinate, |&(i, _)| i as usize);
         found.map_or(0, |at| self.factors[at].1)
     }

@@ -212,7 +212,7 @@ impl FoldTable {
     ///
     /// # Errors
     /// As [`FoldTable::fold`].
-    pub fn fold_rows<T: Values>(
+    pub(crate) fn fold_rows<T: Values>(
         &self,
         step: f64,
         symbols: &[T],

@@ -116,7 +116,7 @@ fn gradient_entry(
 
 /// One summand weight · |slot| · |p|ᵈᵉᵍʳᵉᵉ of the bound on the truncated part of the Hessian.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DefectTerm {
+pub(crate) struct DefectTerm {
     /// The coefficient C of the term C pᵐ of S.
     pub slot: usize,
     /// The largest row-sum norm of the Hessian of pᵐ over the unit sphere, or a little more.

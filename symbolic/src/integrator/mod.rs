@@ -10,7 +10,7 @@ mod plan;
 pub use coefficients::{Coefficients, Contribution};
 pub use fold::FoldTable;
 pub use kick::{Kick, Kicks};
-pub use lower::DefectTerm;
+pub(crate) use lower::DefectTerm;
 pub use plan::{Plan, Predictor};
 
 use std::sync::OnceLock;
@@ -51,7 +51,7 @@ pub struct Integrator {
     /// nothing.
     pub newton: Option<Program>,
     /// Bounds what `newton` leaves out of the Hessian.
-    pub defect: Vec<DefectTerm>,
+    pub(crate) defect: Vec<DefectTerm>,
     /// μ′ ↦ a first guess of p, or of x, as [`Plan::predictor`] says.
     pub predictor: Program,
     /// μ ↦ H_red(μ).

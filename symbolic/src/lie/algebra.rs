@@ -488,7 +488,7 @@ impl LieAlgebra {
     /// assert!(field[2].is_zero() && !field[0].is_zero());
     /// ```
     #[must_use]
-    pub fn hamiltonian_field(&self, hamiltonian: &Polynomial) -> Vec<Polynomial> {
+    pub(crate) fn hamiltonian_field(&self, hamiltonian: &Polynomial) -> Vec<Polynomial> {
         let dim = self.dim();
         let variables = hamiltonian.variables();
         let omega = hamiltonian.gradient(dim);

@@ -232,7 +232,7 @@ impl LieAlgebra {
 
     /// The direct product of equal factors, one at least.
     #[must_use]
-    pub fn power(&self, count: usize) -> Self {
+    pub(crate) fn power(&self, count: usize) -> Self {
         if count <= 1 {
             return self.clone();
         }

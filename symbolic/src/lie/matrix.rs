@@ -93,7 +93,7 @@ impl RationalMatrix {
 
     /// Whether every entry is zero.
     #[must_use]
-    pub fn is_zero(&self) -> bool {
+    pub(crate) fn is_zero(&self) -> bool {
         self.entries.is_empty()
     }
 
