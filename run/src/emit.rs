@@ -15,9 +15,6 @@ use crate::engine::device_text;
 use crate::error::RunError;
 use crate::load::{Derived, System, integrator, learned, polynomial, with_kicks};
 
-/// The targets that a system without series has.
-const INSTEAD: &str = "emit --language rust writes them, and simulate and ensemble make them";
-
 /// The source of emitted code.
 #[derive(Debug)]
 pub enum Source {
@@ -48,9 +45,7 @@ pub fn rust(path: &Path, source: Source) -> Result<String, RunError> {
     let style = Options::for_problem(system.problem.facts().name);
     let mut module = match system.problem {
         Hamiltonian::Smooth(smooth) if smooth.given.is_some() => {
-            let what =
-                "no code is written of a Hamiltonian that is a function: give it as an expression";
-            return Err(RunError::Option(format!("{}: {what}", path.display())));
+            return Err(of_function(path));
         }
         Hamiltonian::Smooth(smooth) => collocation_file(&smooth, &style),
         Hamiltonian::Polynomial(problem) => {
@@ -79,27 +74,36 @@ pub fn header(
     prefix: Option<String>,
 ) -> Result<String, RunError> {
     let style = HeaderOptions { language, ..HeaderOptions::default() };
-    let (integrator, style, choice) = match source {
+    let (system, style, choice) = match source {
         Source::Model(model) => {
-            let integrator = integrator(path, problem(&model, "learned")?)?;
-            (integrator, HeaderOptions { only_step: Some(model.step), ..style }, None)
+            (learned(&model)?, HeaderOptions { only_step: Some(model.step), ..style }, None)
         }
         Source::System(system, choice) => {
-            system.writable().map_err(RunError::of(path))?;
-            let system = polynomial(path, *system, "there is no header of it", INSTEAD)?;
             let units = &system.units;
             let of = |i| units.coordinate(i).map(str::to_owned);
-            let momentum = (0..system.problem.algebra.dim()).map(of).collect();
+            let momentum = (0..system.problem.facts().algebra.dim()).map(of).collect();
             let time = units.time.clone();
-            let integrator = with_kicks(path, system.problem, system.potential)?;
-            (integrator, HeaderOptions { time, momentum, ..style }, choice)
+            (*system, HeaderOptions { time, momentum, ..style }, choice)
         }
     };
-    let prefix = prefix.unwrap_or_else(|| integrator.problem.name.clone());
-    let text =
-        c::header(&integrator, &HeaderOptions { prefix, ..style }).map_err(RunError::of(path))?;
+    let derived = written(path, system)?;
+    let prefix = prefix.unwrap_or_else(|| derived.facts().name.to_owned());
+    let origin = derived.origin().ok_or_else(|| of_function(path))?;
+    let text = c::header(origin, &HeaderOptions { prefix, ..style }).map_err(RunError::of(path))?;
     let line = choice.as_ref().map(|choice| format!("/* {} */\n", chosen(choice)));
     Ok(line.unwrap_or_default() + &text)
+}
+
+/// The steps of a system of which code can be written.
+fn written(path: &Path, system: System) -> Result<Derived, RunError> {
+    system.writable().map_err(RunError::of(path))?;
+    Derived::of_file(path, system)
+}
+
+/// The error of a Hamiltonian of which no code can be written.
+fn of_function(path: &Path) -> RunError {
+    let what = "no code is written of a Hamiltonian that is a function: give it as an expression";
+    RunError::Option(format!("{}: {what}", path.display()))
 }
 
 /// The choice, for a comment.
@@ -131,17 +135,17 @@ pub fn kernel(
         }
         Source::System(system, choice) => {
             let step = step.or(system.run.step).ok_or_else(|| RunError::no_step(path))?;
-            system.writable().map_err(RunError::of(path))?;
             (*system, step, choice)
         }
     };
-    let derived = Derived::of_file(path, system)?;
-    let Some(origin) = derived.origin().filter(|_| derived.alike()) else {
+    let derived = written(path, system)?;
+    let origin = derived.origin().ok_or_else(|| of_function(path))?;
+    if !derived.alike() {
         return Err(RunError::Option(format!(
-            "{}: no kernel is written of steps that depend on time, or that call a function",
+            "{}: no kernel is written of steps that depend on the time: `simulate` and `emit --language rust` make them",
             path.display()
         )));
-    };
+    }
     let facts = derived.facts();
     let method = match derived.series() {
         Some(series) => {

@@ -10,14 +10,14 @@ use coadjoint_codegen::integrator::{Integrator, Kick};
 use coadjoint_codegen::potential::Potential;
 use coadjoint_codegen::problem::Problem;
 use coadjoint_codegen::smooth::{Facts, Given, Hamiltonian, Smooth};
-use coadjoint_codegen::step::{Energy, Invariants};
+use coadjoint_codegen::step::{Energy, Invariants, Origin};
 use coadjoint_codegen::system::{self, Options, Run, Splitting};
 use coadjoint_learn::{GroupChoice, ModelFile};
 use coadjoint_program::Trajectories;
 
 use crate::backend::Backend;
 use crate::engine::{
-    Charted, Compiled, Equations, Forces, Kept, Motion, Origin, Varied, collocated, product_group,
+    Charted, Compiled, Equations, Forces, Kept, Motion, Varied, collocated, product_group,
     whole_group,
 };
 use crate::error::RunError;

@@ -7,7 +7,8 @@ use crate::emit::programs::step_operations;
 use crate::emit::{Options, identifier};
 use crate::integrator::{Coefficients, Integrator, Kicks};
 use crate::lie::Chart;
-use crate::step::Step;
+use crate::problem::Problem;
+use crate::step::{Origin, Step};
 
 /// Lines for a doc comment: source, group, chart, truncation, order, terms, operations of a step where it is printed.
 #[must_use]
@@ -70,7 +71,7 @@ pub(crate) fn opening(
         ),
         String::new(),
     ];
-    list.extend(system(integrator, rust_comment));
+    list.extend(system(Origin::Series(integrator), rust_comment));
     list.extend(
         [
             "How to use it:",
@@ -173,24 +174,34 @@ pub(crate) fn wrapped(paragraph: &str, width: usize) -> Vec<String> {
 }
 
 /// Paragraphs about the system and a step of it; `quoted` makes a text fit for a comment.
-pub(crate) fn system(integrator: &Integrator, quoted: fn(&str) -> String) -> Vec<String> {
-    let problem = &integrator.problem;
-    let chart = match problem.chart {
-        Chart::Exponential => "exponential",
-        Chart::Cayley => "Cayley",
+pub(crate) fn system(origin: Origin<'_>, quoted: fn(&str) -> String) -> Vec<String> {
+    let (source, method, error) = match origin {
+        Origin::Series(integrator) => {
+            let Problem { source, chart, truncation, .. } = &integrator.problem;
+            let chart = match chart {
+                Chart::Exponential => "exponential",
+                Chart::Cayley => "Cayley",
+            };
+            let order = integrator.order();
+            let method =
+                format!("Chart: {chart}. Truncation K = {truncation}, order of accuracy {order}.");
+            (source, method, "K+2".to_owned())
+        }
+        Origin::Collocation(smooth) => {
+            let nodes = smooth.nodes();
+            let method = format!(
+                "Collocation at {nodes} nodes in the exponential chart about the middle of a step, order of accuracy {}.",
+                2 * nodes
+            );
+            (&smooth.source, method, (2 * nodes + 1).to_string())
+        }
     };
     let mut list = vec![
-        format!("Hamiltonian: {}", quoted(&problem.source)),
-        format!(
-            "Group: {}. Chart: {}. Truncation K = {}, order of accuracy {}.",
-            quoted(problem.algebra.name()),
-            chart,
-            problem.truncation,
-            integrator.order()
-        ),
+        format!("Hamiltonian: {}", quoted(source)),
+        format!("Group: {}. {method}", quoted(origin.facts().algebra.name())),
     ];
-    let mut map = MAP.to_owned();
-    if let Some(Kicks { kick, splitting, .. }) = &integrator.kicks {
+    let mut map = MAP.replace("K+2", &error);
+    if let Some(Kicks { kick, splitting, .. }) = origin.kicks() {
         list.push(format!("Potential: {}", quoted(&kick.potential.source)));
         let (name, flows, order) = (splitting.name(), splitting.flows().len(), splitting.order());
         list.push(format!(
@@ -232,10 +243,15 @@ pub(crate) fn costs(kernel: &Kernel) -> [String; 2] {
         let times = corrections as usize * flows;
         [(flows, guess), (times, correct), (flows, accept), (flows, transport), kicks]
     };
-    let usual = sum(&step(1));
+    // Steps that go by those before them are solved in some sweeps, others most often in one correction.
+    let few = if kernel.guesses_from_element() { 5 } else { 1 };
+    let usual = sum(&step(few));
     let most = sum(&[&step(corrections)[..], &[(1, sound), (1, frame)]].concat());
     [
-        format!("Cost of a step with one correction, as most have: {usual}."),
+        match few {
+            1 => format!("Cost of a step with one correction, as most have: {usual}."),
+            few => format!("Cost of a step with {few} corrections, as many have: {usual}."),
+        },
         format!("Cost at most ({corrections} corrections, and a check of the state): {most}."),
     ]
 }

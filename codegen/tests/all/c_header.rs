@@ -43,7 +43,7 @@ fn compare(built: &Built, output: &str) {
     let name = built.system.name;
     let step = &built.programs;
     let kernel = step.kernel();
-    let parameters = built.integrator.problem.parameters.iter();
+    let parameters = built.parameters.iter();
     let values = parameters.flat_map(|parameter| parameter.default.clone().unwrap());
     let values: Vec<f64> = values.map(|value| value.to_f64().unwrap()).collect();
     let slots = step.fold(built.step, &values).unwrap();
@@ -99,10 +99,9 @@ fn refusals(built: &Built, output: &str) {
     assert_eq!(line("none"), "none 0 0 1", "{name}");
     assert_eq!(line("step"), "step 0 0", "{name}");
     let large = line("large");
-    assert!(
-        ["large 5 0 1", "large 6 0 1", "large 7 0 1"].contains(&large.as_str()),
-        "{name}: {large}"
-    );
+    let refused = ["large 5 0 1", "large 6 0 1", "large 7 0 1"].contains(&large.as_str());
+    // Velocities of the relativistic body are bounded, however large its momentum is.
+    assert!(refused || name == "relativistic_body", "{name}: {large}");
     assert_eq!(line("momentum"), "momentum 3 1", "{name}");
     assert_eq!(line("element"), "element 3 0 1", "{name}");
     // Quaternions are unit ones, matrices of compact groups orthogonal; others may be any.
@@ -113,7 +112,7 @@ fn refusals(built: &Built, output: &str) {
     }
     assert_eq!(line("zero"), "zero 1 1 1", "{name}");
     assert_eq!(line("nan"), "nan 1 1", "{name}");
-    if !built.integrator.problem.parameters.is_empty() {
+    if !built.parameters.is_empty() {
         assert_eq!(line("parameter"), "parameter 2 2", "{name}");
     }
 }

@@ -7,7 +7,7 @@ use coadjoint_codegen::emit::c::{self, HeaderOptions, Language};
 use coadjoint_codegen::emit::{Options as RustOptions, file, potential_items};
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::{Integrator, Kick};
-use coadjoint_codegen::step::Step;
+use coadjoint_codegen::step::{Origin, Step};
 use coadjoint_program::print::{DeviceLanguage, device_unit};
 
 /// Texts that end comments, strings, elements and lines, that continue lines, or that are words of some language.
@@ -84,7 +84,7 @@ fn names_of_systems_and_algebras_stay_in_comments() {
             ..HeaderOptions::default()
         };
         let rust = file(&integrator, &style);
-        let c = c::header(&integrator, &header(name)).unwrap();
+        let c = c::header(Origin::Series(&integrator), &header(name)).unwrap();
         let step = Step::build(&integrator).unwrap();
         let slots = step.fold(0.1, &[]).unwrap();
         let device = |language| device_unit(step.kernel(), &slots, language, name);
@@ -144,7 +144,7 @@ fn kept_parameters_may_have_any_name() {
         {
             let options =
                 HeaderOptions { prefix: name.to_owned(), language, ..HeaderOptions::default() };
-            let header = c::header(&integrator, &options).unwrap();
+            let header = c::header(Origin::Series(&integrator), &options).unwrap();
             std::fs::write(folder.join("header.h"), header).unwrap();
             let source = folder.join(format!("main.{ending}"));
             let before = ["complex.h", "errno.h", "math.h", "stddef.h", "stdio.h"];

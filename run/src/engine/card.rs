@@ -1,11 +1,11 @@
 //! Steps for devices: compiled, or as a text.
 
-use coadjoint_codegen::step::Step;
+use coadjoint_codegen::step::{Origin, Step};
 use coadjoint_native::cards::{Card, Device};
 use coadjoint_program::Precision;
 use coadjoint_program::print::{DeviceLanguage, device_unit};
 
-use super::compiled::{MOST_OPERATIONS, Origin};
+use super::compiled::{MOST_OPERATIONS, coefficients};
 use crate::error::RunError;
 
 /// The programs of a step in this precision, and their folded coefficients. `option` is what the user asked for them by.
@@ -24,7 +24,7 @@ fn programs(
             "a step has {operations} operations, more than the {MOST_OPERATIONS} that are compiled; lower the truncation"
         )));
     }
-    let slots = origin.coefficients(&step, step_size, &[]).map_err(RunError::at_start)?;
+    let slots = coefficients(origin, &step, step_size, &[]).map_err(RunError::at_start)?;
     Ok((step, slots))
 }
 

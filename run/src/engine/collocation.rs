@@ -9,9 +9,10 @@ use coadjoint::steps::StepReport;
 use coadjoint::{LieGroup, Phase, StepError};
 use coadjoint_codegen::cancel;
 use coadjoint_codegen::smooth::Smooth;
+use coadjoint_codegen::step::Origin;
 use nalgebra::DVector;
 
-use super::compiled::{Compiled, Folded, Numbers, Origin, Solves};
+use super::compiled::{Compiled, Folded, Numbers, Solves};
 use super::linear::{Differentiable, Linear};
 use super::motion::{Motion, Varied, advise, one_by_one};
 use super::response::Response;

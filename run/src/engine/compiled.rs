@@ -5,10 +5,7 @@ use std::borrow::Cow;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use coadjoint::StepError;
-use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::problem::Symbol;
-use coadjoint_codegen::smooth::{Facts, Smooth};
-use coadjoint_codegen::step::{self, Spatial, Step};
+use coadjoint_codegen::step::{self, Origin, Spatial, Step};
 use coadjoint_program::{Kernel, Outcome, Precision, Trajectories, WIDTH};
 
 use super::interpreter::{STEEP, refusal};
@@ -49,71 +46,6 @@ impl Programs {
         let step = origin.step(Precision::Double)?;
         let spatial = Spatial::new(&step);
         Ok(Arc::new(Self { step, spatial }))
-    }
-}
-
-/// The system that the programs of a step are made from.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Origin<'a> {
-    /// A polynomial, by its series.
-    Series(&'a Integrator),
-    /// A smooth Hamiltonian, by collocation.
-    Collocation(&'a Smooth),
-}
-
-impl Origin<'_> {
-    /// The programs of a step in numbers of this precision.
-    ///
-    /// # Errors
-    /// Where it has none.
-    pub(crate) fn step(self, precision: Precision) -> Result<Step, step::StepError> {
-        match self {
-            Self::Series(integrator) => Step::build_in(integrator, precision),
-            Self::Collocation(smooth) => Step::by_collocation(smooth, precision),
-        }
-    }
-
-    /// The facts of the system.
-    pub(crate) fn facts(&self) -> Facts<'_> {
-        match self {
-            Self::Series(integrator) => integrator.problem.facts(),
-            Self::Collocation(smooth) => smooth.facts(),
-        }
-    }
-
-    fn symbols(&self) -> &[Symbol] {
-        match self {
-            Self::Series(integrator) => &integrator.problem.symbols,
-            Self::Collocation(smooth) => &smooth.symbols,
-        }
-    }
-
-    /// The coefficients that the programs of a step of this size read.
-    ///
-    /// # Errors
-    /// Where one is not finite.
-    pub(crate) fn coefficients(
-        &self,
-        step: &Step,
-        size: f64,
-        parameters: &[f64],
-    ) -> Result<Vec<f64>, StepError> {
-        let values = || -> Vec<f64> {
-            self.symbols().iter().map(|symbol| symbol.expr.evaluate(parameters)).collect()
-        };
-        step.fold(size, parameters).map_err(|error| refusal(error, size, &values()))
-    }
-
-    fn fold(&self, step: &Step, size: f64, parameters: &[f64]) -> Result<Folded, StepError> {
-        let symbols = self.symbols().iter().map(|symbol| symbol.expr.evaluate(parameters));
-        let symbols: Vec<f64> = symbols.collect();
-        if step.kernel().flows().is_some() {
-            let slots = self.coefficients(step, size, parameters)?;
-            return Ok(Folded { size, slots, quiet: 0.0 });
-        }
-        let folded = step.fold_rows(size, &symbols, STEEP);
-        let (slots, quiet) = folded.map_err(|error| refusal(error, size, &symbols))?;
-        Ok(Folded { size, slots, quiet })
     }
 }
 
@@ -219,7 +151,7 @@ impl Compiled {
             ));
         }
         let backend = if large { Backend::Interpreter } else { backend };
-        let folded = origin.fold(step, size, &origin.facts().defaults());
+        let folded = fold(origin, step, size, &origin.facts().defaults());
         let folded = folded.map_err(RunError::at_start)?;
         let framed = parts.frame.is_some();
         let code = match kept.find(backend, trajectories) {
@@ -249,7 +181,7 @@ impl Compiled {
         size: f64,
         parameters: &[f64],
     ) -> Result<Folded, StepError> {
-        origin.fold(&self.programs.step, size, parameters)
+        fold(origin, &self.programs.step, size, parameters)
     }
 
     /// The same for at most [`WIDTH`] rows of values of the parameters, side by side.
@@ -390,6 +322,39 @@ impl Compiled {
     ) -> [u64; WIDTH] {
         self.code().stepper(self.kernel()).advance_lanes(self.coefficients(), g, mu, steps, live)
     }
+}
+
+/// The coefficients that the programs of a step of this size read.
+///
+/// # Errors
+/// Where one is not finite.
+pub(super) fn coefficients(
+    origin: Origin<'_>,
+    step: &Step,
+    size: f64,
+    parameters: &[f64],
+) -> Result<Vec<f64>, StepError> {
+    let values = || -> Vec<f64> {
+        origin.symbols().iter().map(|symbol| symbol.expr.evaluate(parameters)).collect()
+    };
+    step.fold(size, parameters).map_err(|error| refusal(error, size, &values()))
+}
+
+fn fold(
+    origin: Origin<'_>,
+    step: &Step,
+    size: f64,
+    parameters: &[f64],
+) -> Result<Folded, StepError> {
+    let symbols = origin.symbols().iter().map(|symbol| symbol.expr.evaluate(parameters));
+    let symbols: Vec<f64> = symbols.collect();
+    if step.kernel().flows().is_some() {
+        let slots = coefficients(origin, step, size, parameters)?;
+        return Ok(Folded { size, slots, quiet: 0.0 });
+    }
+    let folded = step.fold_rows(size, &symbols, STEEP);
+    let (slots, quiet) = folded.map_err(|error| refusal(error, size, &symbols))?;
+    Ok(Folded { size, slots, quiet })
 }
 
 fn note(total: &mut Outcome, corrections: u32, residual: f64) {

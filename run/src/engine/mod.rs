@@ -13,7 +13,6 @@ mod tangent;
 
 pub(crate) use card::{card, device_text};
 pub(crate) use collocation::collocated;
-pub(crate) use compiled::Origin;
 pub use compiled::{Compiled, Folded, Kept, Numbers, Solves};
 pub(crate) use interpreter::Interpreter;
 pub use interpreter::STEEP;

@@ -9,9 +9,10 @@ use coadjoint::groups::{
 use coadjoint::{Phase, StepError};
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;
+use coadjoint_codegen::step::Origin;
 use nalgebra::DVector;
 
-use super::compiled::{Compiled, Folded, Numbers, Origin, Solves};
+use super::compiled::{Compiled, Folded, Numbers, Solves};
 use super::interpreter::Interpreter;
 use super::kick::{Forces, Map, map};
 use super::linear::{Differentiable, Linear};

@@ -71,7 +71,7 @@ impl FoldTable {
         table
     }
 
-    /// The values of this many symbols, then the step size.
+    /// The values of this many symbols, then the step size, and the square of a radius that is infinite.
     #[must_use]
     pub fn of_symbols(count: usize) -> Self {
         let numbers = 0..number(count);
@@ -81,7 +81,8 @@ impl FoldTable {
             parts: (0..=number(count)).map(|at| (u32::from(at == number(count)), at + 1)).collect(),
             bases: (0..=number(count)).map(|at| at + 1).collect(),
             slots: (0..=number(count)).map(|at| (at, 1, at)).collect(),
-            len: count + 1,
+            radius: Some(number(count + 1)),
+            len: count + 2,
             ..Self::default()
         }
     }

@@ -74,8 +74,8 @@ pub(super) fn operations(smooth: &Smooth) -> usize {
     smooth.nodes().saturating_mul(gradient.operations().saturating_add(brackets))
 }
 
-/// The kernel of a step; the values of the symbols come first among the coefficients, after them h and, where the Hamiltonian
-/// moves, for each of the [`times`] the time and the signals then. The last part of the group is the memory of its steps.
+/// The kernel of a step; the values of the symbols come first among the coefficients, after them h, a radius that is not read, and, where
+/// the Hamiltonian moves, for each of the [`times`] the time and the signals then. The last part of the group is the memory of its steps.
 pub(super) fn kernel(smooth: &Smooth, group: &Product) -> Result<Kernel, StepError> {
     let step = Collocation::new(smooth, group);
     let rates = step.rates();
@@ -211,7 +211,7 @@ impl<'a> Collocation<'a> {
         let mut arguments = mu.to_vec();
         if self.smooth.depends_on_time() {
             let each = 1 + self.smooth.signals.len();
-            let first = self.smooth.symbols.len() + 1 + time * each;
+            let first = self.smooth.symbols.len() + 2 + time * each;
             arguments.extend((first..first + each).map(|slot| graph.slot(slot)));
         }
         graph.call(program, &arguments)

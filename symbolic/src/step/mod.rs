@@ -26,10 +26,11 @@ use coadjoint_program::{Kernel, Precision};
 
 use crate::expr::ParameterExpr;
 use crate::graph::{Graph, Id, Program};
-use crate::integrator::{FoldTable, Integrator};
+use crate::integrator::{FoldTable, Integrator, Kicks};
 use crate::lie::{Chart, LieAlgebra, catalogue};
+use crate::problem::Symbol;
 use crate::signal::Signal;
-use crate::smooth::Smooth;
+use crate::smooth::{Facts, Smooth};
 use crate::step::rotation::Rotation;
 use crate::step::solving::Scheme;
 use crate::step::tables::Tables;
@@ -54,6 +55,55 @@ pub struct Step {
     /// The times among the coefficients, where a step depends on them.
     moving: Option<Moving>,
     memory: usize,
+}
+
+/// A system that the programs of a step are made from.
+#[derive(Clone, Copy, Debug)]
+pub enum Origin<'a> {
+    /// A polynomial, by its series.
+    Series(&'a Integrator),
+    /// A smooth Hamiltonian, by collocation.
+    Collocation(&'a Smooth),
+}
+
+impl<'a> Origin<'a> {
+    /// The programs of a step in numbers of this precision.
+    ///
+    /// # Errors
+    /// [`StepError`] where it has none.
+    pub fn step(self, precision: Precision) -> Result<Step, StepError> {
+        match self {
+            Self::Series(integrator) => Step::build_in(integrator, precision),
+            Self::Collocation(smooth) => Step::by_collocation(smooth, precision),
+        }
+    }
+
+    /// The facts of the system.
+    #[must_use]
+    pub fn facts(self) -> Facts<'a> {
+        match self {
+            Self::Series(integrator) => integrator.problem.facts(),
+            Self::Collocation(smooth) => smooth.facts(),
+        }
+    }
+
+    /// The expressions in parameters that coefficients are made of.
+    #[must_use]
+    pub fn symbols(self) -> &'a [Symbol] {
+        match self {
+            Self::Series(integrator) => &integrator.problem.symbols,
+            Self::Collocation(smooth) => &smooth.symbols,
+        }
+    }
+
+    /// The kicks between flows, where there are any.
+    #[must_use]
+    pub fn kicks(self) -> Option<&'a Kicks> {
+        match self {
+            Self::Series(integrator) => integrator.kicks.as_ref(),
+            Self::Collocation(_) => None,
+        }
+    }
 }
 
 /// The times at which the programs of a step read the time and the signals then.
@@ -127,7 +177,7 @@ impl Step {
     ///
     /// # Errors
     /// [`StepError`] where the step has no straight-line programs.
-    pub fn by_collocation(smooth: &Smooth, precision: Precision) -> Result<Self, StepError> {
+    fn by_collocation(smooth: &Smooth, precision: Precision) -> Result<Self, StepError> {
         let part = |factor: &LieAlgebra| part(factor, Chart::Exponential, Scheme::FixedPoint);
         let parts: Result<Vec<_>, _> = smooth.algebra.factors().iter().map(part).collect();
         let mut group = Product(parts?);
@@ -142,13 +192,13 @@ impl Step {
         group.0.push(Box::new(Memory { numbers: memory }));
         let kernel = collocation::kernel(smooth, &group)?.in_precision(precision);
         let symbols = smooth.symbols.iter().map(|symbol| symbol.expr.clone()).collect();
-        let radius_at = smooth.symbols.len();
+        let radius_at = smooth.symbols.len() + 1;
         let moving = smooth.depends_on_time().then(|| Moving {
             first: radius_at + 1,
             times: collocation::times(smooth.nodes()),
             signals: smooth.signals.clone(),
         });
-        let fold = FoldTable::of_symbols(radius_at);
+        let fold = FoldTable::of_symbols(smooth.symbols.len());
         let splitting = None;
         Ok(Self { kernel, group, fold, symbols, radius_at, splitting, moving, memory })
     }

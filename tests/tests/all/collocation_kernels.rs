@@ -8,7 +8,7 @@ use coadjoint::groups::{
 use coadjoint::{LieGroup, Phase, SO3};
 use coadjoint_codegen::lie::catalogue::lookup;
 use coadjoint_codegen::smooth::{Hamiltonian, Smooth};
-use coadjoint_codegen::step::Step;
+use coadjoint_codegen::step::Origin;
 use coadjoint_codegen::system::{Options, read_either};
 use coadjoint_program::{Precision, Stepper};
 use coadjoint_tests::bridge::matrix_group;
@@ -31,7 +31,7 @@ fn smooth(group: &str, dim: usize, hamiltonian: &str, nodes: usize) -> Smooth {
 
 /// The momenta after steps from the time 0.3, and the most sweeps of one.
 fn by_kernel(smooth: &Smooth, h: f64, steps: u64, mu: &[f64]) -> (Vec<f64>, Vec<f64>, u32) {
-    let step = Step::by_collocation(smooth, Precision::Double).unwrap();
+    let step = Origin::Collocation(smooth).step(Precision::Double).unwrap();
     let kernel = step.kernel();
     let mut slots = step.fold(h, &[]).unwrap();
     let size = (kernel.programs.matrix.outputs().len() as f64).sqrt() as usize;

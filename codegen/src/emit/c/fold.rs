@@ -12,8 +12,8 @@ use crate::emit::c::dialect::decimal;
 use crate::emit::c::names::Names;
 use crate::emit::c::parameter;
 use crate::emit::c::{HeaderError, HeaderOptions};
-use crate::integrator::{FoldTable, Integrator, Kicks};
-use crate::step::Step;
+use crate::integrator::{FoldTable, Kicks};
+use crate::step::{Origin, Step};
 
 /// The coefficients that the programs of a step read, and where the header has them: the slots that are read, in the
 /// order of their bases; then the bound on the Hessian, and the square of the radius.
@@ -42,28 +42,40 @@ impl Folding {
     ///
     /// # Errors
     /// [`HeaderError::Degree`], [`HeaderError::Constant`].
-    pub(super) fn new(integrator: &Integrator, step: &Step) -> Result<Self, HeaderError> {
+    pub(super) fn new(origin: Origin<'_>, step: &Step) -> Result<Self, HeaderError> {
         let programs = &step.kernel().programs;
         let mut list = vec![&programs.guess, &programs.correct, &programs.accept];
         list.extend([&programs.transport, &programs.sound, &programs.watch]);
         list.extend(programs.frame.iter().chain(step.kernel().kick()));
-        let slots = integrator.coefficients.slots();
-        let mut wanted: Vec<(usize, u32, usize)> = read(&list)
-            .into_iter()
-            .filter_map(|slot| slots.get(slot).map(|&(base, scale)| (base, scale, slot)))
-            .collect();
-        wanted.sort_unstable();
-        if wanted.is_empty() {
-            return Err(HeaderError::Constant);
-        }
-        let radius_at = FoldTable::radius_at(integrator);
-        let of_step = slots.len()..radius_at;
-        // The length of a kick, which the programs know after the radius.
-        let kick = step.kernel().flows().map(|_| radius_at + 1);
-        let all = wanted.into_iter().map(|(.., slot)| slot).chain(of_step);
-        let all = all.chain(kick).chain([radius_at]);
-        let places: BTreeMap<usize, usize> = all.zip(0..).collect();
-        let table = FoldTable::placed(integrator, |at| places.get(&at).copied());
+        let kick_of = |radius_at: usize| step.kernel().flows().map(|_| radius_at + 1);
+        let read = read(&list);
+        let (places, table, kick) = match origin {
+            Origin::Series(integrator) => {
+                let slots = integrator.coefficients.slots();
+                let of_slot =
+                    |slot: usize| slots.get(slot).map(|&(base, scale)| (base, scale, slot));
+                let mut wanted: Vec<_> = read.into_iter().filter_map(of_slot).collect();
+                wanted.sort_unstable();
+                if wanted.is_empty() {
+                    return Err(HeaderError::Constant);
+                }
+                let radius_at = FoldTable::radius_at(integrator);
+                let of_step = slots.len()..radius_at;
+                // The length of a kick, which the programs know after the radius.
+                let kick = kick_of(radius_at);
+                let all = wanted.into_iter().map(|(.., slot)| slot).chain(of_step);
+                let all = all.chain(kick).chain([radius_at]);
+                let places: BTreeMap<usize, usize> = all.zip(0..).collect();
+                let table = FoldTable::placed(integrator, |at| places.get(&at).copied());
+                (places, table, kick)
+            }
+            // The symbols, the step size, and the radius, which is infinite.
+            Origin::Collocation(smooth) => {
+                let count = smooth.symbols.len();
+                let places = (0..=count + 1).map(|at| (at, at)).collect();
+                (places, FoldTable::of_symbols(count), None)
+            }
+        };
         let highest = table.lists().last.iter().map(|term| term.3).max().unwrap_or(0);
         if highest as usize >= DEGREES {
             return Err(HeaderError::Degree { degree: highest + 1, limit: DEGREES as u32 });
@@ -80,18 +92,15 @@ impl Folding {
     /// The function that folds.
     pub(super) fn init(
         &self,
-        integrator: &Integrator,
+        origin: Origin<'_>,
         names: &Names,
         options: &HeaderOptions,
     ) -> String {
         let fold = self.table.lists();
-        let problem = &integrator.problem;
-        let scalars = parameter::scalars(&problem.parameters, names);
-        let symbols: Vec<String> = problem
-            .symbols
-            .iter()
-            .map(|symbol| parameter::expression(&symbol.expr, &scalars, names))
-            .collect();
+        let (given, own) = (origin.facts().parameters, origin.symbols());
+        let scalars = parameter::scalars(given, names);
+        let symbols: Vec<String> =
+            own.iter().map(|symbol| parameter::expression(&symbol.expr, &scalars, names)).collect();
         let mut text = String::new();
         if symbols.iter().any(|text| text.contains(parameter::POWER_OF)) {
             text.push_str(POWER);
@@ -99,7 +108,7 @@ impl Folding {
         if !fold.last.is_empty() {
             text.push_str(WITHIN);
         }
-        let parameters = match problem.parameters.is_empty() {
+        let parameters = match given.is_empty() {
             true => String::new(),
             false => ", const @p@_parameters *parameters".to_owned(),
         };
@@ -142,11 +151,11 @@ impl Folding {
             text.push_str("        status = @P@_BAD_STEP;\n    }\n");
         }
         let read = products > 0 && symbols.iter().any(|text| text.contains(parameter::MEMBER));
-        if !read && !problem.parameters.is_empty() {
+        if !read && !given.is_empty() {
             text.push_str("    (void)parameters;\n");
         }
         if products > 0 {
-            for (i, (expression, symbol)) in symbols.iter().zip(&problem.symbols).enumerate() {
+            for (i, (expression, symbol)) in symbols.iter().zip(own).enumerate() {
                 let note = c_comment(&symbol.text);
                 let _ = writeln!(text, "    symbol[{i}] = {expression}; /* {note} */");
             }
@@ -166,7 +175,7 @@ impl Folding {
                 .replace("/*LAST*/", if fold.last.is_empty() { "" } else { LAST })
                 .replace("/*SUMMAND*/", summand)
             + &END.replace("/*RADIUS*/", if fold.last.is_empty() { "" } else { RADIUS });
-        let text = match (self.kick_at, &integrator.kicks) {
+        let text = match (self.kick_at, origin.kicks()) {
             (Some(kick_at), Some(kicks)) => {
                 let passed = if parameters.is_empty() { "" } else { ", parameters" };
                 let step = of_step(kicks, &parameters, passed);

@@ -12,38 +12,42 @@ mod programs;
 mod reference;
 mod template;
 
+use coadjoint_program::Precision;
+
 use crate::emit::c::names::Names;
-use crate::integrator::Integrator;
-use crate::step::Step;
+use crate::step::Origin;
 
 pub use names::{HeaderError, HeaderOptions, Language, MOST_OPERATIONS, prefix};
 
-/// The header of an integrator, to be saved as `PREFIX.h` (`PREFIX.hpp` for C++).
+/// The header of an origin, to be saved as `PREFIX.h` (`PREFIX.hpp` for C++).
 ///
 /// # Errors
 /// [`HeaderError`] where there is no such header.
-pub fn header(integrator: &Integrator, options: &HeaderOptions) -> Result<String, HeaderError> {
-    let step = Step::build(integrator)?;
+pub fn header(origin: Origin<'_>, options: &HeaderOptions) -> Result<String, HeaderError> {
+    let step = origin.step(Precision::Double)?;
+    if step.moves() {
+        return Err(HeaderError::Moves);
+    }
     let programs = &step.kernel().programs;
     let list = [&programs.guess, &programs.correct, &programs.accept, &programs.transport];
     let operations = list.iter().map(|program| program.cost().total()).sum();
     if operations > MOST_OPERATIONS {
         return Err(HeaderError::TooLarge { operations, limit: MOST_OPERATIONS });
     }
-    let names = Names::new(&integrator.problem, options);
-    let fold = fold::Folding::new(integrator, &step)?;
+    let names = Names::new(origin.facts().parameters, options);
+    let fold = fold::Folding::new(origin, &step)?;
     let text = [
-        reference::opening(integrator, &step, &fold, &names, options),
-        reference::types(integrator, &step, &fold, &names, options),
+        reference::opening(origin, &step, &fold, &names, options),
+        reference::types(origin, &step, &fold, &names, options),
         names.fill(template::HELPERS),
         programs::functions(&step, &fold, &names),
         programs::drive(&step, &fold, &names),
-        fold.init(integrator, &names, options),
-        reference::functions(integrator, &step, &names),
+        fold.init(origin, &names, options),
+        reference::functions(origin, &step, &names),
         names.fill(template::END_OF_C),
         match options.language {
             Language::C => String::new(),
-            Language::Cpp => reference::class(integrator, &step, &names),
+            Language::Cpp => reference::class(origin, &step, &names),
         },
         format!("\n#endif /* {} */\n", names.guard()),
     ];

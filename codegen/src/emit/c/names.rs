@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::emit::camel_case;
 use crate::emit::hygiene::fresh;
-use crate::problem::Problem;
+use crate::problem::Parameter;
 use crate::step::StepError;
 
 /// Words that C99 or C++ keep for themselves, as far as they are in lower case.
@@ -63,8 +63,8 @@ pub(crate) struct Names {
 }
 
 impl Names {
-    /// The names for a problem.
-    pub(crate) fn new(problem: &Problem, options: &HeaderOptions) -> Self {
+    /// The names for a system with these parameters.
+    pub(crate) fn new(parameters: &[Parameter], options: &HeaderOptions) -> Self {
         let lower = prefix(&options.prefix);
         let mut taken = BTreeSet::new();
         let mut member = |name: &str| {
@@ -85,11 +85,7 @@ impl Names {
         Self {
             upper: lower.to_uppercase(),
             class: camel_case(&lower),
-            parameters: problem
-                .parameters
-                .iter()
-                .map(|parameter| member(&parameter.name))
-                .collect(),
+            parameters: parameters.iter().map(|parameter| member(&parameter.name)).collect(),
             ending: match options.language {
                 Language::C => "H",
                 Language::Cpp => "HPP",
@@ -165,6 +161,11 @@ pub enum HeaderError {
         /// [`MOST_OPERATIONS`].
         limit: usize,
     },
+    /// Steps depend on the time, which a header does not know.
+    #[error(
+        "cannot be written as C: its steps depend on the time; `simulate` and `emit --language rust` make them"
+    )]
+    Moves,
     /// Nothing moves.
     #[error("cannot be written as C: the Hamiltonian is constant, and nothing moves")]
     Constant,

@@ -13,8 +13,7 @@ use crate::emit::c::programs::casimirs;
 use crate::emit::c::template::{CASIMIRS, STATE, TEXT};
 use crate::emit::c::{HeaderOptions, Language, parameter};
 use crate::emit::header;
-use crate::integrator::Integrator;
-use crate::step::Step;
+use crate::step::{Origin, Step};
 
 /// How many rows the matrix of an element has.
 fn rows(step: &Step) -> usize {
@@ -23,14 +22,14 @@ fn rows(step: &Step) -> usize {
 
 /// Sizes, the status, and the structures.
 pub(crate) fn types(
-    integrator: &Integrator,
+    origin: Origin<'_>,
     step: &Step,
     fold: &Folding,
     names: &Names,
     options: &HeaderOptions,
 ) -> String {
     let kernel = step.kernel();
-    let problem = &integrator.problem;
+    let facts = origin.facts();
     let mut text = String::from("\n");
     let mut size = |name: &str, value: usize, about: &str| {
         let _ = writeln!(text, "/** {about} */\n#define @P@_{name} {value}u");
@@ -53,16 +52,18 @@ pub(crate) fn types(
     if let Some(largest) = step.inverted().iter().map(|&(_, rows)| rows).max() {
         size("LARGEST_BLOCK", largest, "Rows of the largest matrix in a group element.");
     }
-    text.push_str(&STATUS.replace(
-        "/*ONLY*/",
-        match options.only_step {
-            Some(_) => ", or not the one step that was learned",
-            None => "",
-        },
-    ));
-    if !problem.parameters.is_empty() {
+    let only = match options.only_step {
+        Some(_) => ", or not the one step that was learned",
+        None => "",
+    };
+    let unresolved = match origin {
+        Origin::Series(_) => "",
+        Origin::Collocation(_) => ", or its nodes do not resolve it",
+    };
+    text.push_str(&STATUS.replace("/*ONLY*/", only).replace("/*UNRESOLVED*/", unresolved));
+    if !facts.parameters.is_empty() {
         text.push_str("\n/** Parameters of the Hamiltonian. */\ntypedef struct @p@_parameters {\n");
-        for (parameter, name) in problem.parameters.iter().zip(&names.parameters) {
+        for (parameter, name) in facts.parameters.iter().zip(&names.parameters) {
             let member = parameter::member(&parameter.shape, name);
             let own = c_comment(&parameter.name);
             let note = if own == *name { String::new() } else { format!(" /**< {own} */") };
@@ -77,7 +78,7 @@ pub(crate) fn types(
         step.element_about()
     );
     text.push_str("    /** The body momentum, in the order of the basis of the Lie algebra:\n");
-    for (i, name) in problem.coordinates.iter().enumerate() {
+    for (i, name) in facts.coordinates.iter().enumerate() {
         let unit = options.momentum.get(i).and_then(Option::as_ref);
         let unit = unit.map_or(String::new(), |unit| format!(" in {}", c_comment(unit)));
         let _ = writeln!(text, "     *  mu[{i}] = {}{unit}", c_comment(name));
@@ -94,7 +95,7 @@ pub(crate) fn types(
 }
 
 /// Functions of a state, and the status in words.
-pub(crate) fn functions(integrator: &Integrator, step: &Step, names: &Names) -> String {
+pub(crate) fn functions(origin: Origin<'_>, step: &Step, names: &Names) -> String {
     let rows = rows(step);
     let identity: Vec<f64> =
         (0..rows * rows).map(|at| f64::from(u8::from(at / rows == at % rows))).collect();
@@ -122,11 +123,8 @@ pub(crate) fn functions(integrator: &Integrator, step: &Step, names: &Names) -> 
         .replace("/*BACK*/", &back)
         .replace("/*ARGUMENT*/", if inverted.is_empty() { "none" } else { "back" })
         .replace("/*SINGULAR*/", singular)
-        .replace("/*OF*/", if integrator.kicks.is_some() { "state->g, " } else { "" })
-        .replace(
-            "/*POTENTIAL*/",
-            if integrator.kicks.is_some() { " and the potential" } else { "" },
-        );
+        .replace("/*OF*/", if origin.kicks().is_some() { "state->g, " } else { "" })
+        .replace("/*POTENTIAL*/", if origin.kicks().is_some() { " and the potential" } else { "" });
     if casimirs(step) > 0 {
         text.push_str(CASIMIRS);
     }
@@ -136,17 +134,17 @@ pub(crate) fn functions(integrator: &Integrator, step: &Step, names: &Names) -> 
             "the step size is zero, not finite, or not one that was learned",
         ),
     );
-    if integrator.problem.parameters.iter().any(|parameter| parameter.default.is_some()) {
-        text.push_str(&defaults(integrator, names));
+    if origin.facts().parameters.iter().any(|parameter| parameter.default.is_some()) {
+        text.push_str(&defaults(origin, names));
     }
     names.fill(&text)
 }
 
 /// The values that the system file gives to its parameters.
-fn defaults(integrator: &Integrator, names: &Names) -> String {
-    let problem = &integrator.problem;
-    let scalars = parameter::scalars(&problem.parameters, names);
-    let values = problem.parameters.iter().flat_map(|parameter| {
+fn defaults(origin: Origin<'_>, names: &Names) -> String {
+    let facts = origin.facts();
+    let scalars = parameter::scalars(facts.parameters, names);
+    let values = facts.parameters.iter().flat_map(|parameter| {
         (0..parameter.shape.len()).map(move |i| {
             let value = parameter.default.as_ref().and_then(|list| list.get(i));
             value.and_then(ToPrimitive::to_f64).unwrap_or(f64::NAN)
@@ -187,7 +185,7 @@ typedef enum @p@_status {
     @P@_NOT_SOLVED = 5,
     /** The momentum is so large that the series cannot be trusted: take a smaller step. */
     @P@_BEYOND_SERIES = 6,
-    /** The step goes too far at once for the group's chart: take a smaller step. */
+    /** The step goes too far at once for the group's chart/*UNRESOLVED*/: take a smaller step. */
     @P@_BEYOND_CHART = 7
 } @p@_status;
 ";
@@ -203,8 +201,8 @@ typedef struct @p@_map {
 ";
 
 /// The class, for compilers of C++ alone.
-pub(crate) fn class(integrator: &Integrator, step: &Step, names: &Names) -> String {
-    let with = !integrator.problem.parameters.is_empty();
+pub(crate) fn class(origin: Origin<'_>, step: &Step, names: &Names) -> String {
+    let with = !origin.facts().parameters.is_empty();
     let text = CLASS
         .replace("/*PARAMETERS*/", if with { PARAMETERS } else { "" })
         .replace("/*ARGUMENT*/", if with { ", const Parameters &parameters" } else { "" })
@@ -286,14 +284,14 @@ const WIDTH: usize = 112;
 
 /// The opening comment, the guard, what is included, and macros.
 pub(super) fn opening(
-    integrator: &Integrator,
+    origin: Origin<'_>,
     step: &Step,
     fold: &Folding,
     names: &Names,
     options: &HeaderOptions,
 ) -> String {
     let mut text = String::from("/*\n");
-    for paragraph in paragraphs(integrator, step, fold, names, options) {
+    for paragraph in paragraphs(origin, step, fold, names, options) {
         for line in header::wrapped(&paragraph, WIDTH) {
             text.push_str(if line.is_empty() { " *" } else { " * " });
             text.push_str(&line);
@@ -311,21 +309,21 @@ pub(super) fn opening(
 }
 
 fn paragraphs(
-    integrator: &Integrator,
+    origin: Origin<'_>,
     step: &Step,
     fold: &Folding,
     names: &Names,
     options: &HeaderOptions,
 ) -> Vec<String> {
-    let problem = &integrator.problem;
+    let facts = origin.facts();
     let kernel = step.kernel();
     let lists = kernel.flows().map_or(1, |flows| flows as usize + 1);
     let time =
         options.time.as_ref().map_or(String::new(), |unit| format!(" in {}", c_comment(unit)));
-    let parameters = if problem.parameters.is_empty() { "" } else { ", &parameters" };
+    let parameters = if facts.parameters.is_empty() { "" } else { ", &parameters" };
     let lower = &names.lower;
     let mut list = vec![
-        format!("{}: steps of the system \"{}\".", names.file(), c_comment(&problem.name)),
+        format!("{}: steps of the system \"{}\".", names.file(), c_comment(facts.name)),
         format!(
             "Generated by coadjoint {} for {}; changes will be overwritten.",
             env!("CARGO_PKG_VERSION"),
@@ -336,7 +334,7 @@ fn paragraphs(
         ),
         String::new(),
     ];
-    list.extend(header::system(integrator, c_comment));
+    list.extend(header::system(origin, c_comment));
     list.extend([
         "How to use it:".to_owned(),
         format!("     {lower}_map map;"),
@@ -352,9 +350,9 @@ fn paragraphs(
         ),
         String::new(),
         "Refusals. A step is accepted only where its equation is solved to rounding near the first guess and \
-         everything used is known to hold there. Longer steps are refused with a status. The library in Rust then follows \
-         the solution from the identity; this header does not: take a smaller step."
-            .to_owned(),
+         everything used is known to hold there. Longer steps are refused with a status. "
+            .to_owned()
+            + &rescue(origin, step),
         String::new(),
     ]);
     list.extend(header::costs(kernel));
@@ -388,6 +386,20 @@ fn paragraphs(
         ));
     }
     list
+}
+
+/// How to go on after a refused step.
+fn rescue(origin: Origin<'_>, step: &Step) -> String {
+    match origin {
+        Origin::Series(_) => "The library in Rust then follows the solution from the identity; this header does not: take a \
+            smaller step."
+            .to_owned(),
+        Origin::Collocation(_) => format!(
+            "A step begins with a guess from those before it, by the last {} numbers of g: where a state was changed, or \
+             a step is refused, set them to 0, which forgets them; then take a smaller step.",
+            step.memory()
+        ),
+    }
 }
 
 const GUARD: &str = "#ifndef @G@

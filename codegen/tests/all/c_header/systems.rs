@@ -7,8 +7,12 @@ use coadjoint_codegen::emit::c::{HeaderError, HeaderOptions, Language, header};
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::{Integrator, Kick};
 use coadjoint_codegen::lie::Chart;
-use coadjoint_codegen::step::Step;
+use coadjoint_codegen::problem::Parameter;
+use coadjoint_codegen::smooth::Hamiltonian;
+use coadjoint_codegen::step::{Origin, Step};
 use coadjoint_codegen::system::{self, Options, Parameters};
+
+use coadjoint_program::Precision;
 
 use crate::tools::{FLAGS_CPP, Tool, output};
 
@@ -71,6 +75,11 @@ const SATELLITE: &str = "name = \"satellite\"\ngroup = \"SO3*SO2\"\ncoordinates 
     potential = \"1.5*(g[0][0]*g[3][3] + g[1][0]*g[4][3])^2 + 2*(g[0][1]*g[3][3] + g[1][1]*g[4][3])^2\"\n\
     [integrator]\nstep = 0.05\nsplitting = \"prk4\"\n[initial]\nmomentum = [0.1, -0.2, 1.6, 0.0]\n";
 
+/// A root and an exponential on a group of motions, solved by collocation.
+const SIX: &str = "name = \"six\"\ngroup = \"SE3\"\ncoordinates = [\"a\", \"b\", \"c\", \"u\", \"v\", \"w\"]\n\
+    hamiltonian = \"sqrt(1 + a^2 + b^2/2 + c^2/3) + exp(u/5) + v^2/3 + 1/(2 + w^2)\"\n\
+    [integrator]\nstep = 0.1\n[initial]\nmomentum = [0.4, 0.3, 0.9, 0.2, 0.5, -0.3]\n";
+
 impl System {
     /// Written as C with its parameters substituted, in the exponential chart, and compared with no committed header.
     const fn new(name: &'static str, text: &'static str, truncation: usize) -> Self {
@@ -113,6 +122,8 @@ const SYSTEMS: &[System] = &[
     System::new("satellite", SATELLITE, 3).cpp(),
     System::new("plane_and_spin", PRODUCT, 3),
     System::new("brackets", BRACKETS, 3),
+    System::new("relativistic_body", "examples/relativistic_body.toml", 5).kept(),
+    System::new("six_variables", SIX, 3).cpp(),
 ];
 
 /// All systems, built once.
@@ -124,7 +135,7 @@ pub fn all() -> &'static [Built] {
 /// A system with its header.
 pub struct Built {
     pub system: &'static System,
-    pub integrator: Integrator,
+    pub parameters: Vec<Parameter>,
     /// A step of it as programs.
     pub programs: Step,
     /// The step size.
@@ -156,26 +167,36 @@ impl Built {
             chart: Some(system.chart),
             ..Options::default()
         };
-        let read = system::read(&text(system.text), options).unwrap();
+        let read = system::read_either(&text(system.text), options, &[]).unwrap();
         let (units, run) = (read.units, read.run);
-        let mut integrator = Integrator::build(read.problem, TermLimit::default()).unwrap();
-        if let Some((potential, splitting)) = read.potential {
-            integrator = integrator.with_kicks(Kick::build(potential), splitting).unwrap();
-        }
-        let problem = &integrator.problem;
+        let integrator;
+        let origin = match &read.problem {
+            Hamiltonian::Polynomial(problem) => {
+                let flow = Integrator::build((**problem).clone(), TermLimit::default()).unwrap();
+                integrator = match read.potential {
+                    Some((potential, splitting)) => {
+                        flow.with_kicks(Kick::build(potential), splitting).unwrap()
+                    }
+                    None => flow,
+                };
+                Origin::Series(&integrator)
+            }
+            Hamiltonian::Smooth(smooth) => Origin::Collocation(smooth),
+        };
+        let facts = origin.facts();
         let style = HeaderOptions {
             language: system.language,
-            prefix: problem.name.clone(),
+            prefix: facts.name.to_owned(),
             time: units.time.clone(),
-            momentum: (0..problem.algebra.dim())
+            momentum: (0..facts.algebra.dim())
                 .map(|i| units.coordinate(i).map(str::to_owned))
                 .collect(),
             only_step: None,
         };
-        let header = header(&integrator, &style).unwrap();
-        let prefix = coadjoint_codegen::emit::c::prefix(&problem.name);
+        let header = header(origin, &style).unwrap();
+        let prefix = coadjoint_codegen::emit::c::prefix(facts.name);
         let ending = if system.language == Language::Cpp { "hpp" } else { "h" };
-        let programs = Step::build(&integrator).unwrap();
+        let programs = origin.step(Precision::Double).unwrap();
         Self {
             system,
             step: run.step.unwrap(),
@@ -185,12 +206,12 @@ impl Built {
             file: format!("{prefix}.{ending}"),
             header,
             prefix,
-            integrator,
+            parameters: facts.parameters.to_vec(),
         }
     }
 
     fn fill(&self, template: &str) -> String {
-        let parameters = &self.integrator.problem.parameters;
+        let parameters = &self.parameters;
         let with = !parameters.is_empty();
         let list: Vec<String> = self.momentum.iter().map(|value| format!("{value:?}")).collect();
         let declared = "    @p@_parameters parameters;\n    @p@_default_parameters(&parameters);";
@@ -282,5 +303,5 @@ pub fn toutatis() -> Built {
 pub fn attempt(text: &str) -> Result<String, HeaderError> {
     let problem = system::read(text, Options::default()).unwrap().problem;
     let integrator = Integrator::build(problem, TermLimit::default()).unwrap();
-    header(&integrator, &HeaderOptions::default())
+    header(Origin::Series(&integrator), &HeaderOptions::default())
 }
