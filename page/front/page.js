@@ -238,17 +238,10 @@ function showText() {
 async function copy(text, what) {
   try {
     await navigator.clipboard.writeText(text);
-  } catch {
-    const area = element("textarea");
-    area.value = text;
-    area.style.position = "fixed";
-    area.setAttribute("aria-hidden", "true");
-    document.body.append(area);
-    area.select();
-    document.execCommand("copy");
-    area.remove();
+    say(`${what} copied`);
+  } catch (error) {
+    say(`${what} not copied: ${error}`);
   }
-  say(`${what} copied`);
 }
 
 function flash(button, text) {

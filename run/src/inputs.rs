@@ -1,6 +1,7 @@
 //! Inputs whose tables are files, and how far they reach.
 
-use std::path::Path;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
 use coadjoint_codegen::potential::{Force, Potential};
 use coadjoint_codegen::signal::{Columns, Signal, SignalError};
@@ -11,7 +12,10 @@ use coadjoint_learn::table::{Row, Table};
 use crate::error::RunError;
 use crate::number::shortest;
 
-/// Reads the tables of inputs that stand in files, which are named relative to that of the system.
+/// Columns of a file, by their names.
+type Read = BTreeMap<String, Vec<f64>>;
+
+/// Reads the tables of inputs that stand in files, which are named relative to that of the system; every file once.
 ///
 /// # Errors
 /// The file, and the row and the column where it is wrong.
@@ -24,46 +28,61 @@ pub fn fill(system: &Path, read: &mut System<Hamiltonian>) -> Result<(), RunErro
         Some((Potential { force: Force::Smooth(programs), .. }, _)) => &mut programs.signals[..],
         _ => &mut [],
     };
+    let folder = system.parent().unwrap_or(Path::new(""));
+    let mut files: BTreeMap<PathBuf, Read> = BTreeMap::new();
+    for columns in of_energy.iter().chain(&*of_torque).filter_map(|signal| signal.columns.as_ref())
+    {
+        let of_file = files.entry(folder.join(&columns.file)).or_default();
+        of_file.entry(columns.times.clone()).or_default();
+        of_file.entry(columns.values.clone()).or_default();
+    }
+    for (path, columns) in &mut files {
+        fill_columns(path, columns)?;
+    }
     for signal in of_energy.iter_mut().chain(of_torque) {
         if let Some(columns) = &signal.columns {
-            let folder = system.parent().unwrap_or(Path::new(""));
-            *signal = of_file(&signal.name, columns, &folder.join(&columns.file))?;
+            let path = folder.join(&columns.file);
+            *signal = from_columns(&signal.name, columns, &files[&path])
+                .map_err(|what| RunError::of(&path)(what))?;
         }
     }
     Ok(())
 }
 
-fn of_file(name: &str, columns: &Columns, path: &Path) -> Result<Signal, RunError> {
+fn fill_columns(path: &Path, columns: &mut Read) -> Result<(), RunError> {
     let refuse = |what: String| RunError::of(path)(what);
     let mut table = Table::open(path)?;
-    let column = |name: &String| {
-        let place = table.names().iter().position(|known| known == name);
-        place.ok_or_else(|| {
-            refuse(format!("column {name} is missing; there are {}", table.names().join(", ")))
-        })
-    };
-    let places = [column(&columns.times)?, column(&columns.values)?];
-    let (mut times, mut values, mut row) = (Vec::new(), Vec::new(), Row::default());
-    while table.read(&mut row)? {
-        let number = |column: &String, place| match row.number(place) {
-            Ok(number) if number.is_finite() => Ok(number),
-            other => {
-                let cell = other.map_or_else(|cell| cell, shortest);
-                let at = table.number();
-                Err(refuse(format!("row {at}, column {column}: `{cell}` is no finite number")))
-            }
-        };
-        times.push(number(&columns.times, places[0])?);
-        values.push(number(&columns.values, places[1])?);
+    let names = table.names().to_vec();
+    if let Some(name) = columns.keys().find(|name| !names.contains(name)) {
+        return Err(refuse(format!("column {name} is missing; there are {}", names.join(", "))));
     }
-    Signal::new(name.to_owned(), times, values).map_err(|error| match error {
-        SignalError::Times(at, time) => {
-            let (row, column, time) = (at + 1, &columns.times, shortest(time));
-            refuse(format!(
-                "row {row}, column {column}: {time} must be after the time of the row before"
-            ))
+    let mut row = Row::default();
+    while table.read(&mut row)? {
+        for (place, column) in names.iter().enumerate() {
+            let Some(numbers) = columns.get_mut(column) else { continue };
+            match row.number(place) {
+                Ok(number) if number.is_finite() => numbers.push(number),
+                other => {
+                    let (at, cell) = (table.number(), other.map_or_else(|cell| cell, shortest));
+                    let place = format!("row {at}, column {column}");
+                    return Err(refuse(format!("{place}: `{cell}` is no finite number")));
+                }
+            }
         }
-        other => refuse(other.to_string()),
+    }
+    Ok(())
+}
+
+fn from_columns(name: &str, columns: &Columns, read: &Read) -> Result<Signal, String> {
+    let [times, values] = [&columns.times, &columns.values].map(|column| read[column].clone());
+    Signal::new(name.to_owned(), times, values).map_err(|error| match error {
+        SignalError::Times(at, time) => format!(
+            "row {}, column {}: {} must be after the time of the row before",
+            at + 1,
+            columns.times,
+            shortest(time)
+        ),
+        other => other.to_string(),
     })
 }
 

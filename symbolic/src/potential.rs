@@ -10,7 +10,7 @@ use crate::lie::{Echelon, LieAlgebra, RationalMatrix};
 use crate::number::{Rational, integer};
 use crate::poly::{Numeric, Polynomial};
 use crate::problem::{Parameter, Symbol, values};
-use crate::signal::Signal;
+use crate::signal::{self, Signal};
 use crate::smooth::undefined;
 
 /// A force, as its kicks are made.
@@ -90,13 +90,10 @@ impl Programs {
     /// The inputs of the programs for these entries of the matrix, this momentum and this time.
     #[must_use]
     pub fn inputs(&self, entries: &[f64], mu: &[f64], time: f64) -> Vec<f64> {
-        let mut inputs = entries.to_vec();
-        if self.value.is_none() {
-            inputs.extend_from_slice(mu);
-            inputs.push(time);
-            inputs.extend(self.signals.iter().map(|signal| signal.at(time)));
+        match self.value {
+            Some(_) => entries.to_vec(),
+            None => signal::inputs(entries.to_vec(), mu, time, &self.signals),
         }
-        inputs
     }
 
     /// The text of the first expression that is not defined for these inputs, and its argument there.

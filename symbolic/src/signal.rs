@@ -100,6 +100,14 @@ impl Signal {
     }
 }
 
+/// The inputs of a program that depends on μ, t and u(t), after those it has besides.
+pub(crate) fn inputs(mut first: Vec<f64>, mu: &[f64], time: f64, signals: &[Signal]) -> Vec<f64> {
+    first.extend_from_slice(mu);
+    first.push(time);
+    first.extend(signals.iter().map(|signal| signal.at(time)));
+    first
+}
+
 /// The slopes of the spline at its knots, by elimination in the tridiagonal equations.
 fn slopes(times: &[f64], values: &[f64]) -> Vec<f64> {
     let widths: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();

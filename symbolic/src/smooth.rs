@@ -7,7 +7,7 @@ use num_traits::ToPrimitive;
 
 use crate::lie::LieAlgebra;
 use crate::problem::{Parameter, Problem, Symbol};
-use crate::signal::Signal;
+use crate::signal::{self, Signal};
 
 /// A smooth Hamiltonian H(t, μ) on the dual of a Lie algebra, as straight-line programs.
 ///
@@ -128,10 +128,7 @@ impl Smooth {
     /// The inputs of the programs at (t, μ).
     #[must_use]
     pub fn inputs(&self, time: f64, mu: &[f64]) -> Vec<f64> {
-        let mut inputs = mu.to_vec();
-        inputs.push(time);
-        inputs.extend(self.signals.iter().map(|signal| signal.at(time)));
-        inputs
+        signal::inputs(Vec::new(), mu, time, &self.signals)
     }
 
     /// H(t, μ) for these values of the symbols.

@@ -6,7 +6,7 @@ use coadjoint_codegen::lie::{Chart, LieAlgebra, RationalMatrix, casimirs, catalo
 use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::poly::Polynomial;
 use coadjoint_run::series::sum;
-use num_traits::{One, Signed, Zero};
+use num_traits::Zero;
 
 use crate::error::CliError;
 
@@ -42,11 +42,9 @@ impl Facts {
         // The families of complex matrices; SO2 has the same form, but is real.
         let name = algebra.name();
         let family = name.starts_with("SU") || name.starts_with('U');
-        let matrices = algebra.basis().unwrap_or_default();
-        let complex = family && summary.is_some() && matrices.iter().all(is_complex);
         Ok(Self {
+            complex: family && summary.is_some(),
             summary,
-            complex,
             nilpotent: factors.iter().all(LieAlgebra::is_nilpotent),
             no_cayley: Chart::Cayley.check(&algebra).err().map(|error| error.to_string()),
             degree: 0,
@@ -74,24 +72,18 @@ impl Facts {
         self.algebra.basis().and_then(<[_]>::first).map(RationalMatrix::rows)
     }
 
-    /// The rows of basis matrix `i`, as they are shown: entries `1`, `-1/2`, `i/2`.
-    pub(crate) fn matrix(&self, i: usize) -> Option<Vec<Vec<String>>> {
-        let matrix = self.algebra.basis()?.get(i)?;
+    /// A basis matrix as a sum of matrices E(a,b) with a one in row a and column b; of A + iB in (A, -B; B, A).
+    pub(crate) fn entries(&self, matrix: &RationalMatrix) -> String {
         let n = if self.complex { matrix.rows() / 2 } else { matrix.rows() };
-        let entry = |a: usize, b: usize| match self.complex {
-            true => complex(&matrix.get(a, b), &matrix.get(a + n, b)),
-            false => matrix.get(a, b).to_string(),
+        let name = |a: usize, b: usize| match a < n {
+            true => format!("E({},{})", a + 1, b + 1),
+            false => format!("i*E({},{})", a - n + 1, b + 1),
         };
-        Some((0..n).map(|a| (0..n).map(|b| entry(a, b)).collect()).collect())
-    }
-
-    /// Basis matrix `i` as a sum of matrices E(a,b) with a one in row a and column b.
-    pub(crate) fn entries(&self, i: usize) -> String {
-        let matrix = self.algebra.basis().and_then(|basis| basis.get(i));
-        let entries = matrix.into_iter().flat_map(RationalMatrix::entries);
-        let (names, terms): (Vec<_>, Vec<_>) = entries
+        let (names, terms): (Vec<_>, Vec<_>) = matrix
+            .entries()
+            .filter(|(_, b, _)| *b < n)
             .enumerate()
-            .map(|(k, (a, b, value))| (format!("E({},{})", a + 1, b + 1), (vec![k], value.clone())))
+            .map(|(k, (a, b, value))| (name(a, b), (vec![k], value.clone())))
             .unzip();
         written(&names, terms)
     }
@@ -198,31 +190,4 @@ fn refused(reason: &dyn std::fmt::Display) -> CliError {
 /// How many monomials of this degree there are in `n` variables.
 fn monomials(n: usize, degree: u32) -> u128 {
     (1..=u128::from(degree)).fold(1, |product, k| product.saturating_mul(n as u128 + k - 1) / k)
-}
-
-/// Whether a matrix is ((A, −B), (B, A)).
-fn is_complex(matrix: &RationalMatrix) -> bool {
-    let n = matrix.rows() / 2;
-    let half = || (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
-    matrix.rows() == 2 * n
-        && half().all(|(i, j)| {
-            matrix.get(i, j) == matrix.get(i + n, j + n)
-                && matrix.get(i + n, j) == -matrix.get(i, j + n)
-        })
-}
-
-/// a + ib, one of them zero in every basis of the catalogue.
-fn complex(a: &Rational, b: &Rational) -> String {
-    if b.is_zero() {
-        return a.to_string();
-    }
-    let sign = if b.is_negative() { "-" } else { "" };
-    let size = b.abs();
-    let numerator = match size.numer() {
-        n if n.is_one() => "i".to_owned(),
-        n => format!("{n}i"),
-    };
-    let divisor = if size.is_integer() { String::new() } else { format!("/{}", size.denom()) };
-    let imaginary = format!("{sign}{numerator}{divisor}");
-    if a.is_zero() { imaginary } else { format!("{a}+{imaginary}") }
 }

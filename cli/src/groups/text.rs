@@ -10,8 +10,6 @@ const WIDTH: usize = 100;
 const WRITTEN_OUT: usize = 10;
 /// With more Casimirs than this only the first few are printed.
 const CASIMIRS: usize = 8;
-/// Larger matrices are written by their entries.
-const WIDEST: usize = 6;
 /// A formula longer than this is cut.
 const LONGEST: usize = 400;
 
@@ -90,47 +88,9 @@ fn basis(out: &mut String, facts: &Facts) {
         false => format!("{size} x {size} matrices"),
     };
     let _ = writeln!(out, "\nbasis: {kind}");
-    let shown = if facts.complex { size / 2 } else { size };
-    if shown > WIDEST {
-        out.push_str("  (E(a,b) has a one in row a and column b, and zeros elsewhere)\n");
-        for i in 0..facts.algebra.dim() {
-            let _ = writeln!(out, "  e{} = {}", i + 1, facts.entries(i));
-        }
-        out.push('\n');
-        return;
-    }
-    // Matrices side by side, as many as fit.
-    let mut row: Vec<Vec<String>> = Vec::new();
-    let mut wide = 0;
-    for i in 0..facts.algebra.dim() {
-        let lines = drawn(&format!("e{}", i + 1), &facts.matrix(i).unwrap_or_default());
-        let width = lines.first().map_or(0, |line| line.chars().count()) + 4;
-        if wide + width > WIDTH && !row.is_empty() {
-            print(out, &row);
-            row.clear();
-            wide = 0;
-        }
-        wide += width;
-        row.push(lines);
-    }
-    print(out, &row);
-}
-
-/// A matrix with its name before the middle row, all lines equally long.
-fn drawn(name: &str, rows: &[Vec<String>]) -> Vec<String> {
-    let wide = rows.iter().flatten().map(|entry| entry.chars().count()).max().unwrap_or(1);
-    let line = |(i, row): (usize, &Vec<String>)| {
-        let label = if i == (rows.len() - 1) / 2 { format!("{name} =") } else { String::new() };
-        let entries: Vec<String> = row.iter().map(|entry| format!("{entry:>wide$}")).collect();
-        format!("{label:<width$} ({})", entries.join(" "), width = name.len() + 2)
-    };
-    rows.iter().enumerate().map(line).collect()
-}
-
-fn print(out: &mut String, matrices: &[Vec<String>]) {
-    for i in 0..matrices.first().map_or(0, Vec::len) {
-        let parts: Vec<&str> = matrices.iter().map(|lines| lines[i].as_str()).collect();
-        let _ = writeln!(out, "  {}", parts.join("    "));
+    out.push_str("  (E(a,b) has a one in row a and column b, and zeros elsewhere)\n");
+    for (i, matrix) in facts.algebra.basis().unwrap_or_default().iter().enumerate() {
+        let _ = writeln!(out, "  e{} = {}", i + 1, facts.entries(matrix));
     }
     out.push('\n');
 }

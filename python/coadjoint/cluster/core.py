@@ -58,13 +58,11 @@ def pin(
     return job
 
 
-def columns(system: System, available: Sequence[str] | int) -> tuple[list[str], list[str], list[str]]:
+def columns(system: System, available: Sequence[str]) -> tuple[list[str], list[str], list[str]]:
     """The columns of a state among those of a file, in the order in which the steps want them, the others, and those of the
-    first that are parameters. A file without names has a width, which says what it holds."""
+    first that are parameters."""
     if not isinstance(system, System):
         raise InputError(f"system must be a coadjoint.System, not {type(system).__name__}")
-    if isinstance(available, int):
-        return _core(system.text).columns(None, available)[0], [], []
     names, places, others, varied = _core(system.text).columns(list(available), len(available))
     missing = [name for name, place in zip(names, places, strict=True) if place is None]
     if missing:

@@ -11,7 +11,7 @@ from .shard import Summary, Task, placed
 
 
 class Engine(Protocol):
-    """An engine that runs shards: this process, Dask, or Ray."""
+    """An engine that runs shards: this process, or Dask."""
 
     #: Shards handed over at a time.
     capacity: int

@@ -68,8 +68,6 @@ class Job:
         keep = [keep] if isinstance(keep, str) else listed(keep, "keep")
         available = self.states.columns
         for name in keep:
-            if isinstance(available, int):
-                raise InputError(f"keep: {name}: only .parquet files have columns with names")
             if name not in available:
                 raise InputError(f"keep: there is no column {name}; there are {', '.join(available)}")
             if name in self.columns:

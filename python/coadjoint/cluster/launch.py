@@ -10,7 +10,7 @@ from .._arrays import Backend, Numbers, Real, count, flag
 from .._progress import Progress
 from ..system import System
 from .drive import Engine
-from .engines import Dask, Here, Ray
+from .engines import Dask, Here
 from .errors import InputError
 from .job import Job
 from .result import Result
@@ -50,8 +50,8 @@ def run(
         The system.
     states : path, fsspec name, pattern, folder, or list
         ``.parquet`` with columns ``mu_1`` … ``mu_n`` and if you like the attitude (``g_11`` … ``g_dd``, or ``q_w``,
-        ``q_x``, ``q_y``, ``q_z`` on SO(3)), or ``.npy`` of that many columns. Rows of several files are counted
-        through, in the order of the list or of their names.
+        ``q_x``, ``q_y``, ``q_z`` on SO(3)). Rows of several files are counted through, in the order of the list or of
+        their names.
     out : path or fsspec name
         The folder: ``part-00000.parquet`` … with a row for every row of ``states``, and ``_run`` with the manifest,
         records of shards, and lists of bad rows.
@@ -67,16 +67,16 @@ def run(
     backend : str
         What makes the steps: see ``System.ensemble``. The bytes do not depend on it.
     client : optional
-        A ``distributed.Client``, or the module ``ray`` after ``ray.init()``. Without one, this process.
+        A ``distributed.Client``. Without one, this process.
     threads : int, optional
-        Threads of each worker, 1 if not given; with Ray, the processors that it reserves. Without a client, threads of this
-        process, one for each processor if not given.
+        Threads of each worker, 1 if not given. Without a client, threads of this process, one for each processor if
+        not given.
     rows_per_shard : int, optional
         How many rows make a shard; chosen by the number of steps if not given.
     share : (i, n), optional
         Only the share i of n of the shards, i from 1: for job arrays.
     keep : list of str
-        Other columns of ``.parquet`` files that go through unchanged.
+        Other columns that go through unchanged.
     attempts : int
         How often a shard is tried whose worker dies.
     restart : bool
@@ -111,7 +111,7 @@ def run(
             "restart with share: every job would remove what the others have made; remove the folder once, or begin "
             "anew by a call without share"
         )
-    engine = engine_of(client, threads)
+    engine = engine_of(client)
     job.settle(restart)
     return job.run(engine, attempts, threads, verify, progress)
 
@@ -120,13 +120,10 @@ def _processors() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def engine_of(client: Any, threads: int) -> Engine:
+def engine_of(client: Any) -> Engine:
     """The engine that runs the shards."""
     if client is None:
         return Here()
-    home = client.__name__ if hasattr(client, "__path__") else type(client).__module__
-    if home != "ray" and home.split(".")[0] != "distributed":
-        raise InputError(
-            f"client is {client!r}: a dask.distributed.Client, the module ray after ray.init(), or nothing is needed"
-        )
-    return Ray(client, threads) if home == "ray" else Dask(client)
+    if type(client).__module__.split(".")[0] != "distributed":
+        raise InputError(f"client is {client!r}: a dask.distributed.Client, or nothing, is needed")
+    return Dask(client)

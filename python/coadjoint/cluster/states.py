@@ -39,8 +39,8 @@ class States:
     """The files that together are the input, in their order. Rows are counted through all of them."""
 
     files: tuple[File, ...]
-    #: The names of the columns; numbers, where a file has a width only.
-    columns: tuple[str, ...] | int
+    #: The names of the columns.
+    columns: tuple[str, ...]
     #: The types of those that hold no numbers.
     others: dict[str, str]
 
@@ -70,7 +70,7 @@ def inspect(names: str | os.PathLike[str] | Sequence[str], options: dict[str, An
     if isinstance(names, np.ndarray) or hasattr(names, "columns"):
         raise InputError(
             "states is an array or a frame: for an ensemble that fits into memory call system.ensemble(states, ...), "
-            "or write it to a .npy or .parquet file and give the name of that"
+            "or write it to a .parquet file and give the name of that"
         )
     several = [names] if isinstance(names, (str, os.PathLike)) else listed(names, "states")
     found: list[tuple[Any, str, str]] = []
@@ -80,7 +80,7 @@ def inspect(names: str | os.PathLike[str] | Sequence[str], options: dict[str, An
         raise InputError(f"{names}: there is no such file")
     pieces = max(2, _PIECES // len(found))
     files: list[File] = []
-    columns: tuple[str, ...] | int | None = None
+    columns: tuple[str, ...] | None = None
     others: dict[str, str] = {}
     for fs, path, name in found:
         size = int(fs.info(path)["size"])
@@ -90,7 +90,7 @@ def inspect(names: str | os.PathLike[str] | Sequence[str], options: dict[str, An
             raise InputError(f"{name} has the columns {here}, the files before it have {columns}")
         columns = here
         files.append(File(name, size, rows, fingerprint(fs, path, size, pieces)))
-    return States(tuple(files), columns or 0, others)
+    return States(tuple(files), columns or (), others)
 
 
 def _expand(name: str, options: dict[str, Any] | None) -> list[tuple[Any, str, str]]:
@@ -110,25 +110,14 @@ def _expand(name: str, options: dict[str, Any] | None) -> list[tuple[Any, str, s
     return [(fs, each, fs.unstrip_protocol(each) if "://" in name else each) for each in paths]
 
 
-def _ending(name: str) -> str:
-    ending = name.rsplit(".", 1)[-1].lower()
-    if ending in ("parquet", "npy"):
-        return ending
-    if ending == "csv":
-        raise InputError(
-            f"{name}: rows of a .csv file cannot be found without reading all before them; convert it once: "
-            "pyarrow.parquet.write_table(pyarrow.csv.read_csv('states.csv'), 'states.parquet'), "
-            "or use the command, coadjoint ensemble --shard i/n, which reads it"
-        )
-    raise InputError(f"{name}: the name must end in .parquet or .npy")
-
-
-def _header(fs: Any, path: str, name: str) -> tuple[int, tuple[str, ...] | int, dict[str, str]]:
+def _header(fs: Any, path: str, name: str) -> tuple[int, tuple[str, ...], dict[str, str]]:
     """Rows, columns, and the types of those that hold no numbers."""
-    if _ending(name) == "npy":
-        with fs.open(path, "rb") as file:
-            shape, _, _ = _npy(file, name)
-        return shape[0], shape[1], {}
+    if not name.endswith(".parquet"):
+        raise InputError(
+            f"{name}: the name must end in .parquet; convert other files once, as by "
+            "pyarrow.parquet.write_table(pyarrow.csv.read_csv('states.csv'), 'states.parquet'), or "
+            "pyarrow.parquet.write_table(pyarrow.table(list(numpy.load('states.npy').T), names), 'states.parquet')"
+        )
     try:
         with fs.open(path, "rb") as file, pq.ParquetFile(file) as parquet:
             schema = parquet.schema_arrow
@@ -140,24 +129,6 @@ def _header(fs: Any, path: str, name: str) -> tuple[int, tuple[str, ...] | int, 
 
 def _is_number(kind: pa.DataType) -> bool:
     return bool(pa.types.is_floating(kind) or pa.types.is_integer(kind))
-
-
-def _npy(file: Any, name: str) -> tuple[tuple[int, int], np.dtype[Any], int]:
-    """Shape, type and length of the header."""
-    layout = np.lib.format
-    try:
-        version = layout.read_magic(file)
-        read: Any = layout.read_array_header_1_0 if version == (1, 0) else layout.read_array_header_2_0
-        shape, fortran, kind = read(file)
-    except ValueError as error:
-        raise InputError(f"{name}: {error}") from error
-    if len(shape) != 2:
-        raise InputError(f"{name}: the array has the shape {shape}; it must have two dimensions: states, columns")
-    if fortran and min(shape) > 1:
-        raise InputError(f"{name}: the array must be in C order (numpy.ascontiguousarray)")
-    if kind.kind not in "fiu":
-        raise InputError(f"{name}: its numbers are of the type {kind}; real floating-point numbers are needed")
-    return shape, kind, file.tell()
 
 
 def batches(
@@ -173,31 +144,9 @@ def batches(
     found = int(fs.info(path)["size"])
     if found != length:
         raise ShardError(f"{name} has {found} bytes; it had {length} when the run was planned")
-    read = _npy_batches if _ending(name) == "npy" else _parquet_batches
-    with fs.open(path, "rb") as file:
-        yield from read(file, name, start, stop, columns, keep, size)
-
-
-def _npy_batches(
-    file: Any, name: str, start: int, stop: int, columns: Sequence[str], keep: Sequence[str], size: int
-) -> Iterator[Batch]:
-    (_, width), kind, header = _npy(file, name)
-    file.seek(header + start * width * kind.itemsize)
-    while start < stop:
-        count = min(size, stop - start)
-        raw = file.read(count * width * kind.itemsize)
-        if len(raw) != count * width * kind.itemsize:
-            raise ShardError(f"{name} ends before its rows do")
-        yield np.frombuffer(raw, kind).reshape(count, width).astype(np.float64), None
-        start += count
-
-
-def _parquet_batches(
-    file: Any, name: str, start: int, stop: int, columns: Sequence[str], keep: Sequence[str], size: int
-) -> Iterator[Batch]:
     wanted = [*columns, *(column for column in keep if column not in columns)]
     # Buffered and not fetched ahead: memory stays small however large the row groups are.
-    with pq.ParquetFile(file, buffer_size=1 << 20, pre_buffer=False) as parquet:
+    with fs.open(path, "rb") as file, pq.ParquetFile(file, buffer_size=1 << 20, pre_buffer=False) as parquet:
         groups, before, first = [], 0, None
         for group in range(parquet.num_row_groups):
             rows = parquet.metadata.row_group(group).num_rows

@@ -57,15 +57,14 @@ def test_a_shard_whose_worker_died_is_made_again(serial, tmp_path, monkeypatch):
     support.same(out, tmp_path / "killed")
 
 
-def test_files_and_numpy_arrays_in_pieces_are_one_input(serial, tmp_path):
+def test_files_in_pieces_are_one_input(serial, tmp_path):
     states, out, _ = serial
     table = pq.read_table(states)
     folder = tmp_path / "pieces"
     folder.mkdir()
     for start, stop in [(0, 1), (1, 1999), (1999, 3000)]:
         pq.write_table(table.slice(start, stop - start), folder / f"part-{start:04}.parquet")
-    np.save(tmp_path / "states.npy", np.column_stack([table[name] for name in table.column_names]))
-    for name in (folder, f"file://{folder}/part-*.parquet", tmp_path / "states.npy"):
+    for name in (folder, f"file://{folder}/part-*.parquet"):
         run(name, tmp_path / "out", restart=True)
         found = {name: content for name, content in support.tree(tmp_path / "out").items() if "manifest" not in name}
         expected = {name: content for name, content in support.tree(out).items() if "manifest" not in name}

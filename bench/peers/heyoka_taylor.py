@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""heyoka (Taylor's method, compiled at run time) and SciPy on the benchmark's problems, as rows of the same table.
+"""heyoka (Taylor's method, compiled at run time) on the benchmark's problems, as rows of the same table.
 
-    python3 -m venv venv && venv/bin/pip install heyoka scipy numpy
-    venv/bin/python bench/peers/heyoka_scipy.py [--problem NAME] [--rounds N] [--scipy] [--ensemble wide|near]
+    python3 -m venv venv && venv/bin/pip install heyoka numpy
+    venv/bin/python bench/peers/heyoka_taylor.py [--problem NAME] [--rounds N] [--ensemble wide|near]
 
 Equations, initial states and references come from ../reference/end_states.json: y = (momentum, force, quaternion,
 position), the free bodies without force and position. An error is the largest difference of a component of the end
@@ -111,20 +111,6 @@ def heyoka_runs(problem):
         yield tolerance, run
 
 
-def scipy_runs(problem, method):
-    from scipy.integrate import solve_ivp
-
-    field = lambda _, y: problem.rates(y)
-    for k in range(3, 14):
-        tolerance = 10.0 ** -k
-
-        def run(tolerance=tolerance):
-            solution = solve_ivp(field, (0, problem.end), problem.initial, method=method, rtol=tolerance, atol=tolerance)
-            return solution.y[:, -1]
-
-        yield tolerance, run
-
-
 def measure(problem, runs, rounds):
     """[(error, nanoseconds per unit of time, tolerance)], timed round robin."""
     candidates = [(tolerance, run, problem.error(run())) for tolerance, run in runs]
@@ -203,7 +189,6 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--problem", action="append", help="only this problem; may be repeated")
     parser.add_argument("--rounds", type=int, default=15)
-    parser.add_argument("--scipy", action="store_true", help="SciPy's DOP853 and RK45 too (slow)")
     parser.add_argument("--ensemble", choices=("wide", "near"), help="heyoka's batches beside coadjoint with a tolerance alone")
     arguments = parser.parse_args()
     problems = [Problem(record) for record in json.loads(FILE.read_text())]
@@ -216,9 +201,6 @@ def main():
         print(f"\n## {problem.name}, T = {problem.end:g} (heyoka {heyoka.__version__}, SIMD {heyoka.recommended_simd_size()})\n")
         print("| method | " + " | ".join(f"{t:.0e}" for t in TARGETS) + " |\n|---|" + "---:|" * len(TARGETS))
         row("heyoka (scalar)", measure(problem, heyoka_runs(problem), arguments.rounds))
-        if arguments.scipy:
-            for method in ("DOP853", "RK45"):
-                row(f"SciPy {method}", measure(problem, scipy_runs(problem, method), 1))
 
 
 main()
