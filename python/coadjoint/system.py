@@ -42,7 +42,8 @@ class System:
     The other arguments are the keys of a system file: ``truncation`` K (odd; the method has order K + 1), ``chart``
     (``"exp"`` or ``"cayley"``), ``frame`` (``"auto"``, ``"fixed"`` or ``"comoving"``), ``solver``, ``method`` (``"series"`` or
     ``"collocation"``, if it is not to follow from the Hamiltonian), and for a ``potential`` V(g),
-    a polynomial in ``g[0][0]``, …, the ``splitting``. ``momentum``, ``group_element``, ``step`` or ``tolerance``,
+    a polynomial in ``g[0][0]``, …, the ``splitting``. ``damping`` is that of the double bracket, a number or one for each
+    coordinate. ``momentum``, ``group_element``, ``step`` or ``tolerance``,
     ``region`` and ``time`` are defaults of runs.
 
     >>> import numpy as np
@@ -72,6 +73,7 @@ class System:
         units: Mapping[str, str] | None = None,
         potential: str | sympy.Expr | None = None,
         torque: Iterable[str | sympy.Expr] | None = None,
+        damping: Real | str | Numbers | None = None,
         truncation: int | None = None,
         chart: str | None = None,
         solver: str | None = None,
@@ -115,6 +117,7 @@ class System:
             "hamiltonian": None if functions else formula("" if hamiltonian is None else hamiltonian, "hamiltonian"),
             "potential": formula(potential, "potential"),
             "torque": None if torque is None else _text.strings([_text.expression(own, "torque") for own in torque]),
+            "damping": exact(damping, "damping"),
         }
         tables = {
             "algebra": {} if whole else _text.algebra(group),

@@ -192,7 +192,7 @@ impl Core {
 
     /// Everything that the text says, and what follows from it.
     fn facts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let System { problem, potential, run, units, parameters } = &self.system;
+        let System { problem, potential, run, units, parameters, .. } = &self.system;
         let Facts { name, algebra, coordinates, truncation, .. } = problem.facts();
         let facts = PyDict::new(py);
         facts.set_item("name", name)?;
@@ -595,10 +595,8 @@ impl Core {
         truncation: usize,
         refused_rows: Vec<u64>,
     ) -> PyResult<String> {
-        if self.system.potential.is_some() {
-            let what =
-                "a system with a potential or a torque is not judged: between its kicks the motion is free";
-            return Err(refused(py, what.to_owned()));
+        if let Some(why) = verify::unjudged(&self.system) {
+            return Err(refused(py, why.to_owned()));
         }
         let (name, mut system) = (self.name.clone(), self.system.clone());
         system.problem.set_truncation(truncation);

@@ -129,6 +129,18 @@ def test_inputs_are_arrays() -> None:
         system.simulate(time=5)
 
 
+def test_damping_is_a_number_or_one_for_each_coordinate() -> None:
+    body = {"coordinates": "x y z", "step": 0.1, "momentum": START, "time": 5}
+    runs = [ca.System("SO3", "x^2/2 + y^2/4 + z^2/6", damping=own, **body).simulate() for own in ("1/10", [0.1, 0.1, 0.1])]
+    assert (runs[0].momentum == runs[1].momentum).all()
+    assert (np.diff(runs[0].energy) < 0).all()
+    assert runs[0].largest_drift.spatial_momentum < 1e-13
+    with pytest.raises(TypeError, match="damping acts"):
+        bool(runs[0].largest_drift.energy < 1)
+    with pytest.raises(InputError, match="must not be negative"):
+        ca.System("SO3", "x^2/2 + y^2/4", damping=-1, **body)
+
+
 def test_torques_are_lists_of_expressions() -> None:
     x, y, z, c = sympy.symbols("x y z c")
     system = ca.System(

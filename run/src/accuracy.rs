@@ -46,7 +46,7 @@ pub fn meet_tolerance(
     system: &mut System,
     asked: &Accuracy,
 ) -> Result<Option<Choice>, RunError> {
-    let System { problem, potential, run, .. } = &mut *system;
+    let System { problem, potential, damping, run, .. } = &mut *system;
     if let Hamiltonian::Polynomial(problem) = problem
         && let Some(other) =
             in_other_frame(problem).filter(|other| asked.comoving == Some(other.comoving.is_some()))
@@ -57,10 +57,14 @@ pub fn meet_tolerance(
     let Some(tolerance) = asked.tolerance.or(run.tolerance).filter(|_| !replaced) else {
         return Ok(None);
     };
-    if potential.is_some() {
-        return Err(RunError::Option(
-            "a tolerance says nothing of the kicks of a potential: give the step instead".into(),
-        ));
+    let what = match (potential, damping) {
+        (Some(_), _) => "the kicks of a potential",
+        (None, Some(_)) => "damping",
+        (None, None) => "",
+    };
+    if !what.is_empty() {
+        let what = format!("a tolerance says nothing of {what}: give the step instead");
+        return Err(RunError::Option(what));
     }
     let duration = asked.time.or(run.time).ok_or_else(|| RunError::no_time(path))?;
     let target = Target {

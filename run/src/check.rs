@@ -96,6 +96,9 @@ impl Trial {
 /// # Errors
 /// Where a step cannot be made.
 pub fn check(system: &Derived, trial: &Trial) -> Result<(Vec<Law>, Option<f64>), RunError> {
+    if system.damping.is_some() {
+        return Ok((laws_of_steps(system, trial, &system.group()?)?, None));
+    }
     let group = product_group(&system.file, system.facts().algebra)?;
     match &system.flow {
         Flow::Collocation(..) => Ok((laws_of_steps(system, trial, &group)?, None)),
@@ -187,6 +190,29 @@ fn laws_of_steps(
     let mut laws = printed(&tried);
     let expected = f64::from(system.order());
     laws.push(measured(h, expected, group, &starts, step));
+    if system.damping.is_some() {
+        let kept = |law: &Law| match system.invariants.directions {
+            None => !["Poisson", "symplectic"].contains(&law.name),
+            // A torque acts too.
+            Some(_) => law.name == "order",
+        };
+        laws.retain(kept);
+        laws.iter_mut().filter(|law| law.name == "order").for_each(|law| {
+            law.statement = "steps and damping: error ∝ h²";
+        });
+        if let Some(energy) = &system.invariants.hamiltonian {
+            let mut rise = f64::NEG_INFINITY;
+            for point in &points {
+                let mut end = point.clone();
+                step(h, 1, &mut end).map_err(RunError::at_start)?;
+                let [before, after] =
+                    [point, &end].map(|state| energy.value(state.momentum.as_slice()));
+                rise = maximum(rise, (after - before) / before.abs());
+            }
+            let (name, statement) = ("dissipative", "H(Φ(α)) ≤ H(α)");
+            laws.push(Law { name, statement, value: rise, bound: 1e-14, pass: rise <= 1e-14 });
+        }
+    }
     Ok(laws)
 }
 

@@ -53,8 +53,7 @@ impl<'a> Derivatives<'a> {
     }
 
     fn steps(&self) -> Result<&dyn Differentiable, RunError> {
-        let what =
-            "no derivatives are known of learned maps, of functions of the user's and of torques";
+        let what = "no derivatives are known of learned maps, of functions of the user's, of torques and of damping";
         self.motion.differentiable().ok_or_else(|| RunError::Option(what.to_owned()))
     }
 

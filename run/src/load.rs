@@ -17,8 +17,8 @@ use coadjoint_program::Trajectories;
 
 use crate::backend::Backend;
 use crate::engine::{
-    Charted, Compiled, Equations, Forces, Kept, Motion, Varied, collocated, product_group,
-    whole_group,
+    Charted, Compiled, Damped, Damper, Equations, Forces, Kept, Motion, Source, Varied, collocated,
+    product_group, whole_group,
 };
 use crate::error::RunError;
 use crate::inputs;
@@ -75,10 +75,11 @@ pub fn polynomial(
     lacking: &str,
     advice: &str,
 ) -> Result<system::System, RunError> {
-    let System { problem, potential, run, units, parameters } = system;
+    let System { problem, potential, damping, run, units, parameters } = system;
     match problem {
         Hamiltonian::Polynomial(problem) => {
-            Ok(system::System { problem: *problem, potential, run, units, parameters })
+            let problem = *problem;
+            Ok(system::System { problem, potential, damping, run, units, parameters })
         }
         Hamiltonian::Smooth(smooth) => Err(not_of_series(path, &smooth, lacking, advice)),
     }
@@ -112,7 +113,8 @@ pub fn read_group(name: &str, text: &str) -> Result<GroupChoice, RunError> {
 pub fn learned(model: &ModelFile) -> Result<System, RunError> {
     let run = Run { step: Some(model.step), ..Run::default() };
     let (problem, units) = (coadjoint_learn::problem(model, "learned")?, system::Units::default());
-    Ok(system::System { problem, potential: None, run, units, parameters: Vec::new() }.into())
+    let (potential, damping, parameters) = (None, None, Vec::new());
+    Ok(system::System { problem, potential, damping, run, units, parameters }.into())
 }
 
 /// Derives and lowers a problem.
@@ -146,6 +148,8 @@ pub struct Derived {
     pub file: PathBuf,
     /// The means by which they are made.
     pub flow: Flow,
+    /// The damping before and after each, where there is any.
+    pub damping: Option<Damper>,
     /// The conserved quantities.
     pub invariants: Invariants,
 }
@@ -195,9 +199,12 @@ impl Derived {
     /// # Errors
     /// As [`Derived::of`].
     pub fn of_file(file: &Path, system: System) -> Result<Self, RunError> {
-        let System { problem, potential, .. } = system;
+        let System { problem, potential, damping, .. } = system;
         let kicks = potential.as_ref().map(|(kicks, _)| kicks);
-        let invariants = Invariants::new(problem.facts().algebra, Energy::new(&problem), kicks);
+        let mut invariants = Invariants::new(problem.facts().algebra, Energy::new(&problem), kicks);
+        if damping.is_some() {
+            invariants.no_energy.get_or_insert("falls: damping acts");
+        }
         let flow = match problem {
             Hamiltonian::Polynomial(problem) => {
                 let integrator = with_kicks(file, *problem, potential.clone())?;
@@ -217,7 +224,11 @@ impl Derived {
                 Flow::Collocation(smooth, group, Kept::default())
             }
         };
-        Ok(Self { file: file.to_owned(), flow, invariants })
+        let mut derived = Self { file: file.to_owned(), flow, damping: None, invariants };
+        if let Some(rates) = damping {
+            derived.damping = Some(Damper { rates, group: Arc::new(derived.group()?) });
+        }
+        Ok(derived)
     }
 
     /// Whether all inputs have a value from time 0 to `end`.
@@ -251,8 +262,11 @@ impl Derived {
         }
     }
 
-    /// Whether states move alike at all times, so that many may move side by side.
+    /// Whether states move by programs alone and alike at all times, so that many may move side by side.
     pub fn alike(&self) -> bool {
+        if self.damping.is_some() {
+            return false;
+        }
         match &self.flow {
             Flow::Series(series) => {
                 let moves = |forces: &Forces| forces.kick.potential.moves();
@@ -325,14 +339,31 @@ impl Derived {
         compiled: Option<&Arc<Compiled>>,
     ) -> Result<Box<dyn Varied + '_>, StepError> {
         let parameters = self.facts().defaults();
-        match &self.flow {
+        let motion = match &self.flow {
             Flow::Series(series) => {
-                Ok(series.group.steps(series.equations(parameters), step, compiled.cloned()))
+                let equations = series.equations(parameters.clone());
+                series.group.steps(equations, step, compiled.cloned())
             }
             Flow::Collocation(smooth, group, _) => {
-                collocated(smooth, group, step, &parameters, compiled)
+                collocated(smooth, group, step, &parameters, compiled)?
             }
-        }
+        };
+        Ok(self.damped(motion, step, &parameters))
+    }
+
+    /// These steps, of this size, with damping before and after each where there is any.
+    fn damped<'a>(
+        &'a self,
+        motion: Box<dyn Varied + 'a>,
+        size: f64,
+        parameters: &[f64],
+    ) -> Box<dyn Varied + 'a> {
+        let Some(damper) = &self.damping else { return motion };
+        let energy = match &self.flow {
+            Flow::Series(series) => Source::Polynomial(&series.integrator.problem),
+            Flow::Collocation(smooth, ..) => Source::Smooth(smooth),
+        };
+        Box::new(Damped::new(motion, size, damper, energy, parameters))
     }
 
     /// The same for another size or other values of the parameters that are kept, by the same programs.
@@ -345,18 +376,22 @@ impl Derived {
         parameters: &[f64],
         compiled: Option<&Arc<Compiled>>,
     ) -> Result<Box<dyn Motion + '_>, StepError> {
-        match &self.flow {
+        let motion = match &self.flow {
             Flow::Series(series) => {
-                series.group.anew(series.equations(parameters.to_vec()), step, compiled)
+                series.group.anew(series.equations(parameters.to_vec()), step, compiled)?
             }
             Flow::Collocation(smooth, group, _) => {
-                Ok(collocated(smooth, group, step, parameters, compiled)?)
+                collocated(smooth, group, step, parameters, compiled)?
             }
-        }
+        };
+        Ok(self.damped(motion, step, parameters))
     }
 
-    /// The order of accuracy: K + 1, or that of the splitting where it is lower.
+    /// The order of accuracy: K + 1, or that of the splitting where it is lower; 2 with damping.
     pub fn order(&self) -> u32 {
+        if self.damping.is_some() {
+            return 2;
+        }
         let order = self.facts().truncation as u32 + 1;
         let forces = self.series().and_then(|series| series.forces.as_ref());
         forces.map_or(order, |forces| order.min(forces.splitting.order()))
@@ -364,7 +399,7 @@ impl Derived {
 
     /// The method of a run, in a few words.
     pub fn label(&self) -> String {
-        match &self.flow {
+        let mut label = match &self.flow {
             Flow::Series(series) => {
                 let problem = &series.integrator.problem;
                 let mut label = format!("K = {}, {}", problem.truncation, problem.chart);
@@ -377,6 +412,10 @@ impl Derived {
                 label
             }
             Flow::Collocation(smooth, ..) => format!("collocation, {} nodes", smooth.nodes()),
+        };
+        if self.damping.is_some() {
+            label.push_str(", damped");
         }
+        label
     }
 }

@@ -10,7 +10,7 @@ use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::problem::{FrameChoice, Method};
 use coadjoint_codegen::system::{Options, System};
 use coadjoint_learn::table::{Row, Table};
-use coadjoint_run::verify::{Follower, Found, Sample, judge_of};
+use coadjoint_run::verify::{Follower, Found, KICKED, Sample, judge_of, unjudged};
 use coadjoint_run::{RunError, polynomial, read_varying, text_hash};
 use serde_json::Value;
 
@@ -74,8 +74,6 @@ fn judge(
     output: &Path,
 ) -> Result<Found, CliError> {
     let refuse = |what: &str| Err(CliError::Option(format!("{}: {what}", output.display())));
-    let kicked =
-        "a system with a potential or a torque is not judged: between its kicks the motion is free";
     for (name, what) in [
         (
             "tuned",
@@ -86,7 +84,7 @@ fn judge(
             "the run was fitted: its generating function is not the exact series, and cannot be derived from the system file",
         ),
         ("model", "the run is of a learned map: there is no exact series to judge it by"),
-        ("splitting", kicked),
+        ("splitting", KICKED),
     ] {
         if table.value(name).is_some_and(|value| value != "false") {
             return refuse(what);
@@ -107,15 +105,16 @@ fn judge(
         ..Options::default()
     };
     let found = read_varying(&system.display().to_string(), &text, read, &[])?;
-    let System { problem, potential, run, parameters, .. } = polynomial(
+    let found = polynomial(
         &system,
         found,
         "there is no judge of it",
         "compare it with a run of half the step",
     )?;
-    if potential.is_some() {
-        return refuse(kicked);
+    if let Some(why) = unjudged(&found) {
+        return refuse(why);
     }
+    let System { problem, run, parameters, .. } = found;
     let step = options.step.or_else(|| number("step")).or(run.step);
     let step = step.ok_or_else(|| RunError::no_step(&system))?;
     let phase = progress::phase("deriving the judge");

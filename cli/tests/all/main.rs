@@ -3,6 +3,7 @@
 
 mod check;
 mod compilers;
+mod damping;
 mod derive_and_emit;
 mod device;
 mod docs;

@@ -95,12 +95,12 @@ fn a_ring_of_twelve_vortices_turns_at_the_known_rate() {
     assert!(distance(&[sum(0), sum(1), sum(2)], &[0.0, 0.0, 9.6]) < 1e-12, "{end:?}");
 }
 
-fn cross(a: &[f64], b: &[f64]) -> [f64; 3] {
+pub(crate) fn cross(a: &[f64], b: &[f64]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// Steps of the classical method of Runge and Kutta to this time.
-fn runge_kutta<const N: usize>(
+pub(crate) fn runge_kutta<const N: usize>(
     mut state: [f64; N],
     (time, steps): (f64, u32),
     rate: impl Fn(f64, &[f64; N]) -> [f64; N],

@@ -64,7 +64,7 @@ pub(super) fn copies(algebra: &LieAlgebra, each: usize) -> Option<usize> {
 
 /// A list of numbers, as many as the momentum has coordinates. In a power of a group it may be given for one copy:
 /// numbers, or expressions in the copy's number i, counted from 0.
-fn coordinates(
+pub(super) fn coordinates(
     table: &Table<'_>,
     key: &str,
     example: &str,

@@ -46,6 +46,7 @@
 //! finds where it changes its sign, in the `direction` up, down or both, and ends there with `stop = true`.
 
 mod algebra;
+mod damping;
 mod energies;
 mod event;
 mod initial;
@@ -89,6 +90,8 @@ pub struct System<H = Problem> {
     pub problem: H,
     /// The potential V(g), or the torque, if the file has one, and the splitting to compose its kicks by.
     pub potential: Option<(Potential, Splitting)>,
+    /// The diagonal of Γ, where there is double-bracket damping: μ̇ = ad\*_ω μ + ad\*_x μ with ω = ∂H/∂μ, x = Γ ad\*_ω μ.
+    pub damping: Option<Vec<f64>>,
     /// Where to start, how far and in which steps; each as far as the file says.
     pub run: Run,
     /// The units that plots and reports show.
@@ -108,6 +111,11 @@ impl System<Hamiltonian> {
                 "no code is written of a torque: `simulate`, `ensemble` and Python make its kicks";
             return Err(what.to_owned());
         }
+        if self.damping.is_some() {
+            let what =
+                "no code is written of damping: `simulate`, `ensemble` and Python make its steps";
+            return Err(what.to_owned());
+        }
         let signals = match &self.problem {
             Hamiltonian::Smooth(smooth) => &smooth.signals[..],
             Hamiltonian::Polynomial(_) => &[],
@@ -124,9 +132,9 @@ impl System<Hamiltonian> {
 
 impl From<System> for System<Hamiltonian> {
     fn from(system: System) -> Self {
-        let System { problem, potential, run, units, parameters } = system;
+        let System { problem, potential, damping, run, units, parameters } = system;
         let problem = Hamiltonian::Polynomial(Box::new(problem));
-        Self { problem, potential, run, units, parameters }
+        Self { problem, potential, damping, run, units, parameters }
     }
 }
 
@@ -254,6 +262,7 @@ fn system<H>(
         "hamiltonian",
         "potential",
         "torque",
+        "damping",
         "parameters",
         "inputs",
         "units",
@@ -290,6 +299,7 @@ fn system<H>(
     if integrator.as_ref().is_some_and(|table| table.has("truncation")) {
         run.truncation = choice.truncation;
     }
+    let damping = damping::read(&root, algebra.as_ref());
     let potential = energies::potential(&root, algebra.as_ref(), &parameters);
     let splitting = splitting::read(&root, integrator.as_ref());
     // Mistakes of both energies at once.
@@ -320,7 +330,7 @@ fn system<H>(
             }
         }
         let parameters = parameters.all();
-        return Some(System { problem, potential: None, run, units, parameters });
+        return Some(System { problem, potential: None, damping, run, units, parameters });
     };
     if let Some(velocity) = velocity {
         run.momentum = initial::momentum(known, &velocity, &root);
@@ -329,7 +339,7 @@ fn system<H>(
         let splitting = splitting::choose(splitting, known, &potential, diagnostics);
         (potential, splitting)
     });
-    Some(System { problem, potential, run, units, parameters: parameters.all() })
+    Some(System { problem, potential, damping, run, units, parameters: parameters.all() })
 }
 
 /// The name of the system.

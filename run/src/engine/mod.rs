@@ -3,6 +3,7 @@
 mod card;
 mod collocation;
 mod compiled;
+mod damping;
 mod interpreter;
 mod kick;
 mod linear;
@@ -14,6 +15,8 @@ mod tangent;
 pub(crate) use card::{card, device_text};
 pub(crate) use collocation::collocated;
 pub use compiled::{Compiled, Folded, Kept, Numbers, Solves};
+pub use damping::Damper;
+pub(crate) use damping::{Damped, Source};
 pub(crate) use interpreter::Interpreter;
 pub use interpreter::STEEP;
 pub(crate) use kick::Map;

@@ -164,7 +164,7 @@ impl Charted {
         equations: Equations<'a>,
         size: f64,
         compiled: Option<&Arc<Compiled>>,
-    ) -> Result<Box<dyn Motion + 'a>, StepError> {
+    ) -> Result<Box<dyn Varied + 'a>, StepError> {
         let Equations { integrator, parameters, .. } = &equations;
         let folded =
             compiled.map(|compiled| compiled.fold(Origin::Series(integrator), size, parameters));

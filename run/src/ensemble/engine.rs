@@ -186,7 +186,7 @@ impl<'a> Engine<'a> {
         } else if how.device.is_some() {
             let what = match alike {
                 true => {
-                    "--device: steps that depend on time, or that call a function, are not made on devices"
+                    "--device: steps that depend on time, or with damping, or that call a function, are not made on devices"
                 }
                 false => "--device: parameters that vary from row to row are not made on devices",
             };

@@ -85,8 +85,9 @@ impl Watched<'_> {
         };
         let kicked = directions.is_some();
         let none = if kicked { "none that the kicks keep" } else { "none known" };
-        let energy = no_energy.unwrap_or("not known: a learned map has no Hamiltonian");
-        [spatial, casimirs.is_empty().then_some(none), hamiltonian.is_none().then_some(energy)]
+        let unknown = "not known: a learned map has no Hamiltonian";
+        let energy = no_energy.or_else(|| hamiltonian.is_none().then_some(unknown));
+        [spatial, casimirs.is_empty().then_some(none), energy]
     }
 }
 
@@ -193,8 +194,10 @@ impl<'a> Recorder<'a> {
         nudge(&mut beside.g);
         nudge(&mut beside.mu);
         let mut drift = self.start.measured(&now, conserved(&beside)).numbers();
-        for (drift, since) in drift.iter_mut().zip(self.tally.unmeasured) {
-            if since.is_some() {
+        let unmeasured = self.tally.unmeasured.iter().map(Option::is_some);
+        let unknown = self.unknown.iter().map(Option::is_some);
+        for (drift, (since, unknown)) in drift.iter_mut().zip(unmeasured.zip(unknown)) {
+            if since || unknown {
                 *drift = f64::NAN;
             }
         }

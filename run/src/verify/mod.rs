@@ -7,5 +7,22 @@ mod follow;
 mod found;
 mod states;
 
+use coadjoint_codegen::system::System;
+
 pub use follow::{Follower, Sample, judge_of};
 pub use found::Found;
+
+/// Why runs with kicks are not judged.
+pub const KICKED: &str =
+    "a system with a potential or a torque is not judged: between its kicks the motion is free";
+
+/// Why the runs of a system are not judged, where they are not.
+pub fn unjudged<H>(system: &System<H>) -> Option<&'static str> {
+    match (&system.potential, &system.damping) {
+        (Some(_), _) => Some(KICKED),
+        (None, Some(_)) => {
+            Some("a system with damping is not judged: its steps are those of two motions")
+        }
+        (None, None) => None,
+    }
+}

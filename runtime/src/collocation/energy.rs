@@ -49,6 +49,9 @@ pub struct Undefined {
     pub argument: f64,
 }
 
+/// One of which nothing is known.
+pub(super) const UNKNOWN: Undefined = Undefined { expression: "∂H/∂μ", argument: f64::NAN };
+
 impl<V, F, D> Energy<V> for (F, D)
 where
     V: Coordinates<f64>,

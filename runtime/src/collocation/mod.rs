@@ -15,12 +15,14 @@
 //! on other groups, and on products that of each factor. Gauss's method: E. Hairer, C. Lubich, G. Wanner, *Geometric
 //! Numerical Integration*, II.1.3.
 
+mod damping;
 mod energy;
 mod rates;
 mod solution;
 mod solving;
 
 pub use coadjoint_program::collocation::MAX_NODES;
+pub use damping::Damping;
 pub use energy::{Energy, Undefined};
 pub use solution::{Node, Solution};
 
@@ -271,8 +273,7 @@ where
         at: Circumstances,
     ) -> StepError {
         let known = self.energy.undefined(time, node);
-        let Undefined { expression, argument } =
-            known.unwrap_or(Undefined { expression: "∂H/∂μ", argument: f64::NAN });
+        let Undefined { expression, argument } = known.unwrap_or(energy::UNKNOWN);
         let at = (node != mu).then_some(at);
         StepError::Undefined { expression, argument, time, at }
     }

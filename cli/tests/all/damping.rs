@@ -1,0 +1,131 @@
+//! Damping by the double bracket: what it keeps, what falls, and its own equations.
+
+use crate::smooth_examples::{cross, runge_kutta};
+use crate::support::{Folder, distance, json, numbers, text_of};
+
+/// Π' = Π × (ω + α Π × ω) and R' = R (ω + α Π × ω)^: state Π, then the columns of Rᵀ, each of which turns as Π does.
+#[test]
+fn a_damped_body_moves_as_its_own_equations_say() {
+    let [a, inertia] = [[0.02; 3], [1.0, 2.0, 3.0]];
+    let start = [2.0, 0.1, 0.2, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+    let expected = runge_kutta(start, (20.0, 20_000), |_, state| {
+        let omega: [f64; 3] = std::array::from_fn(|i| state[i] / inertia[i]);
+        let lost = cross(&state[..3], &omega);
+        let turn: [f64; 3] = std::array::from_fn(|i| omega[i] + a[i] * lost[i]);
+        std::array::from_fn(|i| cross(&state[i / 3 * 3..][..3], &turn)[i % 3])
+    });
+    let error = |step: f64| {
+        let report = json(&format!("simulate examples/damped_body.toml --time 20 --step {step}"));
+        let rows = report["group_element_blocks"][0]["matrix"].as_array().unwrap();
+        let state = [numbers(&report["momentum"]), rows.iter().flat_map(numbers).collect()];
+        distance(&state.concat(), &expected)
+    };
+    let [coarse, fine] = [error(0.05), error(0.025)];
+    assert!(fine < 2e-6 && (coarse / fine - 4.0).abs() < 0.1, "{coarse:e} {fine:e}");
+}
+
+#[test]
+fn a_damped_body_ends_about_its_major_axis() {
+    let folder = Folder::with(&text_of("examples/damped_body.toml"));
+    let report = folder.json("simulate system.toml --out out.csv");
+    let drift = |name: &str| report["drift"][name].as_f64();
+    assert!(drift("spatial_momentum").unwrap() < 1e-12, "{report}");
+    assert!(drift("casimirs").unwrap() < 1e-12, "{report}");
+    assert!(drift("energy").is_none(), "{report}");
+    let [size, mu] = [4.05_f64.sqrt(), numbers(&report["momentum"])[2].abs()];
+    assert!((mu - size).abs() < 1e-6, "{report}");
+    let table = folder.table("out.csv");
+    let place = table[0].iter().position(|name| name == "energy").unwrap();
+    let energies: Vec<f64> = table[1..].iter().map(|row| row[place].parse().unwrap()).collect();
+    assert!(energies.len() > 2000 && energies.windows(2).all(|pair| pair[1] < pair[0]));
+    assert!((energies[energies.len() - 1] - 4.05 / 6.0).abs() < 1e-6);
+    folder.run("simulate system.toml").ok().prints(&["damped", "falls: damping acts"]);
+}
+
+const REST: &str = "[integrator]\nstep = 0.1\n[initial]\nmomentum = ";
+
+/// Laws of steps with damping, on groups of all kinds and Hamiltonians of both.
+#[test]
+fn damping_keeps_what_it_is_said_to_keep() {
+    for (text, laws) in [
+        (
+            "group = \"SE3\"\nhamiltonian = \"mu[0]^2/2 + mu[1]^2/3 + mu[2]^3/9 + mu[3]^2/2 + mu[0]*mu[4]/5\"\n\
+          damping = [0.1, 0.2, 0, 0.1, 0.3, \"1/7\"]",
+            6,
+        ),
+        (
+            "group = \"SO3^2\"\ncoordinates = \"x y z\"\n\
+          hamiltonian = \"sum(i, 0..2, x[i]^2 - z[i]^4/4) + x[0]*x[1] + y[0]*y[1] + z[0]*z[1]\"\ndamping = [a, \"a\", \"a\"]\n\
+          [parameters]\na = 0.2",
+            6,
+        ),
+        (
+            "group = \"SO3\"\nhamiltonian = \"sqrt(1 + mu[0]^2 + mu[1]^2/2 + mu[2]^2/3)\"\ndamping = 0.3",
+            6,
+        ),
+        ("group = \"SO3\"\nhamiltonian = \"mu[0]^2 + cos(t)*mu[1]*mu[2]\"\ndamping = 0.3", 4),
+        (
+            "group = \"SO3\"\nhamiltonian = \"mu[0]^2 + mu[1]*mu[2]\"\ndamping = 0.3\ntorque = [\"t\", \"g[0][1]\", \"0\"]",
+            1,
+        ),
+    ] {
+        let text = text.replace("[a, ", "[\"a\", ");
+        let copies = if text.contains("SE3") || text.contains("^2\"\nc") { 6 } else { 3 };
+        let momentum = &[0.7, -0.4, 0.9, 0.3, -0.5, 0.2][..copies];
+        let folder = Folder::with(&format!("{text}\n{REST}{momentum:?}\n[run]\ntime = 2\n"));
+        let report = folder.json("check system.toml");
+        let found = report["laws"].as_array().unwrap();
+        assert!(found.iter().all(|law| law["pass"] == true), "{text}: {report}");
+        assert_eq!(found.len(), laws, "{text}: {report}");
+        let report = folder.json("simulate system.toml");
+        assert!(report["drift"]["energy"].is_null(), "{text}: {report}");
+        if laws > 1 {
+            let drift = |name: &str| report["drift"][name].as_f64().unwrap();
+            assert!(drift("spatial_momentum").max(drift("casimirs")) < 1e-13, "{text}: {report}");
+        }
+    }
+}
+
+/// Rows are runs, also where a parameter varies; runs stop between steps and go on as they would have.
+#[test]
+fn damping_goes_through_every_door() {
+    let text = text_of("examples/damped_body.toml").replace("time = 300", "time = 2");
+    let folder = Folder::with(&text);
+    folder.write("in.csv", "mu_1,mu_2,mu_3,I2\n2,0.1,0.2,2\n2,0.1,0.2,1.5\n");
+    folder.json("ensemble system.toml --initial in.csv --out out.csv");
+    let table = folder.table("out.csv");
+    for (row, inertia) in [(1, "I2 = 2.0"), (2, "I2 = 1.5")] {
+        let found: Vec<f64> = table[row][..3].iter().map(|x| x.parse().unwrap()).collect();
+        let single = Folder::with(&text.replace("I2 = 2.0", inertia));
+        let single = numbers(&single.json("simulate system.toml")["momentum"]);
+        assert!(distance(&found, &single) < 1e-13, "{found:?} {single:?}");
+    }
+    for (command, word) in [
+        ("emit system.toml", "no code is written of damping"),
+        ("emit system.toml --language c", "no code is written of damping"),
+        ("simulate system.toml --tolerance 1e-6", "a tolerance says nothing of damping"),
+        ("verify system.toml out.csv", "a system with damping is not judged"),
+    ] {
+        folder.run(command).fails(2, &[word]);
+    }
+    folder.write("in.csv", "mu_1,mu_2,mu_3,a\n2,0.1,0.2,2\n");
+    folder.run("ensemble system.toml --initial in.csv --out out.csv").fails(
+        2,
+        &["cannot vary from row to row: it is a number of the algebra or of the damping"],
+    );
+    for (damping, more, word) in [
+        ("-0.1", "", "must not be negative"),
+        ("[0.1, 0.2]", "", "2"),
+        ("\"b\"", "", "unknown variable `b`"),
+        ("true", "", "a number"),
+        ("0.1", "potential = \"g[2][2]\"\n", "`damping` is not for a system with a potential"),
+    ] {
+        let own = format!("{more}damping = {damping}");
+        Folder::with(&text.replace("damping = \"a\"", &own))
+            .run("simulate system.toml")
+            .fails(2, &[word]);
+    }
+    // Too long for the damping, not for the step.
+    let strong = Folder::with(&text.replace("a = 0.02", "a = 20"));
+    strong.run("simulate system.toml").fails(1, &["did not converge", "works here"]);
+}

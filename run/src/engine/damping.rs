@@ -1,0 +1,206 @@
+//! Half a step of damping before and after each step, whatever makes these.
+
+use std::sync::Arc;
+
+use coadjoint::collocation::{Damping, Energy, Undefined};
+use coadjoint::groups::{DirectProduct, MatrixGroup};
+use coadjoint::{Phase, StepError};
+use coadjoint_codegen::poly::Numeric;
+use coadjoint_codegen::problem::Problem;
+use coadjoint_codegen::smooth::Smooth;
+use nalgebra::DVector;
+
+use super::compiled::{Folded, Numbers, Solves};
+use super::interpreter::symbols;
+use super::motion::{Motion, Varied, advise, one_by_one};
+use super::space::{Space, entries_of, phase_of};
+use crate::error::kept;
+
+/// The group of the states that are damped.
+type Group = DirectProduct<MatrixGroup>;
+
+/// Moves a state by a step of damping from this time, of this length.
+type Damp<'a> =
+    Box<dyn Fn(&mut Phase<Group>, f64, f64) -> Result<(), StepError> + Send + Sync + 'a>;
+
+/// Damping by the double bracket.
+#[derive(Clone, Debug)]
+pub struct Damper {
+    /// The diagonal of Γ.
+    pub rates: Vec<f64>,
+    /// The group.
+    pub group: Arc<Group>,
+}
+
+/// The Hamiltonian of the steps.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Source<'a> {
+    /// A polynomial.
+    Polynomial(&'a Problem),
+    /// Another smooth function.
+    Smooth(&'a Smooth),
+}
+
+/// The same for values of the parameters that are kept.
+enum Given<'a> {
+    Polynomial(Numeric, Vec<Numeric>),
+    Smooth(&'a Smooth, Vec<f64>),
+}
+
+impl<'a> Source<'a> {
+    fn given(self, parameters: &[f64]) -> Given<'a> {
+        match self {
+            Self::Polynomial(problem) => {
+                let (dim, symbols) = (problem.algebra.dim(), symbols(problem, parameters));
+                let value = Numeric::new(&problem.hamiltonian, dim, &symbols);
+                let gradient = value.gradient(dim);
+                Given::Polynomial(value, gradient)
+            }
+            Self::Smooth(smooth) => Given::Smooth(smooth, smooth.symbols_at(parameters)),
+        }
+    }
+}
+
+impl Energy<DVector<f64>> for Given<'_> {
+    fn value(&self, time: f64, mu: &DVector<f64>) -> f64 {
+        match self {
+            Self::Polynomial(value, _) => value.value(mu.as_slice()),
+            Self::Smooth(smooth, symbols) => smooth.energy(symbols, time, mu.as_slice()),
+        }
+    }
+
+    fn gradient(&self, time: f64, mu: &DVector<f64>) -> DVector<f64> {
+        let slope = match self {
+            Self::Polynomial(_, slopes) => {
+                slopes.iter().map(|slope| slope.value(mu.as_slice())).collect()
+            }
+            Self::Smooth(smooth, symbols) => smooth.gradient(symbols, time, mu.as_slice()),
+        };
+        DVector::from_vec(slope)
+    }
+
+    fn undefined(&self, time: f64, mu: &DVector<f64>) -> Option<Undefined> {
+        let Self::Smooth(smooth, symbols) = self else { return None };
+        let (number, argument) = smooth.undefined(symbols, time, mu.as_slice())?;
+        Some(Undefined { expression: kept(&smooth.expressions[number]), argument })
+    }
+}
+
+/// Steps between halves of damping.
+pub(crate) struct Damped<'a> {
+    motion: Box<dyn Varied + 'a>,
+    size: f64,
+    damper: &'a Damper,
+    energy: Source<'a>,
+    damp: Result<Damp<'a>, StepError>,
+}
+
+impl<'a> Damped<'a> {
+    /// Of these steps, of this size, for these values of the parameters that are kept.
+    pub(crate) fn new(
+        motion: Box<dyn Varied + 'a>,
+        size: f64,
+        damper: &'a Damper,
+        energy: Source<'a>,
+        parameters: &[f64],
+    ) -> Self {
+        Self { motion, size, damper, energy, damp: damp(damper, energy, parameters) }
+    }
+
+    /// `step` from this time, of this size, between halves of damping.
+    fn around<T>(
+        &self,
+        state: &mut Numbers,
+        [time, size]: [f64; 2],
+        step: impl FnOnce(&mut Numbers) -> Result<T, StepError>,
+    ) -> Result<T, StepError> {
+        let mut next = state.clone();
+        self.half(&mut next, time, size)?;
+        let made = step(&mut next)?;
+        self.half(&mut next, time + size, size)?;
+        *state = next;
+        Ok(made)
+    }
+
+    /// Half of the damping of a step of this size.
+    fn half(&self, state: &mut Numbers, time: f64, size: f64) -> Result<(), StepError> {
+        let damp = self.damp.as_ref().map_err(|error| *error)?;
+        let (group, space) = (&*self.damper.group, self.motion.space());
+        let mut phase = phase_of(group, &space.matrix(&state.g), &state.mu);
+        damp(&mut phase, time, 0.5 * size).map_err(|error| {
+            advise(error, size, |size| damp(&mut phase.clone(), time, 0.5 * size).is_ok())
+        })?;
+        let g = space.numbers(&entries_of(group, &phase.group_element));
+        *state = Numbers { g, mu: phase.momentum.as_slice().to_vec() };
+        Ok(())
+    }
+}
+
+/// The damping of this Hamiltonian: its mean slope is that in the middle where it is quadratic.
+fn damp<'a>(
+    damper: &Damper,
+    energy: Source<'a>,
+    parameters: &[f64],
+) -> Result<Damp<'a>, StepError> {
+    let (group, given) = ((*damper.group).clone(), energy.given(parameters));
+    let rates = DVector::from_column_slice(&damper.rates);
+    if matches!(energy, Source::Polynomial(problem) if problem.is_quadratic()) {
+        let damping = Damping::<_, _, 1>::new(group, given, rates)?;
+        return Ok(Box::new(move |phase, time, length| {
+            damping.advance(phase, time, length).map(drop)
+        }));
+    }
+    let damping = Damping::<_, _, 8>::new(group, given, rates)?;
+    Ok(Box::new(move |phase, time, length| damping.advance(phase, time, length).map(drop)))
+}
+
+impl Motion for Damped<'_> {
+    fn space(&self) -> &dyn Space {
+        self.motion.space()
+    }
+
+    fn advance(
+        &self,
+        state: &mut Numbers,
+        first: u64,
+        count: u64,
+    ) -> Result<Solves, (u64, StepError)> {
+        let mut number = first;
+        one_by_one(count, || {
+            let place = [number as f64 * self.size, self.size];
+            let solved = self.around(state, place, |state| {
+                self.motion.advance(state, number, 1).map_err(|(_, error)| error)
+            });
+            number += 1;
+            solved
+        })
+    }
+
+    fn beside(&self, state: &Numbers, time: f64, size: f64) -> Result<Numbers, StepError> {
+        let mut next = state.clone();
+        self.around(&mut next, [time, size], |state| {
+            *state = self.motion.beside(state, time, size)?;
+            Ok(())
+        })?;
+        Ok(next)
+    }
+
+    fn one_at(&self, state: &mut Numbers, time: f64) -> Result<(), StepError> {
+        self.around(state, [time, self.size], |state| self.motion.one_at(state, time))
+    }
+
+    fn ratio(&self, mu: &[f64]) -> f64 {
+        self.motion.ratio(mu)
+    }
+
+    fn defined(&self, state: &Numbers) -> Result<(), StepError> {
+        self.motion.defined(state)
+    }
+}
+
+impl Varied for Damped<'_> {
+    fn vary(&mut self, parameters: &[f64], folded: Option<Folded>) {
+        self.motion.vary(parameters, folded);
+        self.damp = damp(self.damper, self.energy, parameters);
+    }
+}
