@@ -55,6 +55,11 @@ pub(crate) fn run(options: &CheckOptions) -> Result<(), CliError> {
             "{name}: group {group}, {method}, h = {step}, {points} random points {place} (seed {seed})"
         );
         ratio.iter().for_each(|&ratio| outln!("  warning: {}", steep(ratio)));
+        let forces = system.series().and_then(|series| series.forces.as_ref());
+        let torque = forces.and_then(|forces| forces.kick.potential.alone());
+        if torque.is_some() && system.damping.is_none() {
+            outln!("  the flow between kicks, whose laws the torque breaks:");
+        }
         laws.iter().for_each(|law| outln!("  {}", line(law)));
     }
     let failed: Vec<&str> = laws.iter().filter(|law| !law.pass).map(|law| law.name).collect();

@@ -58,11 +58,11 @@ pub enum StepError {
         /// The circumstances of the step.
         at: Circumstances,
     },
-    /// The energy or its gradient is not finite at a momentum that the step needs: outside the domain of a function, or at
+    /// The energy, its gradient or a torque is not finite at a momentum that the step needs: outside the domain of a function, or at
     /// a pole.
-    #[error("the energy is not defined at time {time}: {expression} {}{}", Of(*argument), Hint(at))]
+    #[error("an expression is not defined at time {time}: {expression} {}{}", Of(*argument), Hint(at))]
     Undefined {
-        /// The expression as the Hamiltonian has it.
+        /// The expression as the Hamiltonian or the torque has it.
         expression: &'static str,
         /// The value its function is given; NaN where it is not known.
         argument: f64,

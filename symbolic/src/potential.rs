@@ -87,6 +87,29 @@ impl Programs {
         Self { value, torque, watched, expressions, of_momentum, moves, signals }
     }
 
+    /// This torque and that of a potential, given by programs with this many slots. The sum has no potential.
+    #[must_use]
+    pub fn beside(self, algebra: &LieAlgebra, potential: &Self, slots: usize) -> Self {
+        let entries = algebra.matrix_size().pow(2);
+        let count = entries + algebra.dim() + 1 + self.signals.len();
+        let both = |[of_potential, own]: [&Program; 2],
+                    join: &dyn Fn(&Graph, Vec<Id>, Vec<Id>) -> Vec<Id>| {
+            let graph = Graph::new();
+            let inputs: Vec<Id> = (0..count).map(|at| graph.input(at)).collect();
+            let first = graph.call(of_potential, &inputs[..entries]);
+            let second = graph.call_from(own, &inputs, slots);
+            let outputs = join(&graph, first, second);
+            graph.finish(count, &outputs)
+        };
+        let torque = both([&potential.torque, &self.torque], &|graph, first, second| {
+            first.into_iter().zip(second).map(|(a, b)| graph.add(a, b)).collect()
+        });
+        let watched =
+            both([&potential.watched, &self.watched], &|_, first, second| [first, second].concat());
+        let expressions = [potential.expressions.clone(), self.expressions].concat();
+        Self { torque, watched, expressions, ..self }
+    }
+
     /// The inputs of the programs for these entries of the matrix, this momentum and this time.
     #[must_use]
     pub fn inputs(&self, entries: &[f64], mu: &[f64], time: f64) -> Vec<f64> {

@@ -1,5 +1,6 @@
 //! `simulate` with a potential: the reference of the satellite, what is conserved, mistakes.
 
+use crate::smooth_examples::{cross, runge_kutta};
 use crate::support::{Folder, distance, json, numbers, text_of};
 use serde_json::Value;
 
@@ -189,6 +190,7 @@ fn torques_without_potential() {
     let row: Vec<f64> = driven.table("out.csv")[1].iter().map(|x| x.parse().unwrap()).collect();
     let single = numbers(&driven.json("simulate system.toml")["momentum"]);
     assert!(distance(&row, &single) < 1e-13, "{row:?} {single:?}");
+    rubbed.run("check system.toml").ok().prints(&["whose laws the torque breaks"]);
     let laws = rubbed.json("check system.toml");
     let laws = laws["laws"].as_array().unwrap();
     assert!(
@@ -199,11 +201,7 @@ fn torques_without_potential() {
     for (torque, more, word) in [
         ("[\"x\", \"y\"]", "", "`torque` has 2 components, and the momentum 3"),
         ("[\"x\", \"y\", \"w\"]", "", "unknown variable `w`"),
-        (
-            "[\"x\", \"y\", \"z\"]\npotential = \"g[0][0]\"",
-            "",
-            "both `potential` and `torque` are given",
-        ),
+        ("[\"x\", \"y\", \"w\"]", "", "x, y, z, t"),
         (
             "[\"x\", \"y\", \"z\"]",
             "[inputs]\ntimes = [0, 9]\nu = [0, 1]\n",
@@ -248,4 +246,97 @@ fn potentials_are_any_functions() {
         let drift = other["drift"][name].as_f64().unwrap();
         assert!(drift < if name == "energy" { 1e-6 } else { 1e-13 }, "{name} {drift:e}");
     }
+}
+
+/// The momentum and the rows of the group element at the end of a run, and its report.
+fn end(report: &Value) -> Vec<f64> {
+    let rows = report["group_element_blocks"][0]["matrix"].as_array().unwrap();
+    [numbers(&report["momentum"]), rows.iter().flat_map(numbers).collect()].concat()
+}
+
+/// A spring, friction and a driving table: as one torque, and as a potential beside a torque.
+#[test]
+fn a_potential_and_a_torque_act_together() {
+    let system = |forces: &str| {
+        Folder::with(&format!(
+            "group = \"SO3\"\ncoordinates = \"x y z\"\nhamiltonian = \"x^2/2 + y^2/3 + z^2/4\"\n{forces}\n[parameters]\n\
+             w = 1.3\nc = 0.2\n[inputs]\ntimes = [0, 1, 2]\nu = [1, 2, 5]\n[integrator]\nstep = 0.05\n[initial]\n\
+             momentum = [0.3, -0.2, 0.5]\n[run]\ntime = 2\n"
+        ))
+    };
+    let both = system("potential = \"w*g[2][2]\"\ntorque = [\"-c*x\", \"-c*y\", \"u - c*z\"]");
+    let one = system("torque = [\"w*g[2][1] - c*x\", \"-w*g[2][0] - c*y\", \"u - c*z\"]");
+    let report = both.json("simulate system.toml");
+    for name in ["spatial_momentum", "casimirs", "energy"] {
+        assert!(report["drift"][name].is_null(), "{report}");
+    }
+    for backend in ["interpreter", "auto"] {
+        let run = format!("simulate system.toml --backend {backend}");
+        let [both, one] = [&both, &one].map(|folder| end(&folder.json(&run)));
+        assert!(distance(&both, &one) < 1e-14, "{both:?} {one:?}");
+    }
+    let said = both.run("simulate system.toml").ok();
+    said.prints(&["strang", "not conserved: a torque acts", "energy           not conserved"]);
+    both.run("emit system.toml").fails(2, &["no code is written of a torque"]);
+    // Without the momentum in it the order is four.
+    let driven = system("potential = \"w*sqrt(2 + g[2][2])\"\ntorque = [\"0\", \"0\", \"u\"]");
+    let at = |step: f64| end(&driven.json(&format!("simulate system.toml --step {step}")));
+    let exact = at(0.003125);
+    let [coarse, fine] = [0.1, 0.05].map(|step| distance(&at(step), &exact));
+    assert!(coarse / fine > 12.0 && fine < 1e-4, "{coarse:e} {fine:e}");
+    for (forces, word) in [
+        ("potential = \"ln(g[2][2] - 0.9)\"\ntorque = [\"u\", \"0\", \"0\"]", "ln(g[2][2] - 9/10)"),
+        ("potential = \"w*g[2][2]\"\ntorque = [\"ln(x - u)\", \"0\", \"0\"]", "ln(x - u)"),
+    ] {
+        let left = system(forces).run("simulate system.toml");
+        left.fails(1, &["is not defined at time", word]);
+    }
+    let wrong = system("potential = \"2\"\ntorque = [\"-x\", \"u\", \"v\"]");
+    wrong.run("simulate system.toml").fails(2, &["does not depend on", "unknown variable `v`"]);
+}
+
+/// Π' = Π × ω + m × RᵀB(t) − c ω, and each row r of R turns as r' = r × ω.
+#[test]
+fn a_magnet_in_the_field_of_the_earth_moves_as_its_own_equations_say() {
+    let start = [4.0, -2.0, 3.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+    let expected = runge_kutta(start, (3.0, 60_000), |t, state| {
+        let omega: [f64; 3] = std::array::from_fn(|i| state[i] / [1.0, 1.2, 0.6][i]);
+        // The field of a dipole −z at the unit vector r.
+        let r = [t.cos(), 0.0, t.sin()];
+        let field: [f64; 3] = std::array::from_fn(|i| [0.0, 0.0, 1.0][i] - 3.0 * r[2] * r[i]);
+        let body: [f64; 3] =
+            std::array::from_fn(|i| (0..3).map(|j| state[3 + 3 * j + i] * field[j]).sum());
+        let torque = cross(&[0.0, 0.0, 30.0], &body);
+        std::array::from_fn(|i| {
+            let turned = cross(&state[i / 3 * 3..][..3], &omega)[i % 3];
+            if i < 3 { turned + torque[i] - omega[i] } else { turned }
+        })
+    });
+    let error = |step: f64| {
+        let run = format!("simulate examples/magnetic_satellite.toml --time 3 --step {step}");
+        distance(&end(&json(&run)), &expected)
+    };
+    let [coarse, fine] = [error(0.002), error(0.001)];
+    assert!(fine < 1e-4 && (coarse / fine - 4.0).abs() < 0.2, "{coarse:e} {fine:e}");
+}
+
+/// x' = p/m and p' = (q/m) p × B(x).
+#[test]
+fn a_charge_in_a_magnetic_bottle_moves_as_its_own_equations_say() {
+    let start = [1.0, 0.0, 1.0, 0.0, 0.1, 0.0];
+    let expected = runge_kutta(start, (3.0, 60_000), |_, state| {
+        let (p, x) = state.split_at(3);
+        let field = [-x[0] * x[2], -x[1] * x[2], 1.0 + x[2] * x[2]].map(|b| 10.0 * b);
+        let force = cross(p, &field);
+        [force[0], force[1], force[2], p[0], p[1], p[2]]
+    });
+    let error = |step: f64| {
+        let run = format!("simulate examples/magnetic_bottle.toml --time 3 --step {step}");
+        let found = end(&json(&run));
+        // The last column of the matrix is the place.
+        let place = [6, 10, 14].map(|at| found[at]);
+        distance(&[&found[..3], &place].concat(), &expected)
+    };
+    let [coarse, fine] = [error(0.001), error(0.0005)];
+    assert!(fine < 2e-4 && (coarse / fine - 4.0).abs() < 0.2, "{coarse:e} {fine:e}");
 }

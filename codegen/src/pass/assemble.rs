@@ -272,7 +272,7 @@ pub(crate) fn assemble_potential(
     name: String,
     algebra: Option<LieAlgebra>,
     declared: Option<((usize, usize), Span)>,
-    energy: Energy,
+    energy: &Energy,
     diagnostics: &Diagnostics,
 ) -> Option<Potential> {
     let before = diagnostics.len();
@@ -286,7 +286,7 @@ pub(crate) fn assemble_potential(
         let help = format!("write for example g: [[f64; {size}]; {size}]");
         diagnostics.report_other(span, message, &help);
     }
-    let Read { mut table, sum, found } = Read::new(&energy);
+    let Read { mut table, sum, found } = Read::new(energy);
     let (of_series, others): (Vec<_>, Vec<_>) =
         found.into_iter().partition(|found| found.mistake.is_of_series());
     for found in others {
@@ -300,24 +300,34 @@ pub(crate) fn assemble_potential(
         let (polynomial, symbols) = exact(sum?, size * size, &mut table, &names);
         (Force::Polynomial(polynomial), symbols)
     } else {
-        let entries = entries(size);
-        let names = [&entries[..], &names, &[]];
-        let (root, place) = energy.root?;
-        let found = Diagnostics::new();
-        let lowered = lower(&energy.arena, &[root], names, &mut Table::new(), &found);
-        for found in found.list() {
-            diagnostics.report(found.span, found.mistake.in_potential());
-        }
-        let Lowered { value, gradient, watched, expressions, symbols } = lowered?;
-        if gradient.nodes().iter().all(|node| *node == coadjoint_program::Node::Zero) {
-            diagnostics.report(place, Mistake::NoDependence.in_potential());
-            return None;
-        }
-        let programs = [&value, &gradient, &watched];
-        (Force::Smooth(Box::new(Programs::of_potential(&algebra, programs, expressions))), symbols)
+        let (programs, symbols) = smooth_potential(&algebra, energy, diagnostics)?;
+        (Force::Smooth(Box::new(programs)), symbols)
     };
-    let Energy { parameters, source, .. } = energy;
+    let (parameters, source) = (energy.parameters.clone(), energy.source.clone());
     Some(Potential { name, algebra, force, symbols, parameters, source })
+}
+
+/// The programs of a potential, and their slots.
+fn smooth_potential(
+    algebra: &LieAlgebra,
+    energy: &Energy,
+    diagnostics: &Diagnostics,
+) -> Option<(Programs, Vec<Symbol>)> {
+    let (entries, scalars) = (entries(algebra.matrix_size()), energy.scalar_names());
+    let (root, place) = energy.root?;
+    let found = Diagnostics::new();
+    let names = [&entries[..], &scalars, &[]];
+    let lowered = lower(&energy.arena, &[root], names, &mut Table::new(), &found);
+    for found in found.list() {
+        diagnostics.report(found.span, found.mistake.in_potential());
+    }
+    let Lowered { value, gradient, watched, expressions, symbols } = lowered?;
+    if gradient.nodes().iter().all(|node| *node == coadjoint_program::Node::Zero) {
+        diagnostics.report(place, Mistake::NoDependence.in_potential());
+        return None;
+    }
+    let programs = [&value, &gradient, &watched];
+    Some((Programs::of_potential(algebra, programs, expressions), symbols))
 }
 
 /// The names of the entries of a matrix, row by row.
@@ -325,14 +335,15 @@ pub(crate) fn entries(size: usize) -> Vec<String> {
     (0..size * size).map(|at| format!("g[{}][{}]", at / size, at % size)).collect()
 }
 
-/// Checks what was read and turns it into a torque without potential, whose components are `roots`; its coordinates are the
-/// entries of the matrix, then the momentum.
+/// Checks what was read and turns it into a torque without potential, whose components are `roots`, beside that of a potential if
+/// there is one; its coordinates are the entries of the matrix, then the momentum.
 #[cfg(feature = "system")]
 pub(crate) fn assemble_torque(
     algebra: LieAlgebra,
     coordinates: &[String],
     signals: Vec<Signal>,
     (energy, roots): (Energy, Vec<ExprId>),
+    potential: Option<&Energy>,
     diagnostics: &Diagnostics,
 ) -> Option<Potential> {
     let size = algebra.matrix_size();
@@ -340,13 +351,19 @@ pub(crate) fn assemble_torque(
     let inputs: Vec<String> = signals.iter().map(|signal| signal.name.clone()).collect();
     let names = [&names[..], &energy.scalar_names(), &inputs];
     let lowered = lower(&energy.arena, &roots, names, &mut Table::new(), diagnostics)?;
-    let Lowered { value: torque, watched, expressions, symbols, .. } = lowered;
+    let Lowered { value: torque, watched, expressions, mut symbols, .. } = lowered;
     let (entries, moves) = (size * size, energy.moves());
     let of_momentum = energy.arena.iter().any(
         |(_, node, _)| matches!(node, Node::Coordinate(i) if (entries..entries + coordinates.len()).contains(i)),
     );
     let value = None;
-    let programs = Programs { value, torque, watched, expressions, of_momentum, moves, signals };
+    let mut programs =
+        Programs { value, torque, watched, expressions, of_momentum, moves, signals };
+    if let Some(potential) = potential {
+        let (of_potential, before) = smooth_potential(&algebra, potential, diagnostics)?;
+        programs = programs.beside(&algebra, &of_potential, before.len());
+        symbols.splice(0..0, before);
+    }
     let force = Force::Smooth(Box::new(programs));
     let Energy { parameters, source, .. } = energy;
     Some(Potential { name: "torque".to_owned(), algebra, force, symbols, parameters, source })

@@ -70,11 +70,6 @@ pub(super) fn torque(
 ) -> Option<(Energy, Vec<ExprId>)> {
     let (list, place) = root.strings("torque", "a list of expressions", TORQUE)?;
     let entries = entries(algebra?.matrix_size());
-    if let Some((_, place)) = root.string("potential", POTENTIAL).filter(|_| root.has("torque")) {
-        let message = "both `potential` and `torque` are given";
-        let help = "keep one, or write the torque of the potential, -g⁻¹dV, into `torque`";
-        root.diagnostics.report_other(place, message, help);
-    }
     let (found, needed) = (list.len(), coordinates.len());
     if found != needed {
         let message = format!("`torque` has {found} components, and the momentum {needed}");
@@ -91,7 +86,7 @@ pub(super) fn torque(
     for (i, (signal, place)) in inputs.iter().enumerate() {
         names.add(&signal.name, Name::Signal(i), *place, root.diagnostics);
     }
-    names.alias("t".to_owned(), Name::Time);
+    names.known("t", Name::Time);
     let mut arena = Arena::new();
     let parse = |(text, place): &(String, Span)| {
         text::parse(text, root.offset(*place, text), &[], &names, &mut arena, root.diagnostics)

@@ -88,7 +88,7 @@ const DEFAULT_NAME: &str = "system";
 pub struct System<H = Problem> {
     /// The system.
     pub problem: H,
-    /// The potential V(g), or the torque, if the file has one, and the splitting to compose its kicks by.
+    /// The potential V(g), or the torque, or both as one torque, if the file has one, and the splitting to compose its kicks by.
     pub potential: Option<(Potential, Splitting)>,
     /// The diagonal of Γ, where there is double-bracket damping: μ̇ = ad\*_ω μ + ad\*_x μ with ω = ∂H/∂μ, x = Γ ad\*_ω μ.
     pub damping: Option<Vec<f64>>,
@@ -300,17 +300,18 @@ fn system<H>(
         run.truncation = choice.truncation;
     }
     let damping = damping::read(&root, algebra.as_ref());
-    let potential = energies::potential(&root, algebra.as_ref(), &parameters);
+    let of_potential = energies::potential(&root, algebra.as_ref(), &parameters);
     let splitting = splitting::read(&root, integrator.as_ref());
     // Mistakes of both energies at once.
-    let potential = potential.and_then(|energy| {
+    let potential = of_potential.as_ref().and_then(|energy| {
         assemble_potential("potential".to_owned(), algebra.clone(), None, energy, diagnostics)
     });
     let signals: Vec<Signal> = inputs.into_iter().map(|(signal, _)| signal).collect();
     let potential = match (torque, &algebra) {
         (Some(read), Some(algebra)) => {
             let (algebra, signals) = (algebra.clone(), signals.clone());
-            assemble_torque(algebra, &coordinates, signals, read, diagnostics)
+            let of_potential = of_potential.as_ref().filter(|_| potential.is_some());
+            assemble_torque(algebra, &coordinates, signals, read, of_potential, diagnostics)
         }
         _ => potential,
     };

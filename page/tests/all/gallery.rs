@@ -11,14 +11,16 @@ use coadjoint_page::gallery::gallery;
 use coadjoint_page::run::Run;
 use coadjoint_page::system::System;
 
-/// Lists of bonds, which a page's fields do not hold, potentials, damping, Hamiltonians that are no polynomials, 192 dimensions,
+/// Lists of bonds, which a page's fields do not hold, potentials, torques, damping, Hamiltonians that are no polynomials, 192 dimensions,
 /// and steps of 61 000 operations: not for a page.
-const LEFT_OUT: [&str; 15] = [
+const LEFT_OUT: [&str; 17] = [
     "damped_body",
     "driven_qubit",
     "elliptic_satellite",
     "exponential_spin",
     "kagome_star",
+    "magnetic_bottle",
+    "magnetic_satellite",
     "reaction_wheels",
     "relativistic_body",
     "satellite",

@@ -70,7 +70,7 @@ pub fn potential(arguments: TokenStream, function: &ItemFn) -> Result<Potential,
         return Err(diagnostics);
     };
     let (name, declared) = (function.sig.ident.to_string(), Some(((rows, columns), span)));
-    let potential = assemble_potential(name, algebra, declared, energy, &diagnostics);
+    let potential = assemble_potential(name, algebra, declared, &energy, &diagnostics);
     diagnostics.into_result(potential)
 }
 
