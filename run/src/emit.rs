@@ -13,7 +13,7 @@ use coadjoint_program::print::DeviceLanguage;
 
 use crate::engine::device_text;
 use crate::error::RunError;
-use crate::load::{Derived, System, integrator, learned, polynomial, with_kicks};
+use crate::load::{Derived, System, integrator, learned};
 
 /// The source of emitted code.
 #[derive(Debug)]

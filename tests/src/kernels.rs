@@ -4,8 +4,9 @@ use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;
 use coadjoint_codegen::problem::Solver;
+use coadjoint_codegen::smooth::{Hamiltonian, Smooth};
 use coadjoint_codegen::step::Step;
-use coadjoint_codegen::system::{Options, read};
+use coadjoint_codegen::system::{Options, read, read_either};
 
 /// Groups with a Hamiltonian on each.
 pub const SYSTEMS: [(&str, &str); 15] = [
@@ -57,12 +58,24 @@ pub fn integrator_by(
     chart: &str,
     truncation: usize,
 ) -> Integrator {
-    let dim = lie::catalogue::lookup(group).unwrap().dim();
-    let names = NAMES[..dim].iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
-    let text = format!(
-        "group = {group:?}\ncoordinates = [{names}]\nhamiltonian = {hamiltonian:?}\n[integrator]\nchart = {chart:?}\n"
-    );
+    let text = format!("{}[integrator]\nchart = {chart:?}\n", text(group, hamiltonian));
     let options =
         Options { truncation: Some(truncation), solver: Some(solver), ..Options::default() };
     Integrator::build(read(&text, options).unwrap().problem, TermLimit::default()).unwrap()
+}
+
+fn text(group: &str, hamiltonian: &str) -> String {
+    let dim = lie::catalogue::lookup(group).unwrap().dim();
+    let names = NAMES[..dim].iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
+    format!("group = {group:?}\ncoordinates = [{names}]\nhamiltonian = {hamiltonian:?}\n")
+}
+
+/// Any Hamiltonian in the coordinates a, b, …, for steps by collocation of the order `truncation` + 1.
+pub fn smooth(group: &str, hamiltonian: &str, truncation: usize) -> Smooth {
+    let text = format!("{}[integrator]\nmethod = \"collocation\"\n", text(group, hamiltonian));
+    let options = Options { truncation: Some(truncation), ..Options::default() };
+    match read_either(&text, options, &[]).unwrap().problem {
+        Hamiltonian::Smooth(smooth) => *smooth,
+        Hamiltonian::Polynomial(_) => panic!("a polynomial: {hamiltonian}"),
+    }
 }

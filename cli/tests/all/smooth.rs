@@ -57,21 +57,40 @@ fn refusals_name_expression_argument_and_time() {
     let folder = Folder::with(&FAST_BODY.replace("sqrt(1 + x^2/I1", "x + ln(x - 3"));
     let expected = "at time 0: ln(x - 3 + y^2/2 + z^2/(5/2)) of -0.475";
     folder.run("simulate system.toml").fails(1, &[expected]);
-    let reason = "no compiled --backend: the steps of this system are made by collocation";
-    Folder::with(FAST_BODY).run("simulate system.toml --backend c").fails(2, &[reason]);
     let chosen = FAST_BODY.replace("step = 0.2", "step = 0.2\nchart = \"cayley\"");
     let ran = Folder::with(&chosen).run("simulate system.toml");
     ran.fails(2, &["`chart` is one of a series"]);
     let pushed = FAST_BODY.replace("[parameters]", "potential = \"g[2][2]\"\n[parameters]");
     Folder::with(&pushed).run("simulate system.toml").fails(2, &["`potential`: "]);
     let folder = Folder::with(FAST_BODY);
-    for (verb, lacking, instead) in [
-        ("derive", "there is no series", "`check` tries the laws"),
-        ("emit --language c", "there is no header of it", "emit --language rust"),
-        ("emit --language cuda", "there is no kernel of it", "emit --language rust"),
+    let expected = ["there is no series", "collocation", "`check` tries the laws"];
+    folder.run("derive system.toml").fails(2, &expected);
+    let driven = Folder::with(&FAST_BODY.replace("sqrt(1 + ", "sqrt(1 + sin(t)^2 + "));
+    for (language, expected) in [
+        ("c", "cannot be written as C: its steps depend on the time"),
+        ("cuda", "no kernel is written of steps that depend on the time"),
     ] {
-        folder.run(&format!("{verb} system.toml")).fails(2, &[lacking, "collocation", instead]);
+        driven.run(&format!("emit --language {language} system.toml")).fails(2, &[expected]);
     }
+}
+
+/// The programs of a step are those of all targets: with the same bits by the interpreter and by machine code, and as texts.
+#[test]
+fn steps_are_programs_for_every_target() {
+    let folder = Folder::with(FAST_BODY);
+    let run = |backend: &str| {
+        folder.run(&format!("simulate system.toml --backend {backend} --out {backend}.csv")).ok();
+        folder.text(&format!("{backend}.csv"))
+    };
+    let by_interpreter = run("interpreter");
+    assert!(by_interpreter.lines().count() > 100);
+    if cfg!(unix) {
+        assert_eq!(by_interpreter, run("c"));
+    }
+    let header = folder.run("emit --language c system.toml").ok().out;
+    assert!(header.contains("Collocation at 4 nodes"), "{header}");
+    let text = folder.run("emit --language opencl system.toml").ok().out;
+    assert!(text.contains("collocation, 4 nodes, step 0.2."), "{text}");
 }
 
 /// Rows are runs of their own: with the parameters of their columns, whatever the threads, and whatever becomes of others.

@@ -10,11 +10,11 @@ use coadjoint::laws::check_map;
 use coadjoint::{LieGroup, Phase, StepError};
 use coadjoint_codegen::lie;
 use coadjoint_codegen::problem::Solver;
-use coadjoint_codegen::step::Step;
-use coadjoint_program::{Kernel, Stepper, WIDTH};
+use coadjoint_codegen::step::{Origin, Step};
+use coadjoint_program::{Kernel, Precision, Stepper, WIDTH};
 use coadjoint_tests::backends::{AnyStepper, Backend, numbers_of, phase_of};
 use coadjoint_tests::bridge::matrix_group;
-use coadjoint_tests::kernels::{SYSTEMS, integrator_by, unlimited};
+use coadjoint_tests::kernels::{SYSTEMS, integrator_by, smooth, unlimited};
 use coadjoint_tests::order;
 use coadjoint_tests::stress::Random;
 use nalgebra::DVector;
@@ -54,7 +54,18 @@ impl Subject {
                 }
             }
         }
-        assert!(all.len() > 24, "{}", all.len());
+        // By collocation, a polynomial and a function of other kinds.
+        for (group, hamiltonian) in SYSTEMS.into_iter().chain([
+            ("SO3", "sqrt(1 + a^2/2 + b^2/3 + c^2/5) + exp(b/3)"),
+            ("SE3", "ln(2 + a^2 + b^2/2) + cos(c)/3 + (3 + d^2)^(2/3) + atan(e)*f"),
+        ]) {
+            let smooth = smooth(group, hamiltonian, TRUNCATION);
+            let step = Origin::Collocation(&smooth).step(Precision::Double).unwrap();
+            let group = matrix_group(&smooth.algebra).unwrap();
+            let name = format!("{hamiltonian} on {}, collocation", smooth.algebra.name());
+            all.push(Self { name, step, group });
+        }
+        assert!(all.len() > 41, "{}", all.len());
         all
     }
 

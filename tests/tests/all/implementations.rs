@@ -53,13 +53,20 @@ const PARTS: &[Part] = &[
     },
     Part {
         name: "the limits of acceptance",
-        words: &["LARGEST_RATIO: f64 = 0.5;", "NEAR: f64 = 0.05", "HALF_TURN: f64"],
-        files: &["program/src/limits.rs"],
+        words: &[
+            "LARGEST_RATIO: f64 = 0.5;",
+            "NEAR: f64 = 0.05",
+            "HALF_TURN: f64",
+            "const LARGEST_TAIL",
+            "const SOLVED",
+        ],
+        files: &["program/src/collocation.rs", "program/src/limits.rs"],
     },
     Part {
+        // Of a series, and of collocation.
         name: "acceptance by a kernel",
-        words: &["fn accept(", "accept: accept("],
-        files: &["symbolic/src/step/programs.rs"],
+        words: &["fn accept("],
+        files: &["symbolic/src/step/collocation.rs", "symbolic/src/step/programs.rs"],
     },
     Part {
         // Where a refusal gets its name: by the generic step, of functions that are no program and of what kernels refuse.
@@ -68,8 +75,8 @@ const PARTS: &[Part] = &[
         files: &["runtime/src/solve/accept.rs"],
     },
     Part {
-        name: "acceptance by collocation",
-        words: &["StepError::Unresolved {", "const LARGEST_TAIL"],
+        name: "acceptance by the generic step of collocation",
+        words: &["StepError::Unresolved {"],
         files: &["runtime/src/collocation/mod.rs"],
     },
     Part {
