@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | [`SO3`], [`SU2`] | unit quaternions | 3 |
 //! | [`SE2`], [`SE3`] | rotation and translation | 3, 6 |
-//! | [`SO4`], [`SO5`], [`SU3`], [`SU4`], [`U2`], [`U3`], [`SL2`], [`Aff1`], [`Heisenberg`] | matrices | 2 to 15 |
+//! | [`SO4`], [`SO5`], [`SU3`], [`SL2`], [`Aff1`], [`Heisenberg`] | matrices | 2 to 10 |
 //! | [`Product`], [`Power`], `DirectProduct` | those of the factors | the sum |
 //! | [`StaticMatrixGroup`], `MatrixGroup` | matrices of any algebra you give | any |
 
@@ -19,8 +19,8 @@ pub use crate::group::{se2::SE2, se3::SE3};
 pub use crate::linear::coordinates::Coordinates;
 pub use crate::table::{
     Aff1, Aff1Algebra, BasisEntry, CasimirTerm, CayleyAlgebra, Heisenberg, HeisenbergAlgebra,
-    Rotations, SL2, SL2Algebra, SO4, SO5, SU3, SU4, SpecialUnitary, StaticAlgebra,
-    StaticMatrixGroup, StructureConstant, TableGroup, U2, U3, Unitary,
+    Rotations, SL2, SL2Algebra, SO4, SO5, SU3, SpecialUnitary, StaticAlgebra,
+    StaticMatrixGroup, StructureConstant, TableGroup,
 };
 #[cfg(feature = "alloc")]
 pub use crate::table::{CayleyMatrixGroup, MatrixGroup, TableError};

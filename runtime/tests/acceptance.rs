@@ -1,5 +1,4 @@
-//! Acceptance of steps: for each of its conditions a case that goes wrong without it. `tests/src/bin/mutants.rs` takes out
-//! one after another and expects a failure here.
+//! Acceptance of steps: for each of its conditions a case that goes wrong without it.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use coadjoint::generating::{GeneratingFunction, PolynomialFunction};

@@ -13,8 +13,7 @@ use crate::lie::{Chart, LieAlgebra, catalogue, watched_casimirs};
 const CLOSED_FORMS: [&str; 4] = ["SO3", "SE3", "SU2", "SE2"];
 
 /// Groups the runtime has tables for, under the catalogue's name.
-pub const RUNTIME_TABLES: [&str; 9] =
-    ["Aff1", "Heisenberg", "SL2", "SO4", "SO5", "SU3", "SU4", "U2", "U3"];
+pub const RUNTIME_TABLES: [&str; 6] = ["Aff1", "Heisenberg", "SL2", "SO4", "SO5", "SU3"];
 
 /// How generated code names the group.
 pub(crate) struct GroupType {

@@ -8,14 +8,8 @@ use super::fixed::{CayleyAlgebra, StaticAlgebra, StaticMatrixGroup};
 pub type SO4<T = f64> = StaticMatrixGroup<Rotations<4>, 6, 4, T>;
 /// The group SO5: rotations of five-dimensional space, as [`Rotations`]. Both charts.
 pub type SO5<T = f64> = StaticMatrixGroup<Rotations<5>, 10, 5, T>;
-/// The unitary group of ℂ², as [`Unitary`]. Both charts.
-pub type U2<T = f64> = StaticMatrixGroup<Unitary<2>, 4, 4, T>;
-/// The unitary group of ℂ³, as [`Unitary`]. Both charts.
-pub type U3<T = f64> = StaticMatrixGroup<Unitary<3>, 9, 6, T>;
 /// The special unitary group of ℂ³, as [`SpecialUnitary`]. The exponential chart only: xξx leaves the algebra.
 pub type SU3<T = f64> = StaticMatrixGroup<SpecialUnitary<3>, 8, 6, T>;
-/// The special unitary group of ℂ⁴, as [`SpecialUnitary`]. The exponential chart only: xξx leaves the algebra.
-pub type SU4<T = f64> = StaticMatrixGroup<SpecialUnitary<4>, 15, 8, T>;
 /// The group SL2: real 2×2 matrices of determinant 1. Basis: E_11 − E_22, E_12, E_21. Both charts.
 pub type SL2<T = f64> = StaticMatrixGroup<SL2Algebra, 3, 2, T>;
 /// The group Aff1: affine maps of the line, as 2×2 matrices. Basis: the scaling E_11 and the translation E_12. Both
@@ -29,12 +23,8 @@ pub type Heisenberg<T = f64> = StaticMatrixGroup<HeisenbergAlgebra, 3, 3, T>;
 #[derive(Clone, Copy, Debug)]
 pub struct Rotations<const D: usize>;
 
-/// 𝔲(`N`), as real matrices ((A, −B), (B, A)) of A + iB. Basis: E_ab − E_ba and i(E_ab + E_ba) for a < b in
-/// lexicographic order; then iE_kk.
-#[derive(Clone, Copy, Debug)]
-pub struct Unitary<const N: usize>;
-
-/// 𝔰𝔲(`N`), as [`Unitary`], but the basis ends with i(E_kk − E_k+1,k+1).
+/// 𝔰𝔲(`N`), as real matrices ((A, −B), (B, A)) of A + iB. Basis: E_ab − E_ba and i(E_ab + E_ba) for a < b in
+/// lexicographic order; then i(E_kk − E_k+1,k+1).
 #[derive(Clone, Copy, Debug)]
 pub struct SpecialUnitary<const N: usize>;
 
@@ -61,28 +51,14 @@ impl<const D: usize> StaticAlgebra for Rotations<D> {
     };
 }
 
-impl<const N: usize> StaticAlgebra for Unitary<N> {
-    const DIM: usize = N * N;
-    const MATRIX_SIZE: usize = 2 * N;
-    const STRUCTURE: &'static [StructureConstant] =
-        const { &brackets(&unitary(N, false)) }.entries();
-    const BASIS: Option<&'static [BasisEntry]> = Some(const { &unitary(N, false) }.entries());
-    const CASIMIRS: &'static [&'static [CasimirTerm]] = match N {
-        2 => &[U2_TRACE, U2_SQUARES],
-        3 => &[U3_TRACE, U3_SQUARES, U3_CUBES],
-        _ => &[],
-    };
-}
-
 impl<const N: usize> StaticAlgebra for SpecialUnitary<N> {
     const DIM: usize = N * N - 1;
     const MATRIX_SIZE: usize = 2 * N;
     const STRUCTURE: &'static [StructureConstant] =
-        const { &brackets(&unitary(N, true)) }.entries();
-    const BASIS: Option<&'static [BasisEntry]> = Some(const { &unitary(N, true) }.entries());
+        const { &brackets(&special_unitary(N)) }.entries();
+    const BASIS: Option<&'static [BasisEntry]> = Some(const { &special_unitary(N) }.entries());
     const CASIMIRS: &'static [&'static [CasimirTerm]] = match N {
         3 => &[SU3_SQUARES, SU3_CUBES],
-        4 => &[SU4_SQUARES],
         _ => &[],
     };
 }
@@ -114,7 +90,6 @@ impl StaticAlgebra for HeisenbergAlgebra {
 }
 
 impl<const D: usize> CayleyAlgebra for Rotations<D> {}
-impl<const N: usize> CayleyAlgebra for Unitary<N> {}
 impl CayleyAlgebra for SL2Algebra {}
 impl CayleyAlgebra for Aff1Algebra {}
 impl CayleyAlgebra for HeisenbergAlgebra {}
@@ -127,11 +102,11 @@ static AFF1_BASIS: Entries = Entries::EMPTY.with(0, 0, 0, 1.0).with(1, 0, 1, 1.0
 static HEISENBERG_BASIS: Entries =
     Entries::EMPTY.with(0, 0, 1, 1.0).with(1, 1, 2, 1.0).with(2, 0, 2, 1.0);
 
-/// Room for the structure constants of SU4, the largest table here; a larger one does not compile.
-const CAPACITY: usize = 192;
-/// Room for the matrices and the basis of SU4.
-const MAX_SIZE: usize = 8;
-const MAX_DIM: usize = 15;
+/// Room for the structure constants of any table here; a larger one does not compile.
+const CAPACITY: usize = 96;
+/// Room for the matrices and the basis of SU3 and SO5.
+const MAX_SIZE: usize = 6;
+const MAX_DIM: usize = 10;
 
 /// A table as it grows.
 struct Entries {
@@ -167,8 +142,8 @@ const fn rotations(size: usize) -> Entries {
     basis
 }
 
-/// The basis of [`Unitary`] or [`SpecialUnitary`].
-const fn unitary(n: usize, special: bool) -> Entries {
+/// The basis of [`SpecialUnitary`].
+const fn special_unitary(n: usize) -> Entries {
     let (mut basis, mut i, mut a) = (Entries::EMPTY, 0, 0);
     while a < n {
         let mut b = a + 1;
@@ -182,11 +157,9 @@ const fn unitary(n: usize, special: bool) -> Entries {
         a += 1;
     }
     let mut k = 0;
-    while k + (special as usize) < n {
+    while k + 1 < n {
         basis = basis.with(i, k, n + k, -1.0).with(i, n + k, k, 1.0);
-        if special {
-            basis = basis.with(i, k + 1, n + k + 1, 1.0).with(i, n + k + 1, k + 1, -1.0);
-        }
+        basis = basis.with(i, k + 1, n + k + 1, 1.0).with(i, n + k + 1, k + 1, -1.0);
         (i, k) = (i + 1, k + 1);
     }
     basis
@@ -283,47 +256,6 @@ const SQUARES: &[CasimirTerm] = &[
 const PFAFFIAN: &[CasimirTerm] =
     &[(1.0, &[(0, 1), (5, 1)]), (-1.0, &[(1, 1), (4, 1)]), (1.0, &[(2, 1), (3, 1)])];
 
-const U2_TRACE: &[CasimirTerm] = &[(1.0, &[(2, 1)]), (1.0, &[(3, 1)])];
-
-const U2_SQUARES: &[CasimirTerm] =
-    &[(1.0, &[(0, 2)]), (1.0, &[(1, 2)]), (2.0, &[(2, 2)]), (2.0, &[(3, 2)])];
-
-const U3_TRACE: &[CasimirTerm] = &[(1.0, &[(6, 1)]), (1.0, &[(7, 1)]), (1.0, &[(8, 1)])];
-
-const U3_SQUARES: &[CasimirTerm] = &[
-    (1.0, &[(0, 2)]),
-    (1.0, &[(1, 2)]),
-    (1.0, &[(2, 2)]),
-    (1.0, &[(3, 2)]),
-    (1.0, &[(4, 2)]),
-    (1.0, &[(5, 2)]),
-    (2.0, &[(6, 2)]),
-    (2.0, &[(7, 2)]),
-    (2.0, &[(8, 2)]),
-];
-
-const U3_CUBES: &[CasimirTerm] = &[
-    (3.0, &[(0, 2), (8, 1)]),
-    (-3.0, &[(0, 1), (2, 1), (5, 1)]),
-    (3.0, &[(0, 1), (3, 1), (4, 1)]),
-    (3.0, &[(1, 2), (8, 1)]),
-    (-3.0, &[(1, 1), (2, 1), (4, 1)]),
-    (-3.0, &[(1, 1), (3, 1), (5, 1)]),
-    (3.0, &[(2, 2), (7, 1)]),
-    (3.0, &[(3, 2), (7, 1)]),
-    (3.0, &[(4, 2), (6, 1)]),
-    (3.0, &[(5, 2), (6, 1)]),
-    (2.0, &[(6, 3)]),
-    (6.0, &[(6, 2), (7, 1)]),
-    (6.0, &[(6, 2), (8, 1)]),
-    (6.0, &[(6, 1), (7, 2)]),
-    (6.0, &[(6, 1), (8, 2)]),
-    (2.0, &[(7, 3)]),
-    (6.0, &[(7, 2), (8, 1)]),
-    (6.0, &[(7, 1), (8, 2)]),
-    (2.0, &[(8, 3)]),
-];
-
 const SU3_SQUARES: &[CasimirTerm] = &[
     (3.0, &[(0, 2)]),
     (3.0, &[(1, 2)]),
@@ -357,25 +289,4 @@ const SU3_CUBES: &[CasimirTerm] = &[
     (12.0, &[(6, 2), (7, 1)]),
     (-12.0, &[(6, 1), (7, 2)]),
     (-8.0, &[(7, 3)]),
-];
-
-const SU4_SQUARES: &[CasimirTerm] = &[
-    (2.0, &[(0, 2)]),
-    (2.0, &[(1, 2)]),
-    (2.0, &[(2, 2)]),
-    (2.0, &[(3, 2)]),
-    (2.0, &[(4, 2)]),
-    (2.0, &[(5, 2)]),
-    (2.0, &[(6, 2)]),
-    (2.0, &[(7, 2)]),
-    (2.0, &[(8, 2)]),
-    (2.0, &[(9, 2)]),
-    (2.0, &[(10, 2)]),
-    (2.0, &[(11, 2)]),
-    (3.0, &[(12, 2)]),
-    (4.0, &[(12, 1), (13, 1)]),
-    (2.0, &[(12, 1), (14, 1)]),
-    (4.0, &[(13, 2)]),
-    (4.0, &[(13, 1), (14, 1)]),
-    (3.0, &[(14, 2)]),
 ];

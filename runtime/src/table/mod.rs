@@ -12,7 +12,7 @@ mod tables;
 pub use algebra::{BasisEntry, CasimirTerm, StructureConstant};
 pub use catalogue::{
     Aff1, Aff1Algebra, Heisenberg, HeisenbergAlgebra, Rotations, SL2, SL2Algebra, SO4, SO5, SU3,
-    SU4, SpecialUnitary, U2, U3, Unitary,
+    SpecialUnitary,
 };
 #[cfg(feature = "alloc")]
 pub use dynamic::{CayleyMatrixGroup, MatrixGroup, TableError};

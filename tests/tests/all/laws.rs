@@ -3,7 +3,7 @@
 
 use coadjoint::groups::{
     Aff1, Cayley, CayleyMatrixGroup, Chart, Coordinates, Exponential, Heisenberg, MatrixGroup,
-    Power, Product, SE2, SL2, SO4, SO5, SU2, U2, U3,
+    Power, Product, SE2, SL2, SO4, SO5, SU2,
 };
 use coadjoint::laws::check;
 use coadjoint::steps::advance;
@@ -190,8 +190,8 @@ laws_hold_for! {
     so4: named("SO4"), Energy::Diagonal, exp typed!(SO4), cayley typed!(SO4);
     so3_tables: named("SO3"), Energy::Full, exp tables, cayley cayley_tables;
     aff1: named("Aff1"), Energy::Full, exp typed!(Aff1), cayley typed!(Aff1);
-    u2: named("U2"), Energy::Full, exp typed!(U2), cayley typed!(U2);
-    u3: named("U3"), Energy::Only(&[0, 2, 4, 6, 7]), exp typed!(U3), cayley typed!(U3);
+    u2: named("U2"), Energy::Full, exp tables, cayley cayley_tables;
+    u3: named("U3"), Energy::Only(&[0, 2, 4, 6, 7]), exp tables, cayley cayley_tables;
     so5: named("SO5"), Energy::Only(&[0, 4, 7, 9]), exp typed!(SO5), cayley typed!(SO5);
     su3: named("SU3"), Energy::Diagonal, exp tables, , no_cayley;
     su4: named("SU4"), Energy::Only(&[0, 6, 10, 12]), exp tables, , no_cayley;
