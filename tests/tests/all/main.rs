@@ -37,7 +37,6 @@ mod smooth;
 mod stress;
 mod system_files;
 mod systems_integrals;
-mod systems_library;
 mod systems_literature;
 mod systems_reference;
 mod toutatis;
