@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::error::{ContextKind, ErrorKind};
+use clap::{Args, CommandFactory, Parser, Subcommand};
 use coadjoint_codegen::lie::Chart;
 use coadjoint_native::cards::Device;
 use coadjoint_program::Precision;
@@ -25,6 +26,26 @@ pub(crate) struct Arguments {
     /// The verb to run.
     #[command(subcommand)]
     pub verb: Verb,
+}
+
+/// Options of earlier versions.
+const REMOVED: [&str; 2] = ["--tuned", "--fitted"];
+
+/// The arguments of this process; ends it with a message where they make no sense.
+pub(crate) fn parse() -> Arguments {
+    Arguments::try_parse().unwrap_or_else(|error| {
+        let unknown = error.get(ContextKind::InvalidArg).map(ToString::to_string);
+        match REMOVED.iter().find(|name| unknown.as_deref() == Some(name)) {
+            Some(name) => {
+                let message = format!(
+                    "{name} was removed: for a smaller error at the same step give a larger --truncation, or write \
+                     frame = \"comoving\" under [integrator] in the system file"
+                );
+                Arguments::command().error(ErrorKind::UnknownArgument, message).exit()
+            }
+            None => error.exit(),
+        }
+    })
 }
 
 /// The verb to run.

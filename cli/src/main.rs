@@ -28,11 +28,10 @@ mod verify;
 
 use std::process::ExitCode;
 
-use arguments::{Arguments, Verb};
-use clap::Parser;
+use arguments::Verb;
 
 fn main() -> ExitCode {
-    let outcome = match Arguments::parse().verb {
+    let outcome = match arguments::parse().verb {
         Verb::Derive(options) => derive::run(&options),
         Verb::Emit(options) => emit::run(&options),
         Verb::Simulate(options) => simulate::run(&options),

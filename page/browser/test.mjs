@@ -124,6 +124,10 @@ onPage("every control does what it says", ["#system=rigid-body&paused=1"], async
   await tab.fill("#time", "12");
   await tab.fill("#parameters", "I1 = 1, I2 = 2, I3 = 3");
   await tab.waitForFunction(() => page.about().inverse_inertia[8] === 1 / 3);
+  await tab.click("#knobs summary");
+  await tab.locator("#knob-I2").fill("-50");
+  assert.equal(await tab.inputValue("#parameters"), "I1 = 1, I2 = 1, I3 = 3");
+  assert.equal((await about()).inverse_inertia[4], 1);
   await tab.click("#tab-file");
   assert.ok((await text(tab, "text")).includes("name = \"my body\""));
   await tab.evaluate(() => { navigator.clipboard.writeText = async (text) => { window.copied = text; }; });

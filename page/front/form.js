@@ -27,6 +27,7 @@ function makeForm(groups, changed) {
     field.addEventListener("input", () => {
       state.fields[key] = field.value;
       if (key === "step") showSlider();
+      if (key === "parameters") fillKnobs();
       if (key !== "hamiltonian" && key !== "parameters") unmark(key);
       copyText(field);
       changed(field.tagName === "SELECT" ? 0 : 180);
@@ -38,6 +39,7 @@ function makeForm(groups, changed) {
     state.fields.step = byId("step").value = String(+step.toPrecision(2));
     changed(0);
   });
+  byId("parameters").addEventListener("turned", () => changed(0));
   byId("own").addEventListener("toggle", () => {
     if (byId("own").open && !state.fields.algebra) byId("algebra").focus();
   });
@@ -57,8 +59,43 @@ function fillForm() {
     if (field.tagName === "TEXTAREA") field.rows = Math.min(Math.max(value.split("\n").length, Math.ceil(value.length / 34), 2), 9);
   }
   byId("own").open = Boolean(state.fields.algebra);
+  fillKnobs();
   middleStep = Number(entry?.fields.step) || Number(state.fields.step) || 0.1;
   showSlider();
+}
+
+// A slider for each parameter that is a number; it writes into the text.
+const KNOB = /(^|[\n,;])([ \t]*)([A-Za-z_]\w*)([ \t]*=[ \t]*)(-?\d+(?:\.\d+)?(?:\/\d+)?)(?=[ \t]*(?:[\n,;]|$))/g;
+
+function fillKnobs() {
+  const box = document.querySelector(".knobs");
+  const found = [...(state.fields.parameters ?? "").matchAll(KNOB)];
+  byId("knobs").hidden = !found.length;
+  // While a slider is moved it must stay.
+  if (box.contains(document.activeElement)) return;
+  box.replaceChildren();
+  for (const [, , , name, , text] of found) {
+    const [over, under = 1] = text.split("/").map(Number);
+    const middle = over / under;
+    const slider = element("input");
+    const label = element("label", "", nicely(name));
+    const shown = element("output", "", shortly(middle));
+    slider.type = "range";
+    slider.id = `knob-${name}`;
+    label.htmlFor = shown.htmlFor = slider.id;
+    Object.assign(slider, { min: -100, max: 100, step: 1, value: 0 });
+    slider.addEventListener("input", () => {
+      // Up to four times as large or small; a zero up to one to both sides.
+      const value = middle ? middle * 4 ** (slider.value / 100) : slider.value / 100;
+      const written = String(+value.toPrecision(3));
+      shown.textContent = shortly(+written);
+      state.fields.parameters = state.fields.parameters.replace(KNOB, (all, before, blank, own, equals) =>
+        own === name ? before + blank + own + equals + written : all);
+      byId("parameters").value = state.fields.parameters;
+      byId("parameters").dispatchEvent(new Event("turned"));
+    });
+    box.append(label, slider, shown);
+  }
 }
 
 // The sentence about the chosen system, as long as the fields are its own.

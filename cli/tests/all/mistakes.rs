@@ -46,6 +46,10 @@ fn options_are_checked_too() {
         ("derive nowhere.toml", "cannot read nowhere.toml"),
         ("derive", "FILE"),
         ("deriv system.toml", "derive"),
+        // Options of earlier versions name what takes their place.
+        ("simulate system.toml --tuned", "--tuned was removed"),
+        ("simulate examples/satellite.toml --fitted=12", "--fitted was removed"),
+        ("simulate system.toml --tuned", "--truncation, or write frame = \"comoving\""),
     ]);
 }
 

@@ -5,7 +5,7 @@
     body = ca.System("SO3", "x^2/3 + y^2/4 + z^2/5", coordinates="x y z")
     result = ca.cluster.run(body, states="states.parquet", out="final/", time=100, step=0.1, client=client)
 
-``client`` is a Dask client, or nothing for this process and its threads. The rows are cut into
+``client`` is a Dask client, the module ``ray``, or nothing for this process and its threads. The rows are cut into
 shards; one function makes a shard, whatever runs it; finished shards are kept and the bytes are always the same.
 """
 

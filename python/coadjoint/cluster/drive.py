@@ -11,7 +11,7 @@ from .shard import Summary, Task, placed
 
 
 class Engine(Protocol):
-    """An engine that runs shards: this process, or Dask."""
+    """An engine that runs shards: this process, Dask, or Ray."""
 
     #: Shards handed over at a time.
     capacity: int

@@ -10,7 +10,7 @@ from .._arrays import Backend, Numbers, Real, count, flag
 from .._progress import Progress
 from ..system import System
 from .drive import Engine
-from .engines import Dask, Here
+from .engines import Dask, Here, Ray
 from .errors import InputError
 from .job import Job
 from .result import Result
@@ -67,10 +67,10 @@ def run(
     backend : str
         What makes the steps: see ``System.ensemble``. The bytes do not depend on it.
     client : optional
-        A ``distributed.Client``. Without one, this process.
+        A ``distributed.Client``, or the module ``ray`` after ``ray.init()``. Without one, this process.
     threads : int, optional
-        Threads of each worker, 1 if not given. Without a client, threads of this process, one for each processor if
-        not given.
+        Threads of each worker, 1 if not given; with Ray, the processors that it reserves. Without a client, threads of this
+        process, one for each processor if not given.
     rows_per_shard : int, optional
         How many rows make a shard; chosen by the number of steps if not given.
     share : (i, n), optional
@@ -111,7 +111,7 @@ def run(
             "restart with share: every job would remove what the others have made; remove the folder once, or begin "
             "anew by a call without share"
         )
-    engine = engine_of(client)
+    engine = engine_of(client, threads)
     job.settle(restart)
     return job.run(engine, attempts, threads, verify, progress)
 
@@ -120,10 +120,13 @@ def _processors() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def engine_of(client: Any) -> Engine:
+def engine_of(client: Any, threads: int) -> Engine:
     """The engine that runs the shards."""
     if client is None:
         return Here()
-    if type(client).__module__.split(".")[0] != "distributed":
-        raise InputError(f"client is {client!r}: a dask.distributed.Client, or nothing, is needed")
-    return Dask(client)
+    home = client.__name__ if hasattr(client, "__path__") else type(client).__module__
+    if home != "ray" and home.split(".")[0] != "distributed":
+        raise InputError(
+            f"client is {client!r}: a dask.distributed.Client, the module ray after ray.init(), or nothing is needed"
+        )
+    return Ray(client, threads) if home == "ray" else Dask(client)

@@ -26,7 +26,7 @@ def test_options_that_make_no_sense(serial, tmp_path):
         ({"share": (1, 3), "restart": True}, "every job would remove what the others have made"),
         ({"keep": ["id"]}, "there is no column id; there are mu_1, mu_2, mu_3"),
         ({"keep": ["mu_1"]}, "column mu_1 is part of the state"),
-        ({"client": "dask"}, "a dask.distributed.Client, or nothing"),
+        ({"client": "dask"}, "a dask.distributed.Client, the module ray"),
         ({"states": np.ones((2, 3))}, r"call system\.ensemble"),
         ({"states": "nowhere.parquet"}, "there is no such file"),
         ({"states": str(tmp_path)}, "the folder has no .parquet file"),

@@ -14,7 +14,7 @@ def test_the_page_runs(tmp_path, monkeypatch, capsys):
     support.write(tmp_path / "states.parquet", support.momenta(1000))
     names = {}
     found = re.findall(r"(?:<!-- needs: (\w+) -->\n)?```python\n(.*?)```", PAGE.read_text(), re.DOTALL)
-    assert len(found) == 5
+    assert len(found) == 6
     for needs, block in found:
         if not needs or importlib.util.find_spec(needs):
             exec(compile(block, str(PAGE), "exec"), names)
