@@ -527,7 +527,7 @@ impl Program {
 
     /// The nodes that are a function's value, as (value, function, argument), in order.
     #[must_use]
-    pub(crate) fn calls(&self) -> &[(Id, Function, Id)] {
+    pub fn calls(&self) -> &[(Id, Function, Id)] {
         &self.calls
     }
 

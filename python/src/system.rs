@@ -607,10 +607,8 @@ impl Core {
         let (rows, starts) = (given(&rows), starts.map(|starts| given(&starts)));
         let made = work(py, None, move |_| -> Result<_, RunError> {
             let path = Path::new(&name);
-            let instead = "compare it with a run of half the step";
-            let problem = polynomial(path, system, "there is no judge of it", instead)?.problem;
-            let judge = verify::judge_of(path, &problem)?;
-            let follower = verify::Follower::new(&judge, &problem, step)?;
+            let judge = verify::judge_of(path, &system.problem)?;
+            let follower = verify::Follower::new(&judge, &system.problem, step)?;
             let of = |(width, values): (usize, Vec<f64>)| {
                 table::Table::of_rows(path, names.clone(), width, values)
             };

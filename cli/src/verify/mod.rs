@@ -11,7 +11,7 @@ use coadjoint_codegen::problem::{FrameChoice, Method};
 use coadjoint_codegen::system::{Options, System};
 use coadjoint_learn::table::{Row, Table};
 use coadjoint_run::verify::{Follower, Found, KICKED, Sample, judge_of, unjudged};
-use coadjoint_run::{RunError, polynomial, read_varying, text_hash};
+use coadjoint_run::{RunError, read_varying, text_hash};
 use serde_json::Value;
 
 use crate::arguments::VerifyOptions;
@@ -100,17 +100,14 @@ fn judge(
         truncation: options.truncation.or_else(|| number("truncation").map(|k| k as usize)),
         chart: options.chart.or(said),
         // Only the series has a chart of its own.
-        method: table.value("chart").map(|_| Method::Series),
+        method: match table.value("method") {
+            Some("collocation") => Some(Method::Collocation),
+            _ => table.value("chart").map(|_| Method::Series),
+        },
         frame: table.value("frame").and_then(FrameChoice::named),
         ..Options::default()
     };
     let found = read_varying(&system.display().to_string(), &text, read, &[])?;
-    let found = polynomial(
-        &system,
-        found,
-        "there is no judge of it",
-        "compare it with a run of half the step",
-    )?;
     if let Some(why) = unjudged(&found) {
         return refuse(why);
     }

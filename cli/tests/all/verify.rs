@@ -161,6 +161,50 @@ fn what_was_changed_is_found_where_it_is() {
     folder.refused(&[("verify run.npy", "its shape [31, 17] needs more than the 872 bytes")]);
 }
 
+/// Steps by collocation: roots, exponentials and cosines, fields that move, inputs by tables, steps off the grid, reports.
+#[test]
+fn runs_by_collocation_are_judged() {
+    let folder = Folder::new();
+    folder.write(
+        "fields.toml",
+        "group = \"SO3\"\nhamiltonian = \"exp(mu[0]/4) + cos(mu[1]) + u*mu[2]^2/3\"\n\
+         [inputs]\ntimes = [-1, 0, 1, 2, 3, 9]\nu = [1, 1.2, 0.9, 1.1, 1.4, 1]\n\
+         [integrator]\ntruncation = 5\nstep = 0.1\n[initial]\nmomentum = [1.0, 0.3, 0.5]\n[run]\ntime = 3\n",
+    );
+    for run in [
+        "examples/relativistic_body.toml --time 3",
+        "examples/exponential_spin.toml --time 3 --every 4 --at 0.33",
+        "examples/screened_top.toml --time 0.5 --truncation 3",
+        "examples/driven_qubit.toml --time 1",
+        "examples/rigid_body.toml --time 1 --method collocation",
+        "fields.toml",
+    ] {
+        folder.run(&format!("simulate {run} --out run.csv")).ok();
+        let found = right(&folder, "run.csv");
+        assert!(found["momentum"].as_f64().unwrap() > 0.0, "{run}: {found}");
+        assert!(found["group_element"].as_f64().unwrap() > 0.0, "{run}: {found}");
+    }
+    let report = folder.json("simulate fields.toml");
+    folder.write("report.json", report.to_string());
+    right(&folder, "report.json");
+    // The run of the file is that of the last simulation.
+    let text = folder.text("run.csv");
+    for (column, change) in [(1, 1e-12), (4, 1e-12)] {
+        folder.write("run.csv", changed(&text, 12, column, &|x| x + change));
+        wrong(&folder, "run.csv", "row 12, time 1.1");
+    }
+    folder.write("run.csv", &text);
+    let system = folder.text("fields.toml");
+    folder.write("fields.toml", system.replace("mu[0]/4", "mu[0]/5"));
+    folder.refused(&[("verify run.csv", "is not the system file of this run")]);
+    // Of a state outside the domain of H nothing can be said.
+    folder.write("fields.toml", system.replace("cos(mu[1])", "ln(mu[1])"));
+    folder.write("states.csv", "mu_1,mu_2,mu_3\n1,-0.3,0.5\n");
+    folder
+        .run("verify fields.toml states.csv --input states.csv --steps 1 --step 0.1")
+        .fails(3, &["row 1: step 1 of 1: the Hamiltonian is not defined"]);
+}
+
 /// Only runs of the exact series of the system file as it is can be judged; all others are refused by name.
 #[test]
 fn what_cannot_be_judged_is_refused() {

@@ -75,7 +75,7 @@ impl Course {
     pub(crate) fn step(&mut self, setting: &mut Setting<'_>) -> Result<(), Trouble> {
         let step = self.motion.here(setting).map_err(Stop::Judge)?;
         let right = step.right_solution().map_err(Stop::Branch)?;
-        let x: Vec<f64> = right.x.iter().map(|x| x.to_f64()).collect();
+        let x: Vec<f64> = step.increment(&right).iter().map(|x| x.to_f64()).collect();
         match step.inside(&x) {
             Inside::Yes => {}
             Inside::No(size) => {

@@ -6,7 +6,9 @@ use std::path::Path;
 use coadjoint_codegen::cancel;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::judge::Judge;
-use coadjoint_codegen::problem::{Parameter, Problem};
+use coadjoint_codegen::lie::Chart;
+use coadjoint_codegen::problem::{Parameter, values};
+use coadjoint_codegen::smooth::Hamiltonian;
 use coadjoint_learn::table::Table;
 
 use super::course::{Course, Trouble};
@@ -23,13 +25,20 @@ const FARTHEST: u64 = 100_000;
 /// Of matrices with larger entries rounding may leave no inverse.
 const LONG: f64 = 1e5;
 
-/// Derives the exact judge of a problem, which is called `file` in messages.
+/// The exact judge of a system, which is called `file` in messages.
 ///
 /// # Errors
-/// Where the series is too large.
-pub fn judge_of(file: &Path, problem: &Problem) -> Result<Judge, RunError> {
-    Judge::of_problem(problem, TermLimit::default())
-        .map_err(|error| RunError::Option(format!("{}: {error}", file.display())))
+/// Where the series is too large, or the Hamiltonian a function without formula.
+pub fn judge_of(file: &Path, hamiltonian: &Hamiltonian) -> Result<Judge, RunError> {
+    let judge = match hamiltonian {
+        Hamiltonian::Polynomial(problem) => Judge::of_problem(problem, TermLimit::default()),
+        Hamiltonian::Smooth(smooth) => {
+            // The chart of groups by tables: as many powers of x as the order asks for.
+            let degree = (2 * smooth.nodes() - 2).max(1);
+            Judge::of_smooth(smooth, Chart::Exponential, Some(degree))
+        }
+    };
+    judge.map_err(|error| RunError::Option(format!("{}: {error}", file.display())))
 }
 
 /// The number of rows of a file that stand for all of them: evenly spread, the last among them.
@@ -54,7 +63,7 @@ impl Sample {
 /// Steps of one size, in doubled precision.
 pub struct Follower<'a> {
     judge: &'a Judge,
-    problem: &'a Problem,
+    hamiltonian: &'a Hamiltonian,
     step: f64,
     symbols: Vec<f64>,
     invariants: Invariants,
@@ -73,18 +82,24 @@ impl<'a> Follower<'a> {
     ///
     /// # Errors
     /// Where the step makes no sense, or a parameter is not finite.
-    pub fn new(judge: &'a Judge, problem: &'a Problem, step: f64) -> Result<Self, RunError> {
+    pub fn new(
+        judge: &'a Judge,
+        hamiltonian: &'a Hamiltonian,
+        step: f64,
+    ) -> Result<Self, RunError> {
         if step == 0.0 || !step.is_finite() {
             return Err(RunError::Option("--step must be finite and other than zero".into()));
         }
         // Parameters are substituted; what symbols are left (sqrt(2)) need none.
-        let symbols: Vec<f64> =
-            problem.symbols.iter().map(|symbol| symbol.expr.evaluate(&[])).collect();
+        let symbols: Vec<f64> = match hamiltonian {
+            Hamiltonian::Polynomial(problem) => values(&problem.symbols),
+            Hamiltonian::Smooth(smooth) => smooth.symbols_at(&hamiltonian.facts().defaults()),
+        };
         judge.at(step, &symbols).map_err(|error| RunError::Option(error.to_string()))?;
-        let invariants = Invariants::new(problem)?;
-        let size = Shape::of(&problem.algebra).matrix_size;
+        let invariants = Invariants::new(hamiltonian)?;
+        let size = Shape::of(hamiltonian.facts().algebra).matrix_size;
         let (parameters, sample, told): (_, _, &dyn Fn(u64)) = (&[], None, &|_| {});
-        Ok(Self { judge, problem, step, symbols, invariants, size, parameters, sample, told })
+        Ok(Self { judge, hamiltonian, step, symbols, invariants, size, parameters, sample, told })
     }
 
     /// Rows of one motion. Between rows that are not a whole number of steps apart the last step is shorter.
@@ -92,7 +107,7 @@ impl<'a> Follower<'a> {
     /// # Errors
     /// Where the file cannot be read, or has no states with times.
     pub fn rows(&self, table: &mut Table) -> Result<Found, RunError> {
-        let columns = Columns::find(self.problem, self.parameters, table)?;
+        let columns = Columns::find(self.hamiltonian, self.parameters, table)?;
         let Some(time) = columns.time else {
             let what =
                 "no column time: for the output of an ensemble give --input STATES and --steps N";
@@ -111,8 +126,10 @@ impl<'a> Follower<'a> {
                     "{place}: the momentum is not that which the file names as the start"
                 ));
             }
-            if let Some(said) = columns.energy.map(|column| row[column]) {
-                let (energy, size) = self.invariants.energy(&state.momentum);
+            let energy = self.invariants.energy(&state.momentum);
+            if let Some((said, (energy, size))) =
+                columns.energy.map(|column| row[column]).zip(energy)
+            {
                 if !((said - energy).abs() <= DRIFT * size) {
                     found.blame(format!(
                         "{place}: the energy is {energy}, and the file says {said}"
@@ -137,7 +154,7 @@ impl<'a> Follower<'a> {
                     (steps.floor() as u64, self.step * (steps - steps.floor()))
                 };
                 let ends = (before, &state);
-                self.row((number - 1, &place), ends, (count, rest), &mut found);
+                self.row((number - 1, &place), ends, (*then, count, rest), &mut found);
             }
             // A row beside the grid is where a step of its own led: the motion goes on from the grid.
             if grid {
@@ -170,7 +187,7 @@ impl<'a> Follower<'a> {
         listed: &BTreeSet<u64>,
     ) -> Result<Found, RunError> {
         let [before, after] =
-            [&*starts, ends].map(|table| Columns::find(self.problem, self.parameters, table));
+            [&*starts, ends].map(|table| Columns::find(self.hamiltonian, self.parameters, table));
         let (before, after) = (before?, after?);
         let mut found = Found::default();
         while let Some(end) = next(ends)? {
@@ -187,7 +204,7 @@ impl<'a> Follower<'a> {
                 continue;
             }
             let place = format!("row {number}");
-            self.row((number, &place), (&start, &end), (steps, 0.0), &mut found);
+            self.row((number, &place), (&start, &end), (0.0, steps, 0.0), &mut found);
         }
         let rows = ends.number();
         if next(starts)?.is_some() {
@@ -196,12 +213,12 @@ impl<'a> Follower<'a> {
         Ok(ended(found, rows))
     }
 
-    /// From one state to another in `steps` steps, and one more of another size if that is not 0.
+    /// From one state, at the time `then`, to another in `steps` steps, and one more of another size if that is not 0.
     fn row(
         &self,
         (number, place): (u64, &str),
         (before, after): (&State, &State),
-        (steps, rest): (u64, f64),
+        (then, steps, rest): (f64, u64, f64),
         found: &mut Found,
     ) {
         if self.sample.is_some_and(|sample| !sample.holds(number)) {
@@ -215,11 +232,15 @@ impl<'a> Follower<'a> {
             return found.blame(format!("{place}: a number is not finite"));
         }
         let mut course = Course::new(&before.momentum, steps, self.size);
-        for (size, count) in [(self.step, steps), (rest, u64::from(rest != 0.0))] {
+        let last = then + steps as f64 * self.step;
+        for (then, size, count) in
+            [(then, self.step, steps), (last, rest, u64::from(rest != 0.0))]
+        {
             let Ok(mut setting) = self.judge.at(size, &self.symbols) else { return };
             for done in 1..=count {
                 cancel::check();
                 (self.told)(made + done);
+                setting.start(then, done - 1);
                 match course.step(&mut setting) {
                     Ok(()) => {}
                     Err(Trouble::Wrong(what)) => {

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use coadjoint::groups::{DirectProduct, MatrixGroup};
-use coadjoint_codegen::problem::{Parameter, Problem};
+use coadjoint_codegen::problem::Parameter;
+use coadjoint_codegen::smooth::{Facts, Hamiltonian};
 use coadjoint_codegen::step;
 use coadjoint_learn::table::{Row, Table};
 use nalgebra::{DMatrix, Quaternion, UnitQuaternion};
@@ -43,14 +44,14 @@ pub(crate) struct Columns {
 impl Columns {
     /// By names, or by the number of columns where there are none. `parameters` are all those of the system's file.
     pub(crate) fn find(
-        problem: &Problem,
+        hamiltonian: &Hamiltonian,
         parameters: &[Parameter],
         table: &Table,
     ) -> Result<Self, RunError> {
-        let (shape, names) = (Shape::of(&problem.algebra), table.names());
+        let facts = hamiltonian.facts();
+        let (shape, names) = (Shape::of(facts.algebra), table.names());
         let shape = Shape { quaternions: shape.dim == 3 && shape.matrix_size == 3, ..shape };
-        let found =
-            Found::of(shape, &Known::of(&problem.facts(), parameters), names, table.width());
+        let found = Found::of(shape, &Known::of(&facts, parameters), names, table.width());
         let found = found.map_err(|error| refused(table, error))?;
         if let Some(name) = found.layout.parameters.first() {
             let what =
@@ -101,23 +102,18 @@ pub(crate) struct Invariants {
 }
 
 impl Invariants {
-    /// Of a problem whose parameters have values.
-    pub(crate) fn new(problem: &Problem) -> Result<Self, RunError> {
-        let group = product_group(Path::new(&problem.name), &problem.algebra)?;
-        Ok(Self {
-            functions: step::Invariants::new(
-                &problem.algebra,
-                step::Energy::of_polynomial(problem),
-                None,
-            ),
-            group,
-        })
+    /// Of a system whose parameters have values.
+    pub(crate) fn new(hamiltonian: &Hamiltonian) -> Result<Self, RunError> {
+        let Facts { name, algebra, .. } = hamiltonian.facts();
+        let group = product_group(Path::new(name), algebra)?;
+        let functions = step::Invariants::new(algebra, step::Energy::new(hamiltonian), None);
+        Ok(Self { functions, group })
     }
 
-    /// The energy of a momentum, and the sum of the absolute values of its terms.
-    pub(crate) fn energy(&self, mu: &[f64]) -> (f64, f64) {
-        let energy = self.functions.hamiltonian.as_ref();
-        energy.map_or((0.0, 0.0), |energy| (energy.value(mu), energy.magnitude(mu)))
+    /// The energy of a momentum, and the sum of the absolute values of its terms; none where it moves in time.
+    pub(crate) fn energy(&self, mu: &[f64]) -> Option<(f64, f64)> {
+        let energy = self.functions.hamiltonian.as_ref()?;
+        Some((energy.value(mu), energy.magnitude(mu)))
     }
 
     /// By how much each Casimir drifts from one momentum to another, relative to its terms.

@@ -13,6 +13,14 @@ pub enum JudgeError {
     /// The chart does not exist for the algebra.
     #[error(transparent)]
     Chart(#[from] ChartError),
+    /// The Hamiltonian has no formula.
+    #[error(
+        "the Hamiltonian is a function of a program: there is no formula to compute in doubled precision"
+    )]
+    Given,
+    /// A momentum is outside the domain of the Hamiltonian.
+    #[error("the Hamiltonian is not defined at a momentum of this step")]
+    Undefined,
     /// A vector has the wrong number of entries.
     #[error("{what} has {found} entries in place of {expected}")]
     Length {

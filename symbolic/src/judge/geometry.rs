@@ -64,8 +64,6 @@ pub(super) struct Geometry {
     pub(super) bracket_norm: f64,
     /// b with ‖Σ xᵢ eᵢ‖ ≤ b|x|, Frobenius' norm and the Euclidean one.
     pub(super) basis_norm: f64,
-    /// c with ‖ξ ↦ xξx‖ ≤ c|x|².
-    cubic_norm: f64,
 }
 
 impl Geometry {
@@ -93,7 +91,6 @@ impl Geometry {
             size: algebra.matrix_size(),
             bracket_norm: bracket_norm(dim, &structure),
             basis_norm: if basis_norm == 0.0 { 1.0 } else { basis_norm },
-            cubic_norm: norm(&values(&cubic)),
             structure,
             cubic,
             basis,
@@ -187,102 +184,64 @@ impl Geometry {
         matrix
     }
 
-    /// p̂ and its derivative ∂p̂_i/∂x_j.
-    pub(super) fn pull_back_derivative(
+    /// The momentum P in the middle of the step σ(x/2)², and the momentum after it, from the one before it.
+    pub(super) fn through_middle<T: Real>(
         &self,
-        x: &DMatrix<f64>,
-        mu: &DMatrix<f64>,
-    ) -> Result<(DMatrix<f64>, DMatrix<f64>), JudgeError> {
-        match self.chart {
-            Chart::Exponential => self.exponential_derivative(x, mu),
-            Chart::Cayley => self.cayley_derivative(x, mu),
-        }
+        x: &DMatrix<T>,
+        mu: &DMatrix<T>,
+    ) -> Result<(DMatrix<T>, DMatrix<T>), JudgeError> {
+        let half = T::from(0.5);
+        let y = x * half;
+        let first = self.pull_back(self.chart, &y, mu)?;
+        let middle = self.transport(self.chart, &y, mu, &first);
+        let last = self.pull_back(self.chart, &y, &middle)?;
+        let end = self.transport(self.chart, &y, &middle, &last);
+        Ok(((first + last) * half, end))
     }
 
-    /// Adds the derivatives factor·∂(ad_xᵀ v)/∂x.
-    fn add_turned(&self, matrix: &mut DMatrix<f64>, factor: f64, v: &DMatrix<f64>) {
-        for Entry { at: [i, j, k], value } in &self.structure {
-            matrix[(*j, *i)] += factor * value.to_f64() * v[*k];
-        }
-    }
-
-    /// Terms t_k = A t_{k−1}/(k+1), A = ad_xᵀ, and their derivatives (A_j t_{k−1} + A ∂_j t_{k−1})/(k+1).
-    fn exponential_derivative(
+    /// J_R(x, p) = Σ βₖ (ad\*_x)ᵏ p, and with Cayley's chart the part that is quadratic in x.
+    pub(super) fn momentum<T: Real>(
         &self,
-        x: &DMatrix<f64>,
-        mu: &DMatrix<f64>,
-    ) -> Result<(DMatrix<f64>, DMatrix<f64>), JudgeError> {
-        let ad = self.ad(x);
-        let (mut sum, mut term) = (mu.clone(), mu.clone());
-        let mut total = DMatrix::zeros(self.dim, self.dim);
-        let mut derivative = total.clone();
-        for k in 1..TERMS {
-            let factor = 1.0 / (k + 1) as f64;
-            derivative = times(&ad, &derivative);
-            self.add_turned(&mut derivative, 1.0, &term);
-            derivative *= factor;
-            term = times(&ad, &term) * factor;
-            sum += &term;
-            total += &derivative;
-            let (a, b) = (size(&term), size(&derivative));
-            if !a.is_finite() || !b.is_finite() {
-                return Err(JudgeError::OutOfRange);
-            }
-            if a <= 1e-17 * size(&sum) && b <= 1e-17 * size(&total) {
-                return Ok((sum, total));
-            }
+        beta: &[T],
+        x: &DMatrix<T>,
+        p: &DMatrix<T>,
+    ) -> DMatrix<T> {
+        let (ad, mut power, mut sum) = (self.ad(x), p.clone(), p * beta[0]);
+        for &beta in &beta[1..] {
+            power = times(&ad, &power);
+            sum += &power * beta;
         }
-        Err(JudgeError::OutOfRange)
-    }
-
-    /// With J_L = M(x) p = μ: ∂p = −M⁻¹ ∂M p.
-    fn cayley_derivative(
-        &self,
-        x: &DMatrix<f64>,
-        mu: &DMatrix<f64>,
-    ) -> Result<(DMatrix<f64>, DMatrix<f64>), JudgeError> {
-        let p = self.pull_back(Chart::Cayley, x, mu)?;
-        let mut right = DMatrix::zeros(self.dim, self.dim);
-        self.add_turned(&mut right, 0.5, &p);
         for Entry { at: [a, b, argument, result], value } in &self.cubic {
-            let value = 0.25 * value.to_f64() * p[*result];
-            right[(*argument, *a)] += value * x[*b];
-            right[(*argument, *b)] += value * x[*a];
+            sum[*argument] -= T::of(*value) * x[*a] * x[*b] * p[*result] * T::from(0.25);
         }
-        let derivative = self.pull_back(Chart::Cayley, x, &right)?;
-        Ok((p, derivative))
+        sum
     }
 
-    /// Bounds on |p̂|/|μ| and ‖∂p̂/∂x‖/|μ| for |x| ≤ r; `None` where there are none.
-    pub(super) fn pull_back_bounds(&self, r: f64) -> Option<(f64, f64)> {
-        let (a, z) = (self.bracket_norm, self.bracket_norm * r);
-        match self.chart {
-            // φ(z) = (eᶻ − 1)/z and φ′(z) = (eᶻ − φ(z))/z, by their series to stay exact near 0.
-            Chart::Exponential => {
-                if !(z < 10.0) {
-                    return None;
-                }
-                let (mut value, mut slope, mut term) = (1.0, 0.0, 1.0);
-                for k in 1..80 {
-                    // zᵏ⁻¹/(k+1)!
-                    term /= f64::from(k + 1);
-                    slope += f64::from(k) * term;
-                    term *= z;
-                    value += term;
-                }
-                Some((value, a * slope))
-            }
-            // M(x) = 1 + m with ‖m‖ ≤ ar/2 + cr²/4.
-            Chart::Cayley => {
-                let c = self.cubic_norm;
-                let m = 0.5 * z + 0.25 * c * r * r;
-                if !(m < 0.99) {
-                    return None;
-                }
-                let inverse = 1.0 / (1.0 - m);
-                Some((inverse, inverse * inverse * 0.5 * (a + c * r)))
-            }
+    /// Hamilton's equations of H∘J_R at (x, p), ω being ∂H/∂μ at J_R(x, p): ẋ = (∂J_R/∂p)ᵀ ω, ṗ = −(∂J_R/∂x)ᵀ ω.
+    pub(super) fn canonical<T: Real>(
+        &self,
+        beta: &[T],
+        x: &DMatrix<T>,
+        p: &DMatrix<T>,
+        omega: &DMatrix<T>,
+    ) -> [DMatrix<T>; 2] {
+        let ad = self.ad(x);
+        let bracket: Sparse<T> = ad.iter().map(|&(row, column, x)| (column, row, x)).collect();
+        let powers = std::iter::successors(Some(p.clone()), |power| Some(times(&ad, power)));
+        let powers: Vec<DMatrix<T>> = powers.take(beta.len() - 1).collect();
+        let mut velocity = omega * beta[beta.len() - 1];
+        let mut force = DMatrix::zeros(self.dim, 1);
+        for (power, &beta) in powers.iter().zip(beta).rev() {
+            force += times(&self.ad(&velocity), power);
+            velocity = times(&bracket, &velocity) + omega * beta;
         }
+        for Entry { at: [a, b, argument, result], value } in &self.cubic {
+            let value = T::of(*value) * omega[*argument] * T::from(0.25);
+            velocity[*result] -= value * x[*a] * x[*b];
+            force[*a] += value * x[*b] * p[*result];
+            force[*b] += value * x[*a] * p[*result];
+        }
+        [velocity, force]
     }
 
     /// How τ and Ad\* answer to a change of x, in double precision: ‖Ad\*_{τ(x)⁻¹}‖ and ‖d^R τ_x‖ (Frobenius).
@@ -290,10 +249,10 @@ impl Geometry {
         &self,
         chart: Chart,
         x: &DMatrix<f64>,
-    ) -> Result<(f64, f64), JudgeError> {
+    ) -> Result<[f64; 2], JudgeError> {
         let unit = DMatrix::identity(self.dim, self.dim);
         let pulled = self.pull_back(chart, x, &unit)?;
-        Ok((norm(&self.transport(chart, x, &unit, &pulled)), norm(&pulled)))
+        Ok([norm(&self.transport(chart, x, &unit, &pulled)), norm(&pulled)])
     }
 
     /// τ(x) as a matrix.

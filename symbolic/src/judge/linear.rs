@@ -2,9 +2,10 @@
 
 use nalgebra::{ClosedAddAssign, ClosedMulAssign, ClosedSubAssign, DMatrix, Scalar};
 use num_traits::{One, Zero};
-use std::ops::Neg;
+use std::ops::{Div, Neg};
 
 use super::DoubleDouble;
+use super::functions::Functions;
 
 /// The arithmetic that the judge needs, in double or doubled precision.
 pub(super) trait Real:
@@ -17,12 +18,17 @@ pub(super) trait Real:
     + ClosedSubAssign
     + ClosedMulAssign
     + Neg<Output = Self>
+    + Div<Output = Self>
+    + Functions
 {
     /// The number of doubled precision, rounded to this type.
     fn of(value: DoubleDouble) -> Self;
 
     /// The nearest double.
     fn double(self) -> f64;
+
+    /// The product with 2^exponent.
+    fn scaled(self, exponent: i64) -> Self;
 
     /// The solution of a linear system for each column of the right side; `None` where the matrix is singular, as far as
     /// double precision tells.
@@ -38,6 +44,10 @@ impl Real for f64 {
         self
     }
 
+    fn scaled(self, exponent: i64) -> Self {
+        DoubleDouble::from(self).scaled(exponent).to_f64()
+    }
+
     fn solve(matrix: &DMatrix<Self>, right: &DMatrix<Self>) -> Option<DMatrix<Self>> {
         matrix.clone().lu().solve(right)
     }
@@ -50,6 +60,10 @@ impl Real for DoubleDouble {
 
     fn double(self) -> f64 {
         self.to_f64()
+    }
+
+    fn scaled(self, exponent: i64) -> Self {
+        Self::scaled(self, exponent)
     }
 
     /// By factors in double precision, whose solution is refined as far as its residual in doubled precision tells.
@@ -103,6 +117,30 @@ pub(super) fn norm<'a, T: Real>(values: impl IntoIterator<Item = &'a T> + Copy) 
     let squares = values.into_iter().map(|x| (x.double() / largest).powi(2));
     largest * squares.sum::<f64>().sqrt()
 }
+
+/// A function's derivative at x by differences over this spacing, where it has the value `here`.
+///
+/// # Errors
+/// Those of the function.
+pub(super) fn derivative<E>(
+    x: &DMatrix<f64>,
+    here: &DMatrix<f64>,
+    spacing: f64,
+    function: impl Fn(&DMatrix<f64>) -> Result<DMatrix<f64>, E>,
+) -> Result<DMatrix<f64>, E> {
+    let mut derivative = DMatrix::zeros(here.nrows(), x.nrows());
+    let mut beside = x.clone();
+    for (i, mut column) in derivative.column_iter_mut().enumerate() {
+        beside[i] = x[i] + spacing;
+        let change = (function(&beside)? - here) / (beside[i] - x[i]);
+        column.copy_from(&change.column(0));
+        beside[i] = x[i];
+    }
+    Ok(derivative)
+}
+
+/// The spacing of differences, relative to what is varied: the root of rounding.
+pub(super) const SPACING: f64 = 1.5e-8;
 
 /// The larger of two numbers; NaN where one is, unlike `f64::max`.
 pub(super) fn maximum(a: f64, b: f64) -> f64 {

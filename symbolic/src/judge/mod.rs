@@ -3,7 +3,8 @@
 //! A step of (g, μ) is right if x, the coordinate of the group's increment, solves x = ∂S(p̂), p̂ = (d^R τ_x)ᵀ μ,
 //! is the solution continued from x = s ∂S(p̂), s from 0 to 1, lies inside the chart, and moves g by τ(x) and μ by
 //! Ad\*_{τ(x)⁻¹}. Everything here is computed from the exact problem, structure constants and rational S_k, and
-//! shares no code with the steps it judges.
+//! shares no code with the steps it judges. A step by collocation is judged in the same way, x being the rates at
+//! its nodes and ∂S∘p̂ the right side of their equations; `energy` says what its Hamiltonian is computed from.
 //!
 //! ```
 //! use coadjoint_symbolic::hamilton_jacobi::{TermLimit, derive};
@@ -24,7 +25,7 @@
 //! let x: Vec<f64> = right.x.iter().map(|x| x.to_f64()).collect();
 //! let point = step.at(&x).unwrap();
 //! assert!(point.residual(f64::EPSILON / 2.0).relative() < 1.0);
-//! assert!(matches!(point.branch().0, Branch::Proven | Branch::Right));
+//! assert!(matches!(point.branch().0, Branch::Right));
 //! ```
 
 // A comparison with what is not a number must refuse.
@@ -33,7 +34,10 @@
 mod branch;
 mod domain;
 mod double_double;
+mod energy;
 mod error;
+mod functions;
+mod gauss;
 mod geometry;
 mod linear;
 mod motion;
@@ -54,24 +58,36 @@ use nalgebra::DMatrix;
 
 use crate::comoving::Frame;
 use crate::hamilton_jacobi::{GeneratingSeries, TermLimit, derive};
-use crate::lie::LieAlgebra;
+use crate::lie::{Chart, LieAlgebra};
 use crate::problem::Problem;
+use crate::smooth::Smooth;
+use energy::Energy;
+use gauss::{Collocation, Stage};
 use geometry::Geometry;
 use linear::{column, size};
 use series::Series;
-use step::Scaled;
+use step::{Equation, Scaled};
 use wide::exponent_of;
 
 /// Momenta of about this many binary digits of range are counted in the same unit.
 const UNITS: i64 = 32;
 
+/// The most powers of x in charts by series, which is all of them in doubled precision.
+const POWERS: usize = 40;
+
 /// Judges the steps of one problem.
 #[derive(Clone, Debug)]
 pub struct Judge {
     geometry: Geometry,
-    series: Series,
-    /// The motion of a comoving frame, which follows each step.
-    frame: Vec<Series>,
+    law: Law,
+}
+
+/// How steps are made.
+#[derive(Clone, Debug)]
+enum Law {
+    /// By a series, and the motion of a comoving frame, which follows each step.
+    Series(Series, Vec<Series>),
+    Collocation(Box<Collocation>),
 }
 
 impl Judge {
@@ -82,8 +98,8 @@ impl Judge {
     pub fn new(algebra: &LieAlgebra, series: &GeneratingSeries) -> Result<Self, JudgeError> {
         let geometry = Geometry::new(algebra, series.chart())?;
         let orders = (1..=series.truncation()).map(|k| (k as u32, series.order(k)));
-        let series = Series::new(&geometry.factors, orders);
-        Ok(Self { geometry, series, frame: Vec::new() })
+        let law = Law::Series(Series::new(&geometry.factors, orders), Vec::new());
+        Ok(Self { geometry, law })
     }
 
     /// For the problem that a front end has read, its comoving frame included.
@@ -93,10 +109,32 @@ impl Judge {
     pub fn of_problem(problem: &Problem, limit: TermLimit) -> Result<Self, JudgeError> {
         let (algebra, chart) = (&problem.algebra, problem.chart);
         let series = derive(algebra, chart, problem.generated(), problem.truncation, limit)?;
-        let judge = Self::new(algebra, &series)?;
-        let parts = problem.comoving.iter().flat_map(Frame::parts);
-        let frame = parts.map(|part| Series::new(&judge.geometry.factors, [(1, part)])).collect();
-        Ok(Self { frame, ..judge })
+        let mut judge = Self::new(algebra, &series)?;
+        if let Law::Series(_, frame) = &mut judge.law {
+            let parts = problem.comoving.iter().flat_map(Frame::parts);
+            frame.extend(parts.map(|part| Series::new(&judge.geometry.factors, [(1, part)])));
+        }
+        Ok(judge)
+    }
+
+    /// For steps by collocation in a chart about the middle. The exponential chart is known by its series up to the power
+    /// `degree` of x, or as closely as doubled precision tells where there is none.
+    ///
+    /// # Errors
+    /// [`JudgeError::Chart`] where the algebra has no such chart, and [`JudgeError::Given`].
+    pub fn of_smooth(
+        smooth: &Smooth,
+        chart: Chart,
+        degree: Option<usize>,
+    ) -> Result<Self, JudgeError> {
+        let geometry = Geometry::new(&smooth.algebra, chart)?;
+        let degree = match chart {
+            Chart::Cayley => 1,
+            Chart::Exponential => degree.unwrap_or(POWERS),
+        };
+        let collocation = Collocation::new(Energy::new(smooth)?, smooth.nodes(), degree);
+        let law = Law::Collocation(Box::new(collocation.ok_or(JudgeError::OutOfRange)?));
+        Ok(Self { geometry, law })
     }
 
     /// With a step size and the values of the symbols put in. They are taken as exact: give the doubles
@@ -111,7 +149,8 @@ impl Judge {
         if !size(symbols).is_finite() {
             return Err(JudgeError::NotFinite { what: "a parameter" });
         }
-        Ok(Setting { judge: self, step, symbols: symbols.to_vec(), scaled: Vec::new() })
+        let (symbols, time) = (symbols.to_vec(), DoubleDouble::default());
+        Ok(Setting { judge: self, step, symbols, time, scaled: Vec::new() })
     }
 }
 
@@ -121,11 +160,19 @@ pub struct Setting<'a> {
     judge: &'a Judge,
     step: f64,
     symbols: Vec<f64>,
+    /// The time at which a step starts.
+    time: DoubleDouble,
     /// In each of the units that have occurred.
     scaled: Vec<Scaled>,
 }
 
 impl Setting<'_> {
+    /// Steps start at this time and so many steps later; at time 0 where this is not said.
+    pub fn start(&mut self, time: f64, steps: u64) {
+        let [time, steps, step] = [time, steps as f64, self.step].map(DoubleDouble::from);
+        self.time = time + steps * step;
+    }
+
     /// The step from a momentum.
     ///
     /// # Errors
@@ -150,21 +197,33 @@ impl Setting<'_> {
             return Err(JudgeError::NotFinite { what: "the momentum" });
         }
         let exponent = if largest == 0.0 { 0 } else { exponent_of(largest) + scale };
-        // Not so small that coefficients underflow in it.
-        let unit = ((exponent + UNITS / 2).div_euclid(UNITS) * UNITS).max(-960);
-        let place = self.scaled.iter().position(|scaled| scaled.scale == unit);
-        let place = place.unwrap_or_else(|| {
-            let fold = |series: &Series| series.folded(self.step, &self.symbols, unit);
-            let (series, frame) = (fold(&judge.series), judge.frame.iter().map(fold).collect());
-            self.scaled.push(Scaled { series, frame, scale: unit });
-            self.scaled.len() - 1
-        });
-        let folded = &self.scaled[place];
-        if !folded.series.is_finite() {
-            return Err(JudgeError::OutOfRange);
-        }
+        let (unit, equation) = match &judge.law {
+            Law::Series(series, frame) => {
+                // Not so small that coefficients underflow in it.
+                let unit = ((exponent + UNITS / 2).div_euclid(UNITS) * UNITS).max(-960);
+                let place = self.scaled.iter().position(|scaled| scaled.scale == unit);
+                let place = place.unwrap_or_else(|| {
+                    let fold = |series: &Series| series.folded(self.step, &self.symbols, unit);
+                    let (series, frame) = (fold(series), frame.iter().map(fold).collect());
+                    self.scaled.push(Scaled { series, frame, scale: unit });
+                    self.scaled.len() - 1
+                });
+                let folded = &self.scaled[place];
+                if !folded.series.is_finite() {
+                    return Err(JudgeError::OutOfRange);
+                }
+                (unit, Equation::Series(folded))
+            }
+            Law::Collocation(collocation) => {
+                let (symbols, step, scale) = (&self.symbols[..], self.step, exponent);
+                let middle = self.time + DoubleDouble::from(0.5 * step);
+                let stage = Stage { collocation, symbols, step, middle, scale };
+                (exponent, Equation::Collocation(stage))
+            }
+        };
         let momentum = momentum.map(|m| m.scaled(scale - unit));
         let double = linear::doubles(&momentum);
-        Ok(Step { geometry: &judge.geometry, folded, momentum, double })
+        let step = Step { geometry: &judge.geometry, equation, scale: unit, momentum, double };
+        step.is_defined().then_some(step).ok_or(JudgeError::Undefined)
     }
 }

@@ -4,34 +4,33 @@ use nalgebra::DMatrix;
 
 use super::JudgeError;
 use super::branch::Branch;
-use super::linear::{column, doubles, exact, maximum, norm, size};
-use super::step::{RightSolution, Step, ratio};
+use super::linear::{column, exact, maximum, norm, size};
+use super::step::{Equation, RightSolution, Step, ratio};
 
 impl Step<'_> {
-    /// x with all that is needed to judge it.
+    /// x, or the rates of a step by collocation, with all that is needed to judge them.
     ///
     /// # Errors
     /// [`JudgeError::OutOfRange`] where x is too large, [`JudgeError::NotFinite`], [`JudgeError::Length`].
     pub fn at(&self, x: &[f64]) -> Result<Point<'_>, JudgeError> {
-        if x.len() != self.geometry.dim {
-            let (found, expected) = (x.len(), self.geometry.dim);
+        let (found, expected) = (x.len(), self.unknowns());
+        if found != expected {
             return Err(JudgeError::Length { what: "x", found, expected });
         }
         if !size(x).is_finite() {
             return Err(JudgeError::NotFinite { what: "x" });
         }
         let x = column(x.iter().copied());
-        let (p, defect) = self.defect(&exact(&x))?;
-        Ok(Point { step: self, x, p: doubles(&p), defect })
+        let defect = self.defect(&exact(&x))?;
+        Ok(Point { step: self, x, defect })
     }
 }
 
-/// An x that is to be judged, p̂ = (d^R τ_x)ᵀ μ, and x − ∂S(p̂) in doubled precision.
+/// An x that is to be judged, and x − ∂S(p̂) in doubled precision.
 #[derive(Debug)]
 pub struct Point<'a> {
     step: &'a Step<'a>,
     x: DMatrix<f64>,
-    p: DMatrix<f64>,
     defect: DMatrix<f64>,
 }
 
@@ -58,14 +57,14 @@ impl Point<'_> {
     /// `f64` and 2⁻²⁴ for `f32`.
     #[must_use]
     pub fn residual(&self, unit: f64) -> Residual {
-        let (bound, _) = self.step.bound(&self.x, &self.p, unit);
+        let bound = self.step.bound(&self.x, unit).map_or(f64::NAN, |(bound, _)| bound);
         Residual { residual: norm(&self.defect), bound }
     }
 
     /// The ratio of the last two terms of the series in the direct factor of the group where it is largest: at p̂, of the
     /// sums of the absolute values of all monomials of their gradients; or of the bounds on these for all momenta as long
     /// as the longest part of μ in a factor, if that is less. Terms below rounding of a scalar of this unit roundoff do
-    /// not count. `None` where the series has one term.
+    /// not count. `None` where the series has one term, and where there is none.
     #[must_use]
     pub fn series_ratio(&self, unit: f64) -> Option<f64> {
         // Nothing to compare with is no ratio, and a term below rounding of coordinates of order one is what cancels
@@ -78,8 +77,10 @@ impl Point<'_> {
             });
             ratios.fold(0.0, maximum)
         };
-        let series = &self.step.folded.series;
-        let [here, anywhere] = series.last_two(&self.p, self.step.largest_factor())?;
+        let (geometry, mu) = (self.step.geometry, &self.step.double);
+        let Equation::Series(scaled) = &self.step.equation else { return None };
+        let p = geometry.pull_back(geometry.chart, &self.x, mu).ok()?;
+        let [here, anywhere] = scaled.series.last_two(&p, self.step.largest_factor())?;
         Some(largest(here).min(largest(anywhere)))
     }
 

@@ -1,12 +1,13 @@
 //! S_h(p), its gradient and its Hessian, term by term.
 
 use std::collections::BTreeMap;
+use std::convert::Infallible;
 use std::sync::Arc;
 
 use nalgebra::DMatrix;
 
 use super::DoubleDouble;
-use super::linear::{Real, column, norm};
+use super::linear::{Real, SPACING, column, derivative, maximum, norm};
 use super::wide::Wide;
 use crate::poly::{Polynomial, split_at};
 
@@ -88,9 +89,8 @@ impl Series {
         }
         let rounded = |list: &[DoubleDouble]| list.iter().map(|v| v.to_f64()).collect::<Vec<_>>();
         let last_two = last_two.map(|list| rounded(&list).iter().map(|c| c.abs()).collect());
-        let (double, growth) = (rounded(&exact), plan.growth(&size));
         let last_two = self.last.map(|_| last_two);
-        Folded { plan, exact, double, size, last_two, growth }
+        Folded { plan, exact, size, last_two }
     }
 }
 
@@ -99,14 +99,10 @@ impl Series {
 pub(super) struct Folded {
     plan: Arc<Plan>,
     exact: Vec<DoubleDouble>,
-    double: Vec<f64>,
     /// Sums of the terms' absolute values.
     size: Vec<f64>,
     /// The absolute values of the coefficients of S_K and S_{K−2}, where there are both.
     last_two: Option<[Vec<f64>; 2]>,
-    /// For each degree d: a bound G on |∂S_d/∂p| / |p|^(d−1) and one on ‖Hess S_d‖ / |p|^(d−2), |.| being
-    /// Euclidean: every factor is at most |p|.
-    pub(super) growth: Vec<(i32, f64, f64)>,
 }
 
 impl Folded {
@@ -114,18 +110,21 @@ impl Folded {
         self.exact.iter().all(|c| c.is_finite())
     }
 
-    /// ∂S/∂p in doubled precision.
-    pub(super) fn gradient(&self, p: &DMatrix<DoubleDouble>) -> DMatrix<DoubleDouble> {
-        column(self.plan.gradient(&self.exact, &self.plan.products(p.as_slice())).into_iter())
+    /// ∂S/∂p.
+    pub(super) fn gradient<T: Real>(&self, p: &DMatrix<T>) -> DMatrix<T> {
+        let coefficients: Vec<T> = self.exact.iter().map(|&c| T::of(c)).collect();
+        column(self.plan.gradient(&coefficients, &self.plan.products(p.as_slice())).into_iter())
     }
 
-    /// ∂S/∂p and its derivative in double precision.
-    pub(super) fn derivatives(&self, p: &DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
-        let (plan, n) = (&self.plan, p.nrows());
-        let products = plan.products(p.as_slice());
-        let hessian = evaluate(&plan.second, n * n, &self.double, &products);
-        let gradient = plan.gradient(&self.double, &products);
-        (column(gradient.into_iter()), DMatrix::from_vec(n, n, hessian))
+    /// The second derivatives of S at p, in size: the smaller of Frobenius' norm and the row sum, which both bound the
+    /// spectral norm.
+    pub(super) fn hessian(&self, p: &DMatrix<f64>) -> f64 {
+        let spacing = SPACING * if norm(p) > 0.0 { norm(p) } else { 1.0 };
+        let gradient = |p: &DMatrix<f64>| Ok::<_, Infallible>(self.gradient(p));
+        let Ok(hessian) = derivative(p, &self.gradient(p), spacing, gradient);
+        let rows = hessian.row_iter().map(|row| row.iter().map(|h| h.abs()).sum::<f64>());
+        let (rows, whole) = (rows.fold(0.0, maximum), norm(&hessian));
+        if rows < whole { rows } else { whole }
     }
 
     /// The length of the sums of the absolute values of the terms of ∂S/∂p.
@@ -167,7 +166,6 @@ struct Plan {
     /// Product k + 1 is an earlier one times a coordinate; product 0 is 1.
     products: Vec<(usize, usize)>,
     first: Vec<Derivative>,
-    second: Vec<Derivative>,
 }
 
 /// What a monomial adds at one place of a derivative: its coefficient times `factor` times a product.
@@ -185,41 +183,15 @@ fn without(powers: &[(usize, u32)], i: usize) -> Powers {
     lowered.filter(|power| power.1 > 0).collect()
 }
 
-/// The derivative with this many places of the polynomial with these coefficients.
-fn evaluate<T: Real>(
-    derivative: &[Derivative],
-    places: usize,
-    coefficients: &[T],
-    products: &[T],
-) -> Vec<T> {
-    let mut result = vec![T::zero(); places];
-    for entry in derivative.iter().filter(|entry| !coefficients[entry.monomial].is_zero()) {
-        let value = coefficients[entry.monomial] * T::from(entry.factor) * products[entry.product];
-        result[entry.place] += value;
-    }
-    result
-}
-
 impl Plan {
     fn new(factors: &[usize], monomials: &[Powers]) -> Self {
-        let n = factors.len();
         let mut plan = Self { factors: factors.to_vec(), ..Self::default() };
         let mut known = BTreeMap::new();
         for (monomial, powers) in monomials.iter().enumerate() {
-            for (at, &(i, a)) in powers.iter().enumerate() {
-                let lower = without(powers, i);
-                let (factor, product) = (f64::from(a), plan.product(&mut known, &lower));
+            for &(i, a) in powers {
+                let (factor, product) =
+                    (f64::from(a), plan.product(&mut known, &without(powers, i)));
                 plan.first.push(Derivative { monomial, place: i, factor, product });
-                for &(j, b) in &powers[..=at] {
-                    let b = if i == j { a - 1 } else { b };
-                    if b > 0 {
-                        let product = plan.product(&mut known, &without(&lower, j));
-                        let factor = f64::from(a) * f64::from(b);
-                        let entry = |place| Derivative { monomial, place, factor, product };
-                        plan.second.push(entry(i * n + j));
-                        plan.second.extend((i != j).then(|| entry(j * n + i)));
-                    }
-                }
             }
             let mut degrees: BTreeMap<usize, u32> = BTreeMap::new();
             powers.iter().for_each(|&(i, m)| *degrees.entry(factors[i]).or_insert(0) += m);
@@ -257,23 +229,13 @@ impl Plan {
     }
 
     fn gradient<T: Real>(&self, coefficients: &[T], products: &[T]) -> Vec<T> {
-        evaluate(&self.first, self.factors.len(), coefficients, products)
-    }
-
-    /// See [`Folded::growth`].
-    fn growth(&self, size: &[f64]) -> Vec<(i32, f64, f64)> {
-        let n = self.factors.len();
-        let ones = vec![1.0; self.products.len() + 1];
-        let mut degrees = self.degrees.clone();
-        degrees.sort_unstable();
-        degrees.dedup();
-        let bounds = degrees.into_iter().map(|degree| {
-            let own = self.degrees.iter().zip(size);
-            let own: Vec<f64> = own.map(|(d, c)| if *d == degree { *c } else { 0.0 }).collect();
-            let hessian = evaluate(&self.second, n * n, &own, &ones);
-            (degree, norm(&self.gradient(&own, &ones)), norm(&hessian))
-        });
-        bounds.collect()
+        let mut result = vec![T::zero(); self.factors.len()];
+        for &Derivative { monomial, place, factor, product } in &self.first {
+            if !coefficients[monomial].is_zero() {
+                result[place] += coefficients[monomial] * T::from(factor) * products[product];
+            }
+        }
+        result
     }
 
     /// The sums over each direct factor.

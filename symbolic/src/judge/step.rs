@@ -3,8 +3,9 @@
 use nalgebra::DMatrix;
 
 use super::domain::{Inside, inside};
+use super::gauss::Stage;
 use super::geometry::Geometry;
-use super::linear::{column, doubles, maximum, norm};
+use super::linear::{Real, SPACING, column, derivative, doubles, exact, norm};
 use super::series::Folded;
 use super::{DoubleDouble, JudgeError};
 use crate::lie::Chart;
@@ -18,11 +19,21 @@ pub(super) struct Scaled {
     pub(super) scale: i64,
 }
 
+/// The equation of a step, whose unknowns are equal to a right side that depends on them.
+#[derive(Clone, Debug)]
+pub(super) enum Equation<'a> {
+    /// x = ∂S(p̂(x)).
+    Series(&'a Scaled),
+    /// The rates at the nodes.
+    Collocation(Stage<'a>),
+}
+
 /// One step from a momentum μ. Inside, momenta are counted in units of a power of two near |μ|.
 #[derive(Debug)]
 pub struct Step<'a> {
     pub(super) geometry: &'a Geometry,
-    pub(super) folded: &'a Scaled,
+    pub(super) equation: Equation<'a>,
+    pub(super) scale: i64,
     pub(super) momentum: DMatrix<DoubleDouble>,
     /// The same in double precision.
     pub(super) double: DMatrix<f64>,
@@ -31,9 +42,9 @@ pub struct Step<'a> {
 /// The right solution in doubled precision.
 #[derive(Clone, Debug)]
 pub struct RightSolution {
-    /// x, one column.
+    /// The unknowns, one column: x, or the rates of a step by collocation.
     pub x: DMatrix<DoubleDouble>,
-    /// ‖(1 − Hess S·∂p̂/∂x)⁻¹‖, Frobenius' norm: how much a residual moves x.
+    /// Frobenius' norm of the inverse of 1 less the derivative of the right side: how much a residual moves x.
     pub response: f64,
 }
 
@@ -62,20 +73,67 @@ impl Step<'_> {
         self.momentum.as_slice()
     }
 
-    /// Whether x is inside the chart.
+    /// The increment x of the group that a solution has.
     #[must_use]
-    pub fn inside(&self, x: &[f64]) -> Inside {
-        inside(self.geometry, &column(x.iter().copied()))
+    pub fn increment(&self, right: &RightSolution) -> DMatrix<DoubleDouble> {
+        match &self.equation {
+            Equation::Series(_) => right.x.clone(),
+            Equation::Collocation(stage) => stage.increment(&right.x),
+        }
     }
 
-    /// p̂(x), and x − ∂S(p̂(x)) computed in doubled precision.
-    pub(super) fn defect(
+    /// Whether x is inside the chart, which about the middle of a step reaches to its ends.
+    #[must_use]
+    pub fn inside(&self, x: &[f64]) -> Inside {
+        let x = column(x.iter().copied());
+        match (&self.equation, self.geometry.chart) {
+            (Equation::Collocation(_), Chart::Cayley) => inside(self.geometry, &(x * 0.5)),
+            _ => inside(self.geometry, &x),
+        }
+    }
+
+    /// Whether the Hamiltonian is defined where the step starts.
+    pub(super) fn is_defined(&self) -> bool {
+        match &self.equation {
+            Equation::Series(_) => true,
+            Equation::Collocation(stage) => stage.is_defined(&self.momentum),
+        }
+    }
+
+    /// The number of unknowns.
+    pub(super) fn unknowns(&self) -> usize {
+        match &self.equation {
+            Equation::Series(_) => self.geometry.dim,
+            Equation::Collocation(stage) => stage.unknowns(self.geometry),
+        }
+    }
+
+    /// The right side of the equation.
+    pub(super) fn right_side<T: Real>(&self, x: &DMatrix<T>) -> Result<DMatrix<T>, JudgeError> {
+        let mu = self.momentum.map(T::of);
+        match &self.equation {
+            Equation::Series(scaled) => {
+                let p = self.geometry.pull_back(self.geometry.chart, x, &mu)?;
+                Ok(scaled.series.gradient(&p))
+            }
+            Equation::Collocation(stage) => stage.rates(self.geometry, &mu, x, 0.0),
+        }
+    }
+
+    /// The derivative of the right side, whose value is `here`.
+    pub(super) fn slope(
         &self,
-        x: &DMatrix<DoubleDouble>,
-    ) -> Result<(DMatrix<DoubleDouble>, DMatrix<f64>), JudgeError> {
-        let p = self.geometry.pull_back(self.geometry.chart, x, &self.momentum)?;
-        let defect = doubles(&(x - self.folded.series.gradient(&p)));
-        Ok((p, defect))
+        x: &DMatrix<f64>,
+        here: &DMatrix<f64>,
+    ) -> Result<DMatrix<f64>, JudgeError> {
+        // Charts bend over lengths of 1/‖ad‖.
+        let spacing = SPACING / self.geometry.bracket_norm.max(1.0);
+        derivative(x, here, spacing, |x| self.right_side(x))
+    }
+
+    /// What is left of the equation at x, computed in doubled precision.
+    pub(super) fn defect(&self, x: &DMatrix<DoubleDouble>) -> Result<DMatrix<f64>, JudgeError> {
+        Ok(doubles(&(x - self.right_side(x)?)))
     }
 
     /// The length of the longest part of μ in a direct factor of the group.
@@ -87,18 +145,30 @@ impl Step<'_> {
         parts.fold(0.0, f64::max)
     }
 
-    /// The bound on the residual at x, where p̂ is known; and ‖Hess S‖ there.
-    pub(super) fn bound(&self, x: &DMatrix<f64>, p: &DMatrix<f64>, unit: f64) -> (f64, f64) {
-        let (series, n) = (&self.folded.series, self.geometry.dim as f64);
-        let hessian = hessian_norm(series, p);
-        let sizes = norm(x) + series.terms(p) + hessian * (norm(p) + norm(&self.double));
-        (16.0 * n * unit * sizes + self.spaced(hessian, unit), hessian)
-    }
-
-    /// The error of x = ∂S(p̂) where numbers near zero are as far apart as with this unit roundoff.
-    pub(super) fn spaced(&self, hessian: f64, unit: f64) -> f64 {
-        let unscaled = DoubleDouble::from(hessian).scaled(-self.folded.scale).to_f64();
-        16.0 * self.geometry.dim as f64 * spacing(unit) * (1.0 + unscaled)
+    /// The bound on the residual at x, and by how much the right side changes with μ at most. The rounding of a gradient is
+    /// measured: by the right side in double precision with all numbers off by four roundings.
+    pub(super) fn bound(&self, x: &DMatrix<f64>, unit: f64) -> Result<(f64, f64), JudgeError> {
+        let (mu, rounding) = (&self.double, 16.0 * unit);
+        let n = self.geometry.dim as f64;
+        match &self.equation {
+            Equation::Series(scaled) => {
+                let p = self.geometry.pull_back(self.geometry.chart, x, mu)?;
+                let hessian = scaled.series.hessian(&p);
+                let [_, slope] = self.geometry.sensitivity(self.geometry.chart, x)?;
+                let sizes = norm(x) + scaled.series.terms(&p) + hessian * (norm(&p) + norm(mu));
+                // Where numbers near zero are as far apart as with this unit roundoff.
+                let unscaled = DoubleDouble::from(hessian).scaled(-self.scale).to_f64();
+                let spaced = 16.0 * n * spacing(unit) * (1.0 + unscaled);
+                Ok((rounding * n * sizes + spaced, hessian * (1.0 + slope)))
+            }
+            Equation::Collocation(stage) => {
+                let here = stage.rates(self.geometry, &self.momentum, &exact(x), 0.0)?;
+                let off = stage.rates(self.geometry, mu, x, 4.0 * unit)? - doubles(&here);
+                let rates = |mu: &DMatrix<f64>| stage.rates(self.geometry, mu, x, 0.0);
+                let influence = derivative(mu, &rates(mu)?, SPACING, rates)?;
+                Ok((rounding * n * norm(x) + 16.0 * norm(&off), norm(&influence)))
+            }
+        }
     }
 
     /// Where the right solution leads, frame motions included.
@@ -107,27 +177,42 @@ impl Step<'_> {
     /// [`JudgeError::OutOfRange`].
     pub fn end(&self, right: &RightSolution, unit: f64) -> Result<End, JudgeError> {
         let (geometry, chart) = (self.geometry, self.geometry.chart);
-        let x = doubles(&right.x);
-        let p = geometry.pull_back(chart, &right.x, &self.momentum)?;
-        let mut momentum = geometry.transport(chart, &right.x, &self.momentum, &p);
-        let mut element = geometry.element(chart, &right.x)?;
-        let (turn, slope) = geometry.sensitivity(chart, &x)?;
+        let exact_x = self.increment(right);
+        let x = doubles(&exact_x);
+        let (mut momentum, mut element, [turn, slope]) = match &self.equation {
+            Equation::Series(_) => {
+                let p = geometry.pull_back(chart, &exact_x, &self.momentum)?;
+                let momentum = geometry.transport(chart, &exact_x, &self.momentum, &p);
+                let element = geometry.element(chart, &exact_x)?;
+                (momentum, element, geometry.sensitivity(chart, &x)?)
+            }
+            Equation::Collocation(_) => {
+                let (_, momentum) = geometry.through_middle(&exact_x, &self.momentum)?;
+                let half = geometry.element(chart, &(exact_x * DoubleDouble::from(0.5)))?;
+                let [turn, slope] = geometry.sensitivity(chart, &(&x * 0.5))?;
+                (momentum, &half * &half, [turn * turn, 0.5 * slope * (1.0 + turn)])
+            }
+        };
         let (a, b, mu) = (geometry.bracket_norm, geometry.basis_norm, norm(&self.double));
-        let (bound, hessian) = self.bound(&x, &doubles(&p), unit);
+        let (bound, influence) = self.bound(&doubles(&right.x), unit)?;
         let moved = 2.0 * right.response * bound;
         let n = geometry.dim as f64;
         let rounding = 16.0 * n * unit;
         let mut momentum_bound = turn * mu * (rounding * (1.0 + norm(&x)) + a * slope * moved);
-        let least = DoubleDouble::from(spacing(unit)).scaled(-self.folded.scale).to_f64();
+        let least = DoubleDouble::from(spacing(unit)).scaled(-self.scale).to_f64();
         momentum_bound += 16.0 * n * least * (1.0 + turn);
         let mut length = norm(&element);
         let mut element_bound = length * (rounding * (1.0 + norm(&x)) + b * slope * moved);
-        let mut growth = turn * (1.0 + a * slope * mu * right.response * hessian * (1.0 + slope));
-        for part in &self.folded.frame {
+        let mut growth = turn * (1.0 + a * slope * mu * right.response * influence);
+        let frame = match &self.equation {
+            Equation::Series(scaled) => &scaled.frame[..],
+            Equation::Collocation(_) => &[],
+        };
+        for part in frame {
             let y = part.gradient(&momentum);
             let (short, at) = (doubles(&y), doubles(&momentum));
-            let (turn, slope) = geometry.sensitivity(Chart::Exponential, &short)?;
-            let hessian = norm(&part.derivatives(&at).1);
+            let [turn, slope] = geometry.sensitivity(Chart::Exponential, &short)?;
+            let hessian = part.hessian(&at);
             let p = geometry.pull_back(Chart::Exponential, &y, &momentum)?;
             momentum = geometry.transport(Chart::Exponential, &y, &momentum, &p);
             let moved = rounding * part.terms(&at) + hessian * momentum_bound;
@@ -140,17 +225,8 @@ impl Step<'_> {
             element *= turned;
             length = norm(&element);
         }
-        let scale = self.folded.scale;
-        Ok(End { momentum, scale, element, momentum_bound, element_bound, growth })
+        Ok(End { momentum, scale: self.scale, element, momentum_bound, element_bound, growth })
     }
-}
-
-/// ‖Hess S‖ at p, the smaller of Frobenius' norm and the row sum: both bound the spectral norm.
-pub(super) fn hessian_norm(series: &Folded, p: &DMatrix<f64>) -> f64 {
-    let (_, hessian) = series.derivatives(p);
-    let rows = hessian.row_iter().map(|row| row.iter().map(|h| h.abs()).sum::<f64>());
-    let (rows, whole) = (rows.fold(0.0, maximum), norm(&hessian));
-    if rows < whole { rows } else { whole }
 }
 
 /// The spacing of numbers below the smallest normal one.

@@ -278,7 +278,7 @@ fn judge_increment(
     tally.unsure += u64::from(inside == Inside::CannotTell);
     let (branch, right) = point.branch();
     match branch {
-        Branch::Proven | Branch::Right => {
+        Branch::Right => {
             if let Some(right) = &right
                 && random.one_in(SPOILT)
             {

@@ -21,6 +21,7 @@ mod golden_files;
 mod hygiene;
 mod implementations;
 mod inline_algebra;
+mod judged_collocation;
 mod kernels;
 mod kicked;
 mod lanes;
