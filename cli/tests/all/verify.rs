@@ -176,7 +176,6 @@ fn runs_by_collocation_are_judged() {
         "examples/exponential_spin.toml --time 3 --every 4 --at 0.33",
         "examples/screened_top.toml --time 0.5 --truncation 3",
         "examples/driven_qubit.toml --time 1",
-        "examples/rigid_body.toml --time 1 --method collocation",
         "fields.toml",
     ] {
         folder.run(&format!("simulate {run} --out run.csv")).ok();

@@ -6,10 +6,13 @@ use std::path::Path;
 use coadjoint_codegen::cancel;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::judge::Judge;
-use coadjoint_codegen::lie::Chart;
+use coadjoint_codegen::lie::catalogue::lookup;
+use coadjoint_codegen::lie::{Chart, LieAlgebra};
 use coadjoint_codegen::problem::{Parameter, values};
 use coadjoint_codegen::smooth::Hamiltonian;
+use coadjoint_codegen::step::Step;
 use coadjoint_learn::table::Table;
+use coadjoint_program::Precision;
 
 use super::course::{Course, Trouble};
 use super::found::Found;
@@ -33,9 +36,14 @@ pub fn judge_of(file: &Path, hamiltonian: &Hamiltonian) -> Result<Judge, RunErro
     let judge = match hamiltonian {
         Hamiltonian::Polynomial(problem) => Judge::of_problem(problem, TermLimit::default()),
         Hamiltonian::Smooth(smooth) => {
-            // The chart of groups by tables: as many powers of x as the order asks for.
-            let degree = (2 * smooth.nodes() - 2).max(1);
-            Judge::of_smooth(smooth, Chart::Exponential, Some(degree))
+            // Programs have the chart of rotations in closed form; where there are none, groups are tables.
+            let programs = Step::by_collocation(smooth, Precision::Double).is_ok();
+            let rotations = ["SO3", "SU2"].map(lookup);
+            let closed = |factor: &LieAlgebra| {
+                let is = |known: &LieAlgebra| known.clone().renamed(factor.name()) == *factor;
+                programs && rotations.iter().flatten().any(is)
+            };
+            Judge::of_smooth(smooth, Chart::Exponential, closed)
         }
     };
     judge.map_err(|error| RunError::Option(format!("{}: {error}", file.display())))
@@ -233,8 +241,7 @@ impl<'a> Follower<'a> {
         }
         let mut course = Course::new(&before.momentum, steps, self.size);
         let last = then + steps as f64 * self.step;
-        for (then, size, count) in
-            [(then, self.step, steps), (last, rest, u64::from(rest != 0.0))]
+        for (then, size, count) in [(then, self.step, steps), (last, rest, u64::from(rest != 0.0))]
         {
             let Ok(mut setting) = self.judge.at(size, &self.symbols) else { return };
             for done in 1..=count {

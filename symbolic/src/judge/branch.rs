@@ -3,7 +3,7 @@
 
 use nalgebra::{DMatrix, Dyn, LU};
 
-use super::linear::{doubles, exact, norm, size};
+use super::linear::{doubles, exact, norm, size, spectral};
 use super::step::{RightSolution, Step, ratio};
 use super::{DoubleDouble, JudgeError};
 
@@ -45,9 +45,9 @@ impl Model {
         solution.ok_or(JudgeError::OutOfRange)
     }
 
-    /// ‖(∂F/∂x)⁻¹‖, Frobenius' norm.
+    /// ‖(∂F/∂x)⁻¹‖.
     fn response(&self) -> f64 {
-        self.jacobian.try_inverse().map_or(f64::INFINITY, |inverse| norm(&inverse))
+        self.jacobian.try_inverse().map_or(f64::INFINITY, |inverse| spectral(&inverse))
     }
 
     /// The smallest pivot over the largest.

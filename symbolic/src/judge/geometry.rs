@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use nalgebra::DMatrix;
 
-use super::linear::{Real, norm, size};
+use super::linear::{Real, norm, size, spectral};
 use super::wide::Wide;
 use super::{DoubleDouble, JudgeError};
 use crate::lie::{Chart, LieAlgebra, cubic};
@@ -199,17 +199,18 @@ impl Geometry {
         Ok(((first + last) * half, end))
     }
 
-    /// J_R(x, p) = Σ βₖ (ad\*_x)ᵏ p, and with Cayley's chart the part that is quadratic in x.
+    /// J_R(x, p) = Σ βₖ (ad\*_x)ᵏ p, the column k of `beta` being βₖ in each coordinate, and with Cayley's chart the part that
+    /// is quadratic in x.
     pub(super) fn momentum<T: Real>(
         &self,
-        beta: &[T],
+        beta: &DMatrix<T>,
         x: &DMatrix<T>,
         p: &DMatrix<T>,
     ) -> DMatrix<T> {
-        let (ad, mut power, mut sum) = (self.ad(x), p.clone(), p * beta[0]);
-        for &beta in &beta[1..] {
+        let (ad, mut power, mut sum) = (self.ad(x), p.clone(), p.clone());
+        for k in 1..beta.ncols() {
             power = times(&ad, &power);
-            sum += &power * beta;
+            sum += power.component_mul(&beta.columns(k, 1));
         }
         for Entry { at: [a, b, argument, result], value } in &self.cubic {
             sum[*argument] -= T::of(*value) * x[*a] * x[*b] * p[*result] * T::from(0.25);
@@ -220,7 +221,7 @@ impl Geometry {
     /// Hamilton's equations of H∘J_R at (x, p), ω being ∂H/∂μ at J_R(x, p): ẋ = (∂J_R/∂p)ᵀ ω, ṗ = −(∂J_R/∂x)ᵀ ω.
     pub(super) fn canonical<T: Real>(
         &self,
-        beta: &[T],
+        beta: &DMatrix<T>,
         x: &DMatrix<T>,
         p: &DMatrix<T>,
         omega: &DMatrix<T>,
@@ -228,12 +229,13 @@ impl Geometry {
         let ad = self.ad(x);
         let bracket: Sparse<T> = ad.iter().map(|&(row, column, x)| (column, row, x)).collect();
         let powers = std::iter::successors(Some(p.clone()), |power| Some(times(&ad, power)));
-        let powers: Vec<DMatrix<T>> = powers.take(beta.len() - 1).collect();
-        let mut velocity = omega * beta[beta.len() - 1];
+        let degree = beta.ncols() - 1;
+        let powers: Vec<DMatrix<T>> = powers.take(degree).collect();
+        let mut velocity = omega.component_mul(&beta.columns(degree, 1));
         let mut force = DMatrix::zeros(self.dim, 1);
-        for (power, &beta) in powers.iter().zip(beta).rev() {
+        for (k, power) in powers.iter().enumerate().rev() {
             force += times(&self.ad(&velocity), power);
-            velocity = times(&bracket, &velocity) + omega * beta;
+            velocity = times(&bracket, &velocity) + omega.component_mul(&beta.columns(k, 1));
         }
         for Entry { at: [a, b, argument, result], value } in &self.cubic {
             let value = T::of(*value) * omega[*argument] * T::from(0.25);
@@ -244,7 +246,7 @@ impl Geometry {
         [velocity, force]
     }
 
-    /// How τ and Ad\* answer to a change of x, in double precision: ‖Ad\*_{τ(x)⁻¹}‖ and ‖d^R τ_x‖ (Frobenius).
+    /// How τ and Ad\* answer to a change of x, in double precision: ‖Ad\*_{τ(x)⁻¹}‖ and ‖d^R τ_x‖.
     pub(super) fn sensitivity(
         &self,
         chart: Chart,
@@ -252,7 +254,7 @@ impl Geometry {
     ) -> Result<[f64; 2], JudgeError> {
         let unit = DMatrix::identity(self.dim, self.dim);
         let pulled = self.pull_back(chart, x, &unit)?;
-        Ok([norm(&self.transport(chart, x, &unit, &pulled)), norm(&pulled)])
+        Ok([spectral(&self.transport(chart, x, &unit, &pulled)), spectral(&pulled)])
     }
 
     /// τ(x) as a matrix.

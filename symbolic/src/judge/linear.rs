@@ -139,6 +139,15 @@ pub(super) fn derivative<E>(
     Ok(derivative)
 }
 
+/// A bound on the spectral norm: the smaller of Frobenius' norm and the root of those by rows and by columns.
+pub(super) fn spectral(matrix: &DMatrix<f64>) -> f64 {
+    let sums = |matrix: &DMatrix<f64>| {
+        matrix.row_iter().map(|row| row.iter().map(|entry| entry.abs()).sum()).fold(0.0, maximum)
+    };
+    let (sums, whole) = ((sums(matrix) * sums(&matrix.transpose())).sqrt(), norm(matrix));
+    if sums < whole { sums } else { whole }
+}
+
 /// The spacing of differences, relative to what is varied: the root of rounding.
 pub(super) const SPACING: f64 = 1.5e-8;
 

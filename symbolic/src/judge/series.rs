@@ -7,7 +7,7 @@ use std::sync::Arc;
 use nalgebra::DMatrix;
 
 use super::DoubleDouble;
-use super::linear::{Real, SPACING, column, derivative, maximum, norm};
+use super::linear::{Real, SPACING, column, derivative, norm, spectral};
 use super::wide::Wide;
 use crate::poly::{Polynomial, split_at};
 
@@ -116,15 +116,12 @@ impl Folded {
         column(self.plan.gradient(&coefficients, &self.plan.products(p.as_slice())).into_iter())
     }
 
-    /// The second derivatives of S at p, in size: the smaller of Frobenius' norm and the row sum, which both bound the
-    /// spectral norm.
+    /// ‖Hess S‖ at p.
     pub(super) fn hessian(&self, p: &DMatrix<f64>) -> f64 {
         let spacing = SPACING * if norm(p) > 0.0 { norm(p) } else { 1.0 };
         let gradient = |p: &DMatrix<f64>| Ok::<_, Infallible>(self.gradient(p));
         let Ok(hessian) = derivative(p, &self.gradient(p), spacing, gradient);
-        let rows = hessian.row_iter().map(|row| row.iter().map(|h| h.abs()).sum::<f64>());
-        let (rows, whole) = (rows.fold(0.0, maximum), norm(&hessian));
-        if rows < whole { rows } else { whole }
+        spectral(&hessian)
     }
 
     /// The length of the sums of the absolute values of the terms of ∂S/∂p.

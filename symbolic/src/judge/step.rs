@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use super::domain::{Inside, inside};
 use super::gauss::Stage;
 use super::geometry::Geometry;
-use super::linear::{Real, SPACING, column, derivative, doubles, exact, norm};
+use super::linear::{Real, SPACING, column, derivative, doubles, exact, norm, spectral};
 use super::series::Folded;
 use super::{DoubleDouble, JudgeError};
 use crate::lie::Chart;
@@ -44,7 +44,7 @@ pub struct Step<'a> {
 pub struct RightSolution {
     /// The unknowns, one column: x, or the rates of a step by collocation.
     pub x: DMatrix<DoubleDouble>,
-    /// Frobenius' norm of the inverse of 1 less the derivative of the right side: how much a residual moves x.
+    /// The norm of the inverse of 1 less the derivative of the right side: how much a residual moves x.
     pub response: f64,
 }
 
@@ -166,7 +166,7 @@ impl Step<'_> {
                 let off = stage.rates(self.geometry, mu, x, 4.0 * unit)? - doubles(&here);
                 let rates = |mu: &DMatrix<f64>| stage.rates(self.geometry, mu, x, 0.0);
                 let influence = derivative(mu, &rates(mu)?, SPACING, rates)?;
-                Ok((rounding * n * norm(x) + 16.0 * norm(&off), norm(&influence)))
+                Ok((rounding * n * norm(x) + 16.0 * norm(&off), spectral(&influence)))
             }
         }
     }
