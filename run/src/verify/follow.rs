@@ -10,7 +10,7 @@ use coadjoint_codegen::lie::catalogue::lookup;
 use coadjoint_codegen::lie::{Chart, LieAlgebra};
 use coadjoint_codegen::problem::{Parameter, values};
 use coadjoint_codegen::smooth::Hamiltonian;
-use coadjoint_codegen::step::Step;
+use coadjoint_codegen::step::Origin;
 use coadjoint_learn::table::Table;
 use coadjoint_program::Precision;
 
@@ -37,7 +37,7 @@ pub fn judge_of(file: &Path, hamiltonian: &Hamiltonian) -> Result<Judge, RunErro
         Hamiltonian::Polynomial(problem) => Judge::of_problem(problem, TermLimit::default()),
         Hamiltonian::Smooth(smooth) => {
             // Programs have the chart of rotations in closed form; where there are none, groups are tables.
-            let programs = Step::by_collocation(smooth, Precision::Double).is_ok();
+            let programs = Origin::Collocation(smooth).step(Precision::Double).is_ok();
             let rotations = ["SO3", "SU2"].map(lookup);
             let closed = |factor: &LieAlgebra| {
                 let is = |known: &LieAlgebra| known.clone().renamed(factor.name()) == *factor;
