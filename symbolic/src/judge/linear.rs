@@ -5,7 +5,34 @@ use num_traits::{One, Zero};
 use std::ops::{Div, Neg};
 
 use super::DoubleDouble;
-use super::functions::Functions;
+
+/// The functions that all others are made of; not a number outside their domains.
+pub(super) trait Functions: Sized {
+    fn sqrt(self) -> Self;
+    fn exp(self) -> Self;
+    fn ln(self) -> Self;
+    fn sin_cos(self) -> (Self, Self);
+    /// The angle between −π/2 and π/2 with this tangent.
+    fn atan(self) -> Self;
+}
+
+impl Functions for f64 {
+    fn sqrt(self) -> Self {
+        self.sqrt()
+    }
+    fn exp(self) -> Self {
+        self.exp()
+    }
+    fn ln(self) -> Self {
+        self.ln()
+    }
+    fn sin_cos(self) -> (Self, Self) {
+        self.sin_cos()
+    }
+    fn atan(self) -> Self {
+        self.atan()
+    }
+}
 
 /// The arithmetic that the judge needs, in double or doubled precision.
 pub(super) trait Real:
