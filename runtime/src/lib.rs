@@ -43,11 +43,14 @@
 //! # Features
 //!
 //! `std` (default), `alloc`, `libm` (for `no_std`), `ensemble` (many trajectories in SIMD lanes and
-//! threads).
+//! threads), `systems` (tops, bodies, spins and waves, ready to integrate).
 #![cfg_attr(not(feature = "std"), no_std)]
 
 #[cfg(feature = "alloc")]
 extern crate alloc;
+// Generated code names the runtime by its absolute path, here too.
+#[cfg(all(feature = "systems", not(test)))]
+extern crate self as coadjoint;
 
 mod chart;
 pub mod collocation;
@@ -65,6 +68,9 @@ pub mod plumbing;
 pub mod solve;
 mod step;
 pub mod steps;
+// Without tests of their own here (`tests/tests/systems_*.rs` has them), and half a minute of derivations.
+#[cfg(all(feature = "systems", not(test)))]
+pub mod systems;
 mod table;
 
 /// Turns a function computing a reduced Hamiltonian into an integrator.

@@ -10,16 +10,10 @@
 use std::f64::consts::TAU;
 
 use coadjoint::nalgebra::Vector3;
-use coadjoint::{LieGroup, Phase, SO3, StepError, lie_poisson};
+use coadjoint::systems::FreeBody;
+use coadjoint::{LieGroup, Phase, SO3, StepError};
 
 use crate::elliptic::{complete_first, complete_third, jacobi};
-
-/// The free rigid body.
-#[lie_poisson(group = SO3, truncation = 7, frame = comoving)]
-pub fn free_body(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
-    let [x, y, z] = mu;
-    0.5 * (x * x / inertia[0] + y * y / inertia[1] + z * z / inertia[2])
-}
 
 /// I₁, I₂, I₃ in units of the moment about the long axis.
 pub const INERTIA: [f64; 3] = [1.0, 3.09, 3.22];

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use coadjoint_tests::sources;
 
 /// Folders and files of `src`, the lowest first: each may use those before it, and itself.
-const LAYERS: [&str; 16] = [
+const LAYERS: [&str; 17] = [
     "number",
     "error",
     "linear",
@@ -22,6 +22,7 @@ const LAYERS: [&str; 16] = [
     "steps",
     "laws",
     "plumbing",
+    "systems",
     "lib",
 ];
 

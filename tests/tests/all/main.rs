@@ -38,6 +38,7 @@ mod smooth;
 mod stress;
 mod system_files;
 mod systems_integrals;
+mod systems_library;
 mod systems_literature;
 mod systems_reference;
 mod toutatis;

@@ -1,27 +1,10 @@
 //! Closed forms from the literature that the systems must follow.
 
-use coadjoint::nalgebra::{Complex, DMatrix, SymmetricEigen};
-use coadjoint::{Phase, SE3, SO3, StepError, lie_poisson};
-use coadjoint_tests::moments::special_unitary;
+use coadjoint::nalgebra::{DMatrix, SymmetricEigen};
+use coadjoint::systems::{Gyrostat, LagrangeTop};
+use coadjoint::{Phase, SE3, SO3, StepError};
 use coadjoint_tests::reference::{end_state, numbers};
 use coadjoint_tests::run::run;
-
-/// A gyrostat, or dual-spin spacecraft: principal moments, and the rotor's momentum.
-#[lie_poisson(group = SO3, truncation = 7, frame = comoving)]
-fn gyrostat(mu: [f64; 3], inertia: [f64; 3], rotor: [f64; 3]) -> f64 {
-    let mut twice = 0.0;
-    for i in 0..3 {
-        twice += (mu[i] - rotor[i]) * (mu[i] - rotor[i]) / inertia[i];
-    }
-    twice / 2.0
-}
-
-/// Lagrange's top: moments across and along its axis about the tip, and m g l.
-#[lie_poisson(group = SE3, truncation = 5, frame = comoving)]
-fn lagrange_top(mu: [f64; 6], transverse: f64, axial: f64, mgl: f64) -> f64 {
-    let [x, y, z, _, _, w] = mu;
-    (x * x + y * y) / (2.0 * transverse) + z * z / (2.0 * axial) + mgl * w
-}
 
 /// Steady precession of Lagrange's top: I₃ω₃ Ω_p − I₁Ω_p² cos θ = m g l (Goldstein, *Classical
 /// Mechanics*, § 5.7, with Π₃ = I₃ω₃). The axis keeps its tilt, and turns by Ω_p T.
@@ -131,37 +114,4 @@ fn toda_sorts_its_eigenvalues() {
     for (b, eigenvalue) in mu[3..].iter().zip(before.iter().rev()) {
         assert!((b - eigenvalue).abs() < 1e-8, "{mu:?} {before:?}");
     }
-}
-
-/// ½ Σ |tr(M T_m†)|²/(N |m|²), T_m = (clock)^m₁ (shift)^m₂, summed as it stands over
-/// |m₁|, |m₂| ≤ (N − 1)/2.
-fn enstrophy_over_squares(n: usize, mu: &[f64]) -> f64 {
-    let unit = |m1: i32, m2: i32| {
-        DMatrix::from_fn(n, n, |row, column| {
-            let angle = std::f64::consts::TAU * f64::from(m1 * row as i32) / n as f64;
-            let there = (row as i32 + m2).rem_euclid(n as i32) == column as i32;
-            if there { Complex::from_polar(1.0, angle) } else { Complex::new(0.0, 0.0) }
-        })
-    };
-    let vorticity = special_unitary(n, mu);
-    let reach = (n as i32 - 1) / 2;
-    let mut energy = 0.0;
-    for m1 in -reach..=reach {
-        for m2 in -reach..=reach {
-            if (m1, m2) != (0, 0) {
-                let mode = (&vorticity * unit(m1, m2).adjoint()).trace().norm_sqr() / n as f64;
-                energy += 0.5 * mode / f64::from(m1 * m1 + m2 * m2);
-            }
-        }
-    }
-    energy
-}
-
-/// The Hamiltonian of Zeitlin's vorticity is that of the modes.
-#[test]
-fn vorticity_of_zeitlin() {
-    let mu: Vec<f64> = (0..24).map(|i| 0.3 * (1.7 * f64::from(i)).sin() + 0.1).collect();
-    let energy = enstrophy_over_squares(5, &mu);
-    let found = end_state("zeitlin-5").polynomial().evaluate(&mu);
-    assert!((found - energy).abs() < 1e-13, "{found} {energy}");
 }
