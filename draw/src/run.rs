@@ -101,7 +101,7 @@ const MOST_PANELS: usize = 3;
 
 /// The coordinates of the momentum over the time of `across`, a panel for each unit among them. Where
 /// they turn round too often to be told apart, only the beginning is shown, which a note then says.
-fn motion_panels(
+pub fn motion_panels(
     run: &Run,
     named: bool,
     across: (f64, f64),
@@ -254,7 +254,7 @@ const NOTE: &str = "Below: largest differences from the start in successive stre
      start, on logarithmic axes. Zero and everything below 1e-17 is drawn at 1e-17.";
 
 /// A panel for each quantity that one of the runs conserves, with a curve for each run that does.
-fn drift_panels(runs: &[Run], across: (f64, f64), time_unit: Option<&str>) -> Vec<Panel> {
+pub fn drift_panels(runs: &[Run], across: (f64, f64), time_unit: Option<&str>) -> Vec<Panel> {
     let mut names: Vec<&str> = Vec::new();
     for drift in runs.iter().flat_map(|run| &run.drifts) {
         if !names.contains(&drift.name.as_str()) {

@@ -4,6 +4,7 @@
 #![allow(missing_docs, reason = "a program of one page; nothing is published")]
 
 pub mod experiment;
+pub mod gallery;
 pub mod outcome;
 pub mod page;
 mod plot;

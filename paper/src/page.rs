@@ -1,11 +1,12 @@
-//! The page: sections, tables and verdicts. One file that needs no network.
+//! The page: sections, tables, verdicts, and a gallery. One file that needs no network.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-use coadjoint_draw::{Panel, STYLE_SHEET, escaped};
+use coadjoint_draw::{Panel, STYLE_SHEET, escaped, run::Picture};
 
-use crate::outcome::{Judgement, Report, Table, shown};
+use crate::gallery::{self, settings, verdict};
+use crate::outcome::{Judgement, Report, Table, brief, shown};
 use crate::text::{Figure, figures, fill};
 
 /// The size of a panel.
@@ -44,14 +45,15 @@ pub fn sections(reports: &[Report]) -> Vec<Section> {
 }
 
 /// The page as the text of an HTML file: the same outcomes make the same bytes.
-pub fn page(reports: &[Report]) -> String {
+pub fn page(reports: &[Report], gallery: &[Picture]) -> String {
     let sections = sections(reports);
     let seeds: BTreeSet<String> = reports.iter().map(|report| report.seed.to_string()).collect();
     let seeds: Vec<String> = seeds.into_iter().collect();
     let mut text = String::new();
     let judged: Vec<&Judgement> = sections.iter().flat_map(|section| &section.judgements).collect();
-    let held = judged.iter().filter(|judgement| judgement.holds()).count();
-    let all = judged.len();
+    let kept = gallery.iter().filter(|picture| gallery::worst(picture) <= gallery::BOUND).count();
+    let held = judged.iter().filter(|judgement| judgement.holds()).count() + kept;
+    let all = judged.len() + gallery.len();
     let version = if reports.iter().any(|report| report.quick) {
         "This is the quick version: fewer samples and steps, networks 64-64."
     } else {
@@ -66,7 +68,7 @@ pub fn page(reports: &[Report]) -> String {
          <style>\n{STYLE_SHEET}{}</style>\n</head>\n<body>\n<header>\n\
          <h1>Symmetry Preservation in Hamiltonian Systems: Simulation and Learning, reproduced</h1>\n\
          <p>Every figure and table of the paper by M. Vaquero, J. Cortés and D. Martín de Diego, with what came out \
-         beside it and the number that judges it; then comparisons of our own. {version} \
+         beside it and the number that judges it; then comparisons of our own, and a gallery. {version} \
          Seed {}: the same seed gives the same page.</p>\n\
          <p><span class=\"mark{}\">{held} of {all}</span> numbers are what they must be.</p>\n\
          <nav aria-label=\"Contents\">\n<ol>\n",
@@ -80,6 +82,10 @@ pub fn page(reports: &[Report]) -> String {
         let (id, title) = (&figure.id, escaped(&figure.title));
         let _ = writeln!(text, "<li><a href=\"#{id}\">{title}</a> {mark}</li>");
     }
+    if !gallery.is_empty() {
+        let count = gallery.len();
+        let _ = writeln!(text, "<li><a href=\"#gallery\">Gallery of {count} systems</a></li>");
+    }
     text.push_str("</ol>\n</nav>\n</header>\n<main>\n");
     for (ours, title) in [(false, "The paper"), (true, "Beyond the paper")] {
         let own: Vec<&Section> = sections.iter().filter(|s| s.figure.ours == ours).collect();
@@ -87,6 +93,17 @@ pub fn page(reports: &[Report]) -> String {
             let _ = writeln!(text, "<h2>{title}</h2>");
         }
         own.into_iter().for_each(|own| section(&mut text, own));
+    }
+    if !gallery.is_empty() {
+        let _ = writeln!(
+            text,
+            "<h2 id=\"gallery\">Gallery</h2>\n<p>Every system of the examples, run as its file says: the body momentum \
+             over time, and what drifts. A mark says whether spatial momentum and \
+             Casimirs, which every step conserves whatever S is, stay within {}. Energy is conserved as well as K \
+             and h make it.</p>",
+            brief(gallery::BOUND)
+        );
+        gallery.iter().for_each(|picture| text.push_str(&gallery::exhibit(picture)));
     }
     text.push_str(
         "<footer>Made by <code>coadjoint-paper</code>. One file, no network.</footer>\n</main>\n</body>\n</html>\n",
@@ -154,17 +171,4 @@ fn table(text: &mut String, table: &Table) {
         text.push_str("</tr>\n");
     }
     text.push_str("</tbody></table></div>\n");
-}
-
-/// A mark: does it hold?
-fn verdict(holds: bool) -> String {
-    let (class, word) = if holds { ("", "pass") } else { (" fails", "FAIL") };
-    format!("<span class=\"mark{class}\">{word}</span>")
-}
-
-/// Settings in a line.
-fn settings(settings: &[String]) -> String {
-    let spans: Vec<String> =
-        settings.iter().map(|setting| format!("<span>{}</span>", escaped(setting))).collect();
-    format!("<p class=\"settings\">{}</p>", spans.join(" · "))
 }

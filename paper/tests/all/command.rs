@@ -1,9 +1,20 @@
-//! The program: mistakes told at once, and runs that go on where they stopped.
+//! The program: a page with a gallery of one's own, mistakes told at once, and runs that go on where they stopped.
 #![allow(clippy::unwrap_used)]
 
 use std::path::Path;
 
 use assert_cmd::Command;
+
+const WHEEL: &str = r#"
+name = "wheel"
+group = "SO3"
+coordinates = ["x", "y", "z"]
+hamiltonian = "x^2/2 + y^2/2 + (z - 3)^2/3"
+units = { time = "s", momentum = "N m s" }
+integrator = { truncation = 5, step = 0.05 }
+initial = { momentum = [1.0, 0.5, 2.0] }
+run = { time = 10.0 }
+"#;
 
 /// Whether the program succeeds, and what it says on the error stream.
 fn run(folder: &Path, arguments: &[&str]) -> (bool, String) {
@@ -13,18 +24,36 @@ fn run(folder: &Path, arguments: &[&str]) -> (bool, String) {
 }
 
 #[test]
-fn mistakes_are_reported_before_anything_is_run() {
+fn a_gallery_of_ones_own_and_mistakes_before_anything_is_run() {
     let temporary = tempfile::tempdir().unwrap();
     let folder = temporary.path();
     std::fs::create_dir(folder.join("systems")).unwrap();
-    let quick = |more: &[&'static str]| [&["reduction-error", "--quick"][..], more].concat();
-    let (fine, said) = run(folder, &quick(&["--html", "page.html"]));
+    std::fs::write(folder.join("systems/wheel.toml"), WHEEL).unwrap();
+    std::fs::write(folder.join("systems/notes.txt"), "no system").unwrap();
+    let page = ["reduction-error", "--quick", "--html", "page.html", "--gallery"];
+    let (fine, said) = run(folder, &[&page[..], &["systems"]].concat());
+    assert!(fine && said.contains("gallery, 1 of 1"), "{said}");
     let html = std::fs::read_to_string(folder.join("page.html")).unwrap();
-    assert!(fine && html.contains("id=\"reduction-error\""), "{said}");
+    for expected in [
+        "id=\"reduction-error\"",
+        "id=\"gallery-wheel\"",
+        ">Body momentum (N m s)</text>",
+        ">Relative drifts</text>",
+        "<span class=\"mark\">3 of 3</span>",
+    ] {
+        assert!(html.contains(expected), "{expected}");
+    }
+    std::fs::create_dir(folder.join("bad")).unwrap();
+    std::fs::write(folder.join("bad/bad.toml"), WHEEL.replace("x^2/2", "x^2/0")).unwrap();
+    std::fs::create_dir(folder.join("none")).unwrap();
+    let quick = |more: &[&'static str]| [&["reduction-error", "--quick"][..], more].concat();
     for (arguments, expected) in [
         (vec!["table-3"], "use one of simulation"),
         (quick(&["--html", "nowhere/page.html"]), "cannot write there"),
         (quick(&["--html", "systems"]), "cannot write there"),
+        (quick(&["--html", "page.html", "--gallery", "none"]), "no file NAME.toml"),
+        (quick(&["--html", "page.html", "--gallery", "missing"]), "cannot read missing"),
+        (quick(&["--html", "page.html", "--gallery", "bad"]), "bad.toml"),
     ] {
         let (fine, said) = run(folder, &arguments);
         assert!(!fine && said.contains(expected) && !said.contains("1 of 1: red"), "{said}");

@@ -4,6 +4,7 @@
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
+use coadjoint_draw::run::{Picture, Run, Series};
 use coadjoint_paper::experiment::{EXPERIMENTS, run};
 use coadjoint_paper::outcome::{Options, Report};
 use coadjoint_paper::page::{page, sections};
@@ -23,6 +24,29 @@ const CHEAP: [&str; 8] = [
 
 fn outcome(name: &str) -> Report {
     run(name, &Options { quick: true, ..Options::default() }).unwrap().remove(0)
+}
+
+/// A spinning body, and something on five coordinates whose momentum drifts.
+fn gallery() -> Vec<Picture> {
+    let times: Vec<f64> = (0..400).map(|i| f64::from(i) * 0.05).collect();
+    let series = |name: &str, of: &dyn Fn(f64) -> f64| Series {
+        name: name.into(),
+        unit: Some("kg m²/s".into()),
+        values: times.iter().map(|&t| of(t)).collect(),
+    };
+    let picture = |name: &str, momentum: Vec<Series>, drift: f64| {
+        let drifts = vec![series("energy", &|t| 1e-9 * t), series("spatial momentum", &|_| drift)];
+        let run = Run { label: "K = 7, exp".into(), times: times.clone(), momentum, drifts };
+        let settings = vec!["group <SO3>".into(), "K = 7".into()];
+        Picture { name: name.into(), settings, time_unit: Some("s".into()), runs: vec![run] }
+    };
+    let sphere = vec![
+        series("x", &|t| 2.0 * t.cos() * 0.6),
+        series("y", &|t| 2.0 * t.sin() * 0.6),
+        series("z", &|_| 2.0 * 0.8),
+    ];
+    let five = (0..5).map(|i| series(&format!("m{i}"), &|t| (t * f64::from(i)).sin())).collect();
+    vec![picture("round", sphere, 1e-16), picture("flat", five, 1e-3)]
 }
 
 /// Everything: what is cheap is run, the rest is there without numbers.
@@ -74,9 +98,9 @@ fn cheap_experiments_hold_their_numbers() {
 
 #[test]
 fn the_page_is_complete_well_formed_and_needs_no_network() {
-    let html = page(whole());
+    let html = page(whole(), &gallery());
     let mut from = 0;
-    for id in figures().iter().map(|figure| figure.id.as_str()) {
+    for id in figures().iter().map(|figure| figure.id.as_str()).chain(["gallery"]) {
         let at = html.find(&format!(" id=\"{id}\"")).unwrap_or_else(|| panic!("{id}"));
         assert!(at > from && html.contains(&format!("href=\"#{id}\"")), "{id}");
         from = at;
@@ -101,23 +125,22 @@ fn the_page_is_complete_well_formed_and_needs_no_network() {
     let ids: Vec<&str> =
         html.split(" id=\"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect();
     assert_eq!(ids.len(), ids.iter().collect::<BTreeSet<_>>().len());
-    // A verdict that fails is seen, and texts are escaped.
-    let mut failing = whole()[0].clone();
-    failing.judgements[0].what = "group <SO3>".into();
-    failing.judgements[0].value = None;
-    let failing = page(&[failing]);
-    assert!(failing.contains(">FAIL<") && failing.contains(">pass<"));
-    assert!(failing.contains("group &lt;SO3&gt;"));
+    // A verdict that fails is seen.
+    for (name, mark) in [("round", ">pass<"), ("flat", ">FAIL<")] {
+        let rest = html.split(&format!("id=\"gallery-{name}\"")).nth(1).unwrap();
+        assert!(rest.split("</h3>").next().unwrap().contains(mark), "{name}");
+    }
+    assert!(html.contains("group &lt;SO3&gt;"));
     // The same seed makes the same bytes.
     let again: Vec<Report> = CHEAP.iter().map(|name| outcome(name)).collect();
     let cheap = whole().iter().filter(|report| CHEAP.contains(&&*report.name));
-    assert!(page(&again) == page(&cheap.cloned().collect::<Vec<_>>()));
+    assert!(page(&again, &[]) == page(&cheap.cloned().collect::<Vec<_>>(), &[]));
 }
 
 /// No two texts of a panel overlap, and none leaves it; widths are those of a wide font.
 #[test]
 fn texts_of_panels_do_not_overlap() {
-    let html = page(whole());
+    let html = page(whole(), &gallery());
     let mut count = 0;
     for svg in html.split("<svg ").skip(1).map(|rest| rest.split("</svg>").next().unwrap()) {
         let of = |part: &str, name: &str| -> Option<String> {
