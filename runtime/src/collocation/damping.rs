@@ -2,8 +2,7 @@
 
 use coadjoint_program::collocation::Nodes;
 
-use super::energy::UNKNOWN;
-use super::{Energy, Undefined};
+use super::energy::{Energy, UNKNOWN, Undefined};
 use crate::error::{Circumstances, StepError};
 use crate::group::LieGroup;
 use crate::group::phase::Phase;
