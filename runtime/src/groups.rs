@@ -19,8 +19,8 @@ pub use crate::group::{se2::SE2, se3::SE3};
 pub use crate::linear::coordinates::Coordinates;
 pub use crate::table::{
     Aff1, Aff1Algebra, BasisEntry, CasimirTerm, CayleyAlgebra, Heisenberg, HeisenbergAlgebra,
-    Rotations, SL2, SL2Algebra, SO4, SO5, SU3, SpecialUnitary, StaticAlgebra,
-    StaticMatrixGroup, StructureConstant, TableGroup,
+    Rotations, SL2, SL2Algebra, SO4, SO5, SU3, SpecialUnitary, StaticAlgebra, StaticMatrixGroup,
+    StructureConstant, TableGroup,
 };
 #[cfg(feature = "alloc")]
 pub use crate::table::{CayleyMatrixGroup, MatrixGroup, TableError};

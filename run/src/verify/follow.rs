@@ -6,13 +6,10 @@ use std::path::Path;
 use coadjoint_codegen::cancel;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::judge::Judge;
-use coadjoint_codegen::lie::catalogue::lookup;
-use coadjoint_codegen::lie::{Chart, LieAlgebra};
+use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::problem::{Parameter, values};
 use coadjoint_codegen::smooth::Hamiltonian;
-use coadjoint_codegen::step::Origin;
 use coadjoint_learn::table::Table;
-use coadjoint_program::Precision;
 
 use super::course::{Course, Trouble};
 use super::found::Found;
@@ -36,14 +33,9 @@ pub fn judge_of(file: &Path, hamiltonian: &Hamiltonian) -> Result<Judge, RunErro
     let judge = match hamiltonian {
         Hamiltonian::Polynomial(problem) => Judge::of_problem(problem, TermLimit::default()),
         Hamiltonian::Smooth(smooth) => {
-            // Programs have the chart of rotations in closed form; where there are none, groups are tables.
-            let programs = Origin::Collocation(smooth).step(Precision::Double).is_ok();
-            let rotations = ["SO3", "SU2"].map(lookup);
-            let closed = |factor: &LieAlgebra| {
-                let is = |known: &LieAlgebra| known.clone().renamed(factor.name()) == *factor;
-                programs && rotations.iter().flatten().any(is)
-            };
-            Judge::of_smooth(smooth, Chart::Exponential, closed)
+            // As many powers of x as the order asks for, as the steps have them.
+            let degree = (2 * smooth.nodes() - 2).max(1);
+            Judge::of_smooth(smooth, Chart::Exponential, Some(degree))
         }
     };
     judge.map_err(|error| RunError::Option(format!("{}: {error}", file.display())))

@@ -20,8 +20,8 @@ pub(super) struct Collocation {
     times: Vec<DoubleDouble>,
     /// bᵢ in the first row, and aᵢⱼ − bⱼ/2 in row i + 1.
     weights: DMatrix<DoubleDouble>,
-    /// The coefficients of J_R in each coordinate, a column for each power.
-    chart: DMatrix<DoubleDouble>,
+    /// The coefficients of J_R.
+    chart: Vec<DoubleDouble>,
 }
 
 /// A step from μ of this size about this middle; momenta are in units of 2^scale.
@@ -72,14 +72,8 @@ fn beta(degree: usize) -> Vec<DoubleDouble> {
 }
 
 impl Collocation {
-    /// With this many nodes, and J_R up to a power of x that each coordinate has.
-    pub(super) fn new(energy: Energy, nodes: usize, degrees: &[usize]) -> Option<Self> {
-        let highest = degrees.iter().copied().max().unwrap_or(0);
-        let beta = beta(highest);
-        let chart = DMatrix::from_fn(degrees.len(), highest + 1, |i, k| match k <= degrees[i] {
-            true => beta[k],
-            false => DoubleDouble::zero(),
-        });
+    /// With this many nodes, and J_R up to the power `degree` of x.
+    pub(super) fn new(energy: Energy, nodes: usize, degree: usize) -> Option<Self> {
         let (times, half) = (half_roots(nodes), DoubleDouble::from(0.5));
         let power = |x: DoubleDouble, k: usize| (0..k).fold(DoubleDouble::one(), |p, _| p * x);
         let powers = DMatrix::from_fn(nodes, nodes, |k, j| power(times[j], k));
@@ -95,7 +89,7 @@ impl Collocation {
             to / number(k + 1)
         });
         let weights = Real::solve(&powers, &integrals)?.transpose();
-        Some(Self { energy, times, weights, chart })
+        Some(Self { energy, times, weights, chart: beta(degree) })
     }
 }
 
@@ -144,7 +138,7 @@ impl Stage<'_> {
         let rates = rates.clone().reshape_generic(Dyn(n), Dyn(2 * m));
         let matrix = weights.rows(1, m).map(T::of).transpose();
         let (xs, ps) = (rates.columns(0, m) * &matrix, rates.columns(m, m) * &matrix);
-        let beta = chart.map(T::of);
+        let beta: Vec<T> = chart.iter().map(|b| T::of(*b)).collect();
         let step = T::from(self.step);
         let mut next = DMatrix::zeros(n, 2 * m);
         for i in 0..m {

@@ -199,18 +199,17 @@ impl Geometry {
         Ok(((first + last) * half, end))
     }
 
-    /// J_R(x, p) = Σ βₖ (ad\*_x)ᵏ p, the column k of `beta` being βₖ in each coordinate, and with Cayley's chart the part that
-    /// is quadratic in x.
+    /// J_R(x, p) = Σ βₖ (ad\*_x)ᵏ p, and with Cayley's chart the part that is quadratic in x.
     pub(super) fn momentum<T: Real>(
         &self,
-        beta: &DMatrix<T>,
+        beta: &[T],
         x: &DMatrix<T>,
         p: &DMatrix<T>,
     ) -> DMatrix<T> {
-        let (ad, mut power, mut sum) = (self.ad(x), p.clone(), p.clone());
-        for k in 1..beta.ncols() {
+        let (ad, mut power, mut sum) = (self.ad(x), p.clone(), p * beta[0]);
+        for &beta in &beta[1..] {
             power = times(&ad, &power);
-            sum += power.component_mul(&beta.columns(k, 1));
+            sum += &power * beta;
         }
         for Entry { at: [a, b, argument, result], value } in &self.cubic {
             sum[*argument] -= T::of(*value) * x[*a] * x[*b] * p[*result] * T::from(0.25);
@@ -221,7 +220,7 @@ impl Geometry {
     /// Hamilton's equations of H∘J_R at (x, p), ω being ∂H/∂μ at J_R(x, p): ẋ = (∂J_R/∂p)ᵀ ω, ṗ = −(∂J_R/∂x)ᵀ ω.
     pub(super) fn canonical<T: Real>(
         &self,
-        beta: &DMatrix<T>,
+        beta: &[T],
         x: &DMatrix<T>,
         p: &DMatrix<T>,
         omega: &DMatrix<T>,
@@ -229,13 +228,12 @@ impl Geometry {
         let ad = self.ad(x);
         let bracket: Sparse<T> = ad.iter().map(|&(row, column, x)| (column, row, x)).collect();
         let powers = std::iter::successors(Some(p.clone()), |power| Some(times(&ad, power)));
-        let degree = beta.ncols() - 1;
-        let powers: Vec<DMatrix<T>> = powers.take(degree).collect();
-        let mut velocity = omega.component_mul(&beta.columns(degree, 1));
+        let powers: Vec<DMatrix<T>> = powers.take(beta.len() - 1).collect();
+        let mut velocity = omega * beta[beta.len() - 1];
         let mut force = DMatrix::zeros(self.dim, 1);
-        for (k, power) in powers.iter().enumerate().rev() {
+        for (power, &beta) in powers.iter().zip(beta).rev() {
             force += times(&self.ad(&velocity), power);
-            velocity = times(&bracket, &velocity) + omega.component_mul(&beta.columns(k, 1));
+            velocity = times(&bracket, &velocity) + omega * beta;
         }
         for Entry { at: [a, b, argument, result], value } in &self.cubic {
             let value = T::of(*value) * omega[*argument] * T::from(0.25);

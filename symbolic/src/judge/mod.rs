@@ -117,35 +117,22 @@ impl Judge {
         Ok(judge)
     }
 
-    /// For steps by collocation in a chart about the middle. The exponential chart of a direct factor is its series up to the
-    /// power 2m − 2 of x, or 1, where there are m nodes; all of it where `closed` holds of the factor.
+    /// For steps by collocation in a chart about the middle. The exponential chart is known by its series up to the power
+    /// `degree` of x, or as closely as doubled precision tells where there is none.
     ///
     /// # Errors
     /// [`JudgeError::Chart`] where the algebra has no such chart, and [`JudgeError::Given`].
     pub fn of_smooth(
         smooth: &Smooth,
         chart: Chart,
-        closed: impl Fn(&LieAlgebra) -> bool,
+        degree: Option<usize>,
     ) -> Result<Self, JudgeError> {
         let geometry = Geometry::new(&smooth.algebra, chart)?;
-        let ends = (2 * smooth.nodes()).saturating_sub(2).max(1);
-        let degree = |factor: &LieAlgebra| match chart {
+        let degree = match chart {
             Chart::Cayley => 1,
-            Chart::Exponential => {
-                if closed(factor) {
-                    POWERS
-                } else {
-                    ends
-                }
-            }
+            Chart::Exponential => degree.unwrap_or(POWERS),
         };
-        let factors: Vec<usize> = smooth.algebra.factors().iter().map(degree).collect();
-        let degrees: Vec<usize> = geometry
-            .factors
-            .iter()
-            .map(|&factor| factors.get(factor).copied().unwrap_or(ends))
-            .collect();
-        let collocation = Collocation::new(Energy::new(smooth)?, smooth.nodes(), &degrees);
+        let collocation = Collocation::new(Energy::new(smooth)?, smooth.nodes(), degree);
         let law = Law::Collocation(Box::new(collocation.ok_or(JudgeError::OutOfRange)?));
         Ok(Self { geometry, law })
     }

@@ -231,10 +231,11 @@ impl Part for Rotation {
         }
     }
 
-    /// exp's: p − ½ x×p + c x×(x×p).
-    fn node_momentum(&self, graph: &Graph, x: &[Id], p: &[Id], _degree: usize) -> Vec<Id> {
+    /// exp's: p − ½ x×p + c x×(x×p), with as many terms in c as the series has to this degree: the map of groups by tables.
+    fn node_momentum(&self, graph: &Graph, x: &[Id], p: &[Id], degree: usize) -> Vec<Id> {
         let (x, p) = (three(x, 0), three(p, 0));
-        let term = |k: usize| BETA.get(2 * k + 2).map_or(0.0, |beta| beta.abs());
+        let beta = |k: usize| BETA[..=degree].get(2 * k + 2);
+        let term = |k: usize| beta(k).map_or(0.0, |beta| beta.abs());
         let c = series(graph, dot(graph, &x, &x), 1.0, 1e-17, term);
         let once = cross(graph, &x, &p);
         let turned = plus(graph, &p, graph.constant(-0.5), &once);
