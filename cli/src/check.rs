@@ -3,7 +3,7 @@
 use coadjoint_codegen::smooth::Facts;
 use coadjoint_codegen::system::Parameters;
 use coadjoint_run::Derived;
-use coadjoint_run::check::{Law, Trial, check, steep};
+use coadjoint_run::check::{Law, Trial, check, steep, unmeasured};
 use serde_json::{Value, json};
 
 use crate::arguments::CheckOptions;
@@ -61,6 +61,7 @@ pub(crate) fn run(options: &CheckOptions) -> Result<(), CliError> {
             outln!("  the flow between kicks, whose laws the torque breaks:");
         }
         laws.iter().for_each(|law| outln!("  {}", line(law)));
+        unmeasured(&system).iter().for_each(|why| outln!("  {why}"));
     }
     let failed: Vec<&str> = laws.iter().filter(|law| !law.pass).map(|law| law.name).collect();
     if failed.is_empty() {

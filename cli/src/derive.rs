@@ -50,7 +50,7 @@ pub(crate) fn run(options: &DeriveOptions) -> Result<(), CliError> {
         &source.file,
         system,
         "there is no series",
-        "`check` tries the laws of these steps, and `emit` writes them",
+        "`check` tries the laws of these steps",
     )?;
     let series = Series::derive(&source.file, system.problem)?;
     out!("{}", (options.format)(&series));

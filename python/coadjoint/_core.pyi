@@ -14,7 +14,6 @@ __all__ = [
     "forward",
     "largest_exponent",
     "learn",
-    "parameters",
     "read_text",
     "write_text",
 ]
@@ -27,9 +26,14 @@ _Progress = Callable[[int, int], object]
 @final
 class Core:
     def __new__(
-        cls, text: str, name: str, functions: tuple[Callable[..., Any], Callable[..., Any]] | None = None
+        cls,
+        text: str,
+        name: str,
+        functions: tuple[Callable[..., Any], Callable[..., Any]] | None = None,
+        inputs: list[tuple[str, Callable[..., Any]]] = ...,
     ) -> Core: ...
     def facts(self) -> dict[str, Any]: ...
+    def parameters(self) -> list[tuple[str, list[int]]]: ...
     def simulate(
         self,
         asked: _Asked,
@@ -105,7 +109,6 @@ def backward(
     run: dict[str, Any], cotangents: NDArray[np.float64], at: list[int]
 ) -> NDArray[np.float64]: ...
 def largest_exponent(run: dict[str, Any], transient: int) -> float: ...
-def parameters(name: str, text: str) -> list[tuple[str, list[int]]]: ...
 def read_text(path: str | os.PathLike[str]) -> str: ...
 def write_text(path: str | os.PathLike[str], text: str) -> None: ...
 def learn(

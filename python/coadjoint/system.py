@@ -28,6 +28,8 @@ EventFunction = Callable[[float, Floats, Floats], Real]
 #: An energy H(t, μ), and its gradient ∂H/∂μ, as functions of the time and the momentum.
 Energy = Callable[[float, Floats], Real]
 Gradient = Callable[[float, Floats], Numbers]
+#: An input u(t), a function of the time.
+Input = Callable[[float], Real]
 
 
 class System:
@@ -38,6 +40,7 @@ class System:
     body momentum: a polynomial, whose steps are made by a series, or any other smooth function (roots, quotients, exp, ln,
     sin, …), whose steps are made by collocation. Numbers are taken as their decimals, exactly: 0.1 is one tenth.
     It may also be a function of (t, μ), with its ``gradient``, another one, which is checked against it once; neither may depend on t.
+    ``inputs`` are functions of the time, which H and a torque name: lists of values at ``times``, or functions of t.
 
     The other arguments are the keys of a system file: ``truncation`` K (odd; the method has order K + 1), ``chart``
     (``"exp"`` or ``"cayley"``), ``frame`` (``"auto"``, ``"fixed"`` or ``"comoving"``), ``solver``, ``method`` (``"series"`` or
@@ -95,6 +98,8 @@ class System:
         torque = None if torque is None else _arrays.listed(torque, "torque")
         given = tuple(pair for pair in arguments if pair[1] is not None and pair != ("name", "system"))
         functions = _functions(hamiltonian, gradient)
+        given_inputs = _text.mapping(inputs, "inputs")
+        called_inputs = {k: v for k, v in given_inputs.items() if callable(v) and not hasattr(v, "free_symbols")}
         known = _text.symbols(None if functions else hamiltonian, potential, *(torque or ()), *(coordinates or ()))
         called = [] if coordinates is None else _text.names(coordinates, "coordinates")
         shown = _text.mapping(units, "units")
@@ -122,7 +127,7 @@ class System:
         tables = {
             "algebra": {} if whole else _text.algebra(group),
             "parameters": {k: exact(v, f"parameter {k}") for k, v in _text.mapping(parameters, "parameters").items()},
-            "inputs": {k: exact(v, f"inputs {k}") for k, v in _text.mapping(inputs, "inputs").items()},
+            "inputs": {k: exact(v, f"inputs {k}") for k, v in given_inputs.items() if k not in called_inputs},
             "units": {k: text(v) for k, v in shown.items()},
             "integrator": {
                 "truncation": exact(truncation, "truncation"),
@@ -144,7 +149,7 @@ class System:
         lines = _text.table(None, top)
         for title, entries in tables.items():
             lines += _text.table(title, entries)
-        self._read("\n".join(lines) + "\n", name, given, known, functions)
+        self._read("\n".join(lines) + "\n", name, given, known, functions, called_inputs)
 
     @classmethod
     def from_text(cls, text: str, name: str = "system") -> System:
@@ -154,7 +159,7 @@ class System:
         >>> ca.System.from_text('group = "SO3"\\nhamiltonian = "mu[0]^2"').group
         'SO3'
         """
-        return _restored(cls, _arrays.text(text, "text"), _arrays.text(name, "name"), None, {}, None)
+        return _restored(cls, _arrays.text(text, "text"), _arrays.text(name, "name"), None, {}, None, {})
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> System:
@@ -168,10 +173,12 @@ class System:
         given: tuple[tuple[str, Any], ...] | None,
         known: dict[str, Any],
         functions: tuple[Energy, Gradient] | None,
+        inputs: dict[str, Input],
         core: _core.Core | None = None,
     ) -> None:
-        self._text_, self._name, self._given, self._known, self._functions = text, name, given, known, functions
-        self._core = _core.Core(text, name, functions) if core is None else core
+        self._text_, self._name, self._given, self._known = text, name, given, known
+        self._functions, self._inputs = functions, inputs
+        self._core = _core.Core(text, name, functions, list(inputs.items())) if core is None else core
         self._facts = self._core.facts()
         self._steppers: dict[tuple[float | None, str], _core.Stepper] = {}
 
@@ -252,9 +259,9 @@ class System:
     @cached_property
     def identity(self) -> str:
         """A hash of the text and of this version: where it is the same, results have the same bits."""
-        if self._functions:
-            raise InputError("a system whose Hamiltonian is a function has no hash: give it as an expression")
-        return hashlib.sha256(f"coadjoint {_core.__version__}\n{self._text_}".encode()).hexdigest()
+        self._plain("has no hash")
+        inputs = self._facts["inputs_sha256"] or ""
+        return hashlib.sha256(f"coadjoint {_core.__version__}\n{inputs}{self._text_}".encode()).hexdigest()
 
     def layouts(self) -> list[list[str]]:
         """The columns that rows of an ensemble may have: momenta alone, with matrices, with quaternions.
@@ -570,6 +577,14 @@ class System:
 
     # Python's own.
 
+    def _plain(self, lacks: str) -> None:
+        """Refuses functions of Python, with which the system ``lacks`` something."""
+        if self._functions:
+            raise InputError(f"a system whose Hamiltonian is a function {lacks}: give it as an expression")
+        if self._inputs:
+            first = next(iter(self._inputs))
+            raise InputError(f"a system with the function {first} as an input {lacks}: give its values at times")
+
     def _asked(
         self,
         time: Real | None,
@@ -621,12 +636,15 @@ class System:
         return _arrays.state(momentum, group_element, self._find, self._facts["units"], self.matrix_size)
 
     def __reduce__(self) -> Any:
-        return _restored, (type(self), self._text_, self._name, self._given, self._known, self._functions)
+        parts = self._text_, self._name, self._given, self._known, self._functions, self._inputs
+        return _same, (self._facts["inputs_sha256"], type(self), *parts)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, System):
             return NotImplemented
-        return (self._text_, self._functions) == (other._text_, other._functions)
+        mine, others = self._facts["inputs_sha256"], other._facts["inputs_sha256"]
+        functions = (self._functions, self._inputs) == (other._functions, other._inputs)
+        return functions and (self._text_, mine) == (other._text_, others)
 
     def __hash__(self) -> int:
         return hash(self._text_)
@@ -745,12 +763,20 @@ def hardly_converges(ratio: float) -> str:
 
 def of_core(core: _core.Core, text: str, name: str) -> System:
     """The system of an extension's object; ``text`` is what it was made of."""
-    return _restored(System, text, name, None, {}, None, core)
+    return _restored(System, text, name, None, {}, None, {}, core)
 
 
 def _restored(kind: type[System], *parts: Any) -> System:
     system = kind.__new__(kind)
     system._read(*parts)
+    return system
+
+
+def _same(inputs: str | None, kind: type[System], *parts: Any) -> System:
+    """A system as it was pickled."""
+    system = _restored(kind, *parts)
+    if system._facts["inputs_sha256"] != inputs:
+        raise InputError(f"{system._name}: the table of its inputs is another than it was when the system was pickled")
     return system
 
 

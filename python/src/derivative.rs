@@ -1,26 +1,25 @@
 //! The derivatives of runs.
 
-use std::path::Path;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, PoisonError};
 
 use coadjoint_codegen::problem::FrameChoice;
 use coadjoint_codegen::system::Options;
 use coadjoint_run::simulate::{Schedule, Setup};
-use coadjoint_run::{Derivatives, Derived, RunError, read, read_varying};
+use coadjoint_run::{Derivatives, Derived, RunError};
 use nalgebra::DMatrix;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
 use crate::asked::backend_of;
 use crate::control::work;
-use crate::error::raised;
+use crate::error::raised_by;
+use crate::system::Core;
 
 /// A run, and the parameters that its derivatives are taken in.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub struct Run {
-    name: String,
-    text: String,
+    core: Py<Core>,
     truncation: Option<usize>,
     comoving: bool,
     parameters: Vec<String>,
@@ -31,29 +30,29 @@ pub struct Run {
     backend: String,
 }
 
-/// A text and what it was derived for: the truncation, the frame, the parameters.
-type Purpose = (String, Option<usize>, bool, Vec<String>);
-
-/// The system derived last: the derivatives of a run are often asked for one after the other.
-static LAST: Mutex<Option<(Purpose, Arc<Derived>)>> = Mutex::new(None);
-
 /// The system of a run as it was derived for it, with the parameters kept.
-fn derived(name: &str, purpose: Purpose) -> Result<Arc<Derived>, RunError> {
+fn derived(
+    core: &Core,
+    truncation: Option<usize>,
+    comoving: bool,
+    parameters: Vec<String>,
+) -> Result<Arc<Derived>, RunError> {
     // A thread that panicked has left a whole system, if any.
-    let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some((_, known)) = last.as_ref().filter(|(known, _)| *known == purpose) {
-        return Ok(known.clone());
-    }
-    let (text, truncation, comoving, parameters) = &purpose;
-    let frame = if *comoving { FrameChoice::Comoving } else { FrameChoice::Fixed };
-    let options = Options { truncation: *truncation, frame: Some(frame), ..Options::default() };
-    let system = read_varying(name, text, options, &[])?;
+    let mut last = core.differentiated.lock().unwrap_or_else(PoisonError::into_inner);
+    let frame = if comoving { FrameChoice::Comoving } else { FrameChoice::Fixed };
+    let options = Options { truncation, frame: Some(frame), ..Options::default() };
+    let system = core.again(options, &[])?;
     if !parameters.is_empty() && system.potential.is_some() {
         let what = "runs with a potential have no derivatives in parameters so far";
         return Err(RunError::Option(what.to_owned()));
     }
-    let system = read_varying(name, text, options, parameters)?;
-    let made = Arc::new(Derived::of_file(Path::new(name), system)?);
+    let frame = if comoving { "comoving" } else { "fixed" };
+    let purpose = (system.problem.facts().truncation, frame, Some(parameters.clone()));
+    if let Some((_, known)) = last.as_ref().filter(|(known, _)| *known == purpose) {
+        return Ok(known.clone());
+    }
+    let system = core.again(options, &parameters)?;
+    let made = Arc::new(Derived::of_file(core.path(), system)?);
     *last = Some((purpose, made.clone()));
     Ok(made)
 }
@@ -65,26 +64,20 @@ fn with<T: Send + 'static>(
     job: impl FnOnce(&Derivatives<'_>) -> Result<T, RunError> + Send + 'static,
 ) -> PyResult<T> {
     let backend = backend_of(py, &run.backend)?;
+    let core = run.core.get().here();
+    let failures = core.failures.clone();
     let result = work(py, None, move |_| {
-        let Run { name, text, truncation, comoving, parameters, step, steps, .. } = run;
-        let given = read(&name, &text)?.run;
-        let (momentum, group_element) =
-            (run.momentum.or(given.momentum), run.group_element.or(given.group_element));
-        let derived = derived(&name, (text, truncation, comoving, parameters))?;
+        let Run { truncation, comoving, parameters, step, steps, .. } = run;
+        let given = core.run();
+        let momentum = run.momentum.or_else(|| given.momentum.clone());
+        let group_element = run.group_element.or_else(|| given.group_element.clone());
+        let derived = derived(&core, truncation, comoving, parameters)?;
         let schedule = Schedule { asked: step, step, steps, end: step * steps as f64 };
         let setup = Setup::new(schedule, momentum.unwrap_or_default());
         let setup = Setup { backend, group_element, ..setup };
         job(&Derivatives::new(&derived, &setup)?)
     })?;
-    result.map_err(|error: RunError| raised(py, &error))
-}
-
-/// The parameters of a system known as text, each with its lengths: none of a number, two of a matrix.
-#[pyfunction]
-pub fn parameters(py: Python<'_>, name: &str, text: &str) -> PyResult<Vec<(String, Vec<usize>)>> {
-    let system = read(name, text).map_err(|error| raised(py, &error))?;
-    let parameters = system.parameters.into_iter();
-    Ok(parameters.map(|parameter| (parameter.name, parameter.shape.lengths())).collect())
+    result.map_err(|error: RunError| raised_by(py, &error, &failures))
 }
 
 fn matrix(array: &PyReadonlyArray2<'_, f64>) -> DMatrix<f64> {

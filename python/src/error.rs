@@ -1,12 +1,10 @@
 //! Errors as exceptions of `coadjoint.errors`.
 
-use std::sync::Arc;
-
 use coadjoint_run::RunError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 
-use crate::function::{Failure, Functions};
+use crate::function::{Failure, Failures};
 
 static MODULE: PyOnceLock<Py<PyModule>> = PyOnceLock::new();
 
@@ -33,17 +31,15 @@ pub fn raised(py: Python<'_>, error: &RunError) -> PyErr {
     make(py, kind, error.to_string(), at)
 }
 
-/// The exception of a failure of a system, whose Hamiltonian may be functions of Python: why these failed, and what they
+/// The exception of a failure of a system, whose Hamiltonian or inputs may be functions of Python: why these failed, and what they
 /// raised as its cause.
-pub fn raised_by(py: Python<'_>, error: &RunError, functions: Option<&Arc<Functions>>) -> PyErr {
-    explained(py, raised(py, error), functions)
+pub fn raised_by(py: Python<'_>, error: &RunError, failures: &Failures) -> PyErr {
+    explained(py, raised(py, error), failures)
 }
 
 /// An exception with the reason for which functions of Python failed, where they did.
-pub fn explained(py: Python<'_>, error: PyErr, functions: Option<&Arc<Functions>>) -> PyErr {
-    let Some(Failure { text, cause }) = functions.and_then(|functions| functions.failure()) else {
-        return error;
-    };
+pub fn explained(py: Python<'_>, error: PyErr, failures: &Failures) -> PyErr {
+    let Some(Failure { text, cause }) = failures.take() else { return error };
     let value = error.value(py);
     if let Err(error) = value.setattr("args", (format!("{value}: {text}"),)) {
         return error;
@@ -58,11 +54,6 @@ pub fn refused(py: Python<'_>, message: String) -> PyErr {
 }
 
 /// The exception of a step that was not made.
-pub fn stopped(
-    py: Python<'_>,
-    step: u64,
-    message: String,
-    functions: Option<&Arc<Functions>>,
-) -> PyErr {
-    explained(py, make(py, "run", message, (None, Some(step))), functions)
+pub fn stopped(py: Python<'_>, step: u64, message: String, failures: &Failures) -> PyErr {
+    explained(py, make(py, "run", message, (None, Some(step))), failures)
 }

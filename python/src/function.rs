@@ -1,8 +1,9 @@
-//! Hamiltonians as functions of Python.
+//! Hamiltonians and inputs as functions of Python.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use coadjoint_codegen::signal::Signal;
 use coadjoint_codegen::smooth::{Function, Given};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -20,8 +21,7 @@ pub struct Functions {
     gradient: Py<PyAny>,
     /// Whether the gradient was found to be the energy's, where it was first asked for.
     checked: AtomicBool,
-    /// The first failure that nobody has been told.
-    failure: Mutex<Option<Failure>>,
+    failures: Arc<Failures>,
 }
 
 /// Why a function has no value.
@@ -32,26 +32,45 @@ pub struct Failure {
     pub cause: Option<PyErr>,
 }
 
-impl Functions {
-    /// Of these two.
-    pub fn new(energy: Py<PyAny>, gradient: Py<PyAny>) -> Arc<Self> {
-        let (checked, failure) = (AtomicBool::new(false), Mutex::new(None));
-        Arc::new(Self { energy, gradient, checked, failure })
-    }
+/// The first failure of the functions of a system that nobody has been told.
+#[derive(Default)]
+pub struct Failures(Mutex<Option<Failure>>);
 
-    /// The function of a system.
-    pub fn given(self: &Arc<Self>) -> Given {
-        Given(self.clone())
-    }
-
+impl Failures {
     /// The first failure since this was last asked.
-    pub fn failure(&self) -> Option<Failure> {
-        self.failure.lock().unwrap_or_else(PoisonError::into_inner).take()
+    pub fn take(&self) -> Option<Failure> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+
+    fn note(&self, text: String, cause: Option<PyErr>) {
+        let mut failure = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        failure.get_or_insert(Failure { text, cause });
+    }
+}
+
+/// An input u(t) as a function of the time; NaN where it fails, which is noted.
+pub fn input(name: String, function: Py<PyAny>, failures: Arc<Failures>) -> Signal {
+    let called = name.clone();
+    Signal::of_function(name, move |time| {
+        let value = Python::attach(|py| function.call1(py, (time,))?.extract::<f64>(py));
+        let (what, cause) = match value {
+            Ok(value) if value.is_finite() => return value,
+            Ok(value) => (format!("is {value}"), None),
+            Err(error) => (format!("raised {error}"), Some(error)),
+        };
+        failures.note(format!("the input {called} {what}, at time {time}"), cause);
+        f64::NAN
+    })
+}
+
+impl Functions {
+    /// The function of a system, of these two.
+    pub fn given(energy: Py<PyAny>, gradient: Py<PyAny>, failures: Arc<Failures>) -> Given {
+        Given(Arc::new(Self { energy, gradient, checked: AtomicBool::new(false), failures }))
     }
 
     fn fail(&self, text: String, cause: Option<PyErr>) {
-        let mut failure = self.failure.lock().unwrap_or_else(PoisonError::into_inner);
-        failure.get_or_insert(Failure { text, cause });
+        self.failures.note(text, cause);
     }
 
     /// The numbers that a function gives; NaN where it fails, which is noted.

@@ -22,7 +22,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _core {
     #[pymodule_export]
-    use super::derivative::{backward, forward, largest_exponent, parameters};
+    use super::derivative::{backward, forward, largest_exponent};
     #[pymodule_export]
     use super::files::{read_text, write_text};
     #[pymodule_export]

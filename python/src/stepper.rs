@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 
 use crate::control::work;
 use crate::error::{raised, refused, stopped};
-use crate::function::Functions;
+use crate::function::Failures;
 
 /// The most steps made at once without checking for signals.
 const FEW: u64 = 64;
@@ -23,8 +23,8 @@ pub struct Stepper {
     pub single: Arc<Single<Arc<Derived>>>,
     /// The dimension of the algebra.
     pub dimension: usize,
-    /// The functions that the Hamiltonian is, where it is some.
-    pub functions: Option<Arc<Functions>>,
+    /// The failures of the system's functions.
+    pub failures: Arc<Failures>,
 }
 
 #[pymethods]
@@ -85,9 +85,7 @@ impl Stepper {
             (matrix, mu) = (new_matrix, new_mu);
             made
         };
-        made.map_err(|(step, error)| {
-            stopped(py, step, error.to_string(), self.functions.as_ref())
-        })?;
+        made.map_err(|(step, error)| stopped(py, step, error.to_string(), &self.failures))?;
         Ok((mu.into_pyarray(py), matrix.into_pyarray(py).reshape([size, size])?))
     }
 }

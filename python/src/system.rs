@@ -6,9 +6,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use coadjoint_codegen::lie;
 use coadjoint_codegen::problem::Problem;
-use coadjoint_codegen::smooth::{Facts, Hamiltonian};
+use coadjoint_codegen::smooth::{Facts, Functions, Hamiltonian};
 use coadjoint_codegen::step::Energy;
-use coadjoint_codegen::system::Options;
+use coadjoint_codegen::system::{Options, Run};
 use coadjoint_codegen::tolerance::Choice;
 use coadjoint_learn::table;
 use coadjoint_run::ensemble::{
@@ -16,8 +16,8 @@ use coadjoint_run::ensemble::{
 };
 use coadjoint_run::simulate::{Event, Schedule, Setup, Single, Times, run};
 use coadjoint_run::{
-    Accuracy, Backend, Derived, RunError, System, check, emit, meet_tolerance, polynomial, read,
-    read_given, read_varying, series, verify,
+    Accuracy, Backend, Derived, RunError, System, check, emit, inputs_hash, meet_tolerance,
+    polynomial, read_given, series, verify,
 };
 use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use numpy::{PyArray1, PyArray2, PyUntypedArrayMethods};
@@ -29,7 +29,7 @@ use crate::control::work;
 use crate::emit::emitted;
 use crate::error::{raised, raised_by, refused};
 use crate::event::Watched;
-use crate::function::Functions;
+use crate::function::{Failures, Functions as Called, input};
 use crate::outcome::result_of;
 use crate::record::{Keeper, Table};
 use crate::stepper::Stepper;
@@ -45,12 +45,16 @@ pub struct Core {
     name: String,
     text: Arc<str>,
     system: System,
-    /// The functions that the Hamiltonian is, where it is some.
-    functions: Option<Arc<Functions>>,
+    /// What is given in place of parts of the text: functions, and all inputs as they were when it was first read.
+    given: Functions,
+    /// The failures of functions of Python.
+    pub(crate) failures: Arc<Failures>,
     /// The integrators derived so far.
     derived: Cache,
     /// The last choice for a tolerance, for calls that ask for the same.
     chosen: Arc<Mutex<Option<Chosen>>>,
+    /// The system derived last for derivatives, which are often asked for one after the other.
+    pub(crate) differentiated: Arc<Mutex<Option<(Purpose, Arc<Derived>)>>>,
 }
 
 /// The parameters of an ensemble that vary, and the state along whose motion a tolerance is met where the text has none.
@@ -60,7 +64,7 @@ type Ensemble = (Vec<String>, Option<Vec<f64>>);
 type Chosen = (Accuracy, Option<Ensemble>, System, Option<Choice>);
 
 /// What a system is derived for: a truncation, a frame, and, for ensembles, the parameters that vary.
-type Purpose = (usize, &'static str, Option<Vec<String>>);
+pub(crate) type Purpose = (usize, &'static str, Option<Vec<String>>);
 
 /// Systems that have been derived.
 type Cache = Arc<Mutex<Vec<(Purpose, Arc<Derived>)>>>;
@@ -91,23 +95,25 @@ fn derive(
 
 impl Core {
     /// The same text, with nothing derived yet, for another thread. Earlier failures of functions are forgotten.
-    fn here(&self) -> Self {
-        self.functions.iter().for_each(|functions| drop(functions.failure()));
+    pub(crate) fn here(&self) -> Self {
+        drop(self.failures.take());
         let (name, text, system) = (self.name.clone(), self.text.clone(), self.system.clone());
-        let (functions, chosen) = (self.functions.clone(), self.chosen.clone());
-        Self { name, text, system, functions, derived: Cache::default(), chosen }
+        let (given, failures) = (self.given.clone(), self.failures.clone());
+        let (derived, chosen, differentiated) =
+            (Cache::default(), self.chosen.clone(), self.differentiated.clone());
+        Self { name, text, system, given, failures, derived, chosen, differentiated }
     }
 
     /// A system that is known as text elsewhere.
     pub(crate) fn of(name: String, text: Arc<str>, system: System) -> Self {
-        let (functions, derived, chosen) = Default::default();
-        Self { name, text, system, functions, derived, chosen }
+        let given = Functions { inputs: system.signals().to_vec(), ..Functions::default() };
+        let (failures, derived, chosen, differentiated) = Default::default();
+        Self { name, text, system, given, failures, derived, chosen, differentiated }
     }
 
     /// What functions of Python have raised, where they did.
     fn raise(&self, py: Python<'_>) -> PyResult<()> {
-        let failure = self.functions.as_ref().and_then(|functions| functions.failure());
-        failure.and_then(|failure| failure.cause).map_or(Ok(()), |cause| {
+        self.failures.take().and_then(|failure| failure.cause).map_or(Ok(()), |cause| {
             let error = RunError::Option("a function of the system failed".to_owned());
             let error = raised(py, &error);
             error.set_cause(py, Some(cause));
@@ -117,7 +123,7 @@ impl Core {
 
     /// The exception of a failure of this system.
     fn raised(&self, py: Python<'_>, error: &RunError) -> PyErr {
-        raised_by(py, error, self.functions.as_ref())
+        raised_by(py, error, &self.failures)
     }
 
     /// The system with the truncation and the step that these settings ask for; a sentence about a choice.
@@ -133,9 +139,7 @@ impl Core {
             return Ok((system.clone(), choice.clone()));
         }
         let mut system = match &ensemble {
-            Some((varied, _)) if !varied.is_empty() => {
-                read_varying(&self.name, &self.text, Options::default(), varied)?
-            }
+            Some((varied, _)) if !varied.is_empty() => self.again(Options::default(), varied)?,
             _ => self.system.clone(),
         };
         let start = ensemble.iter().find_map(|(_, start)| start.clone());
@@ -146,6 +150,24 @@ impl Core {
         let choice = meet_tolerance(Path::new(&self.name), &mut system, accuracy)?;
         *chosen = Some((*accuracy, ensemble, system.clone(), choice.clone()));
         Ok((system, choice))
+    }
+
+    /// The name of the system in messages.
+    pub(crate) fn path(&self) -> &Path {
+        Path::new(&self.name)
+    }
+
+    /// The run that the text asks for.
+    pub(crate) fn run(&self) -> &Run {
+        &self.system.run
+    }
+
+    /// The system of the same text and inputs, read otherwise.
+    ///
+    /// # Errors
+    /// All mistakes.
+    pub(crate) fn again(&self, options: Options, varied: &[String]) -> Result<System, RunError> {
+        read_given(&self.name, &self.text, options, varied, &self.given)
     }
 
     /// The shape of a row.
@@ -164,28 +186,31 @@ impl Core {
         Ok(choice.map(|choice| (choice.truncation, choice.step)))
     }
 
-    /// Reads the text of a system file; one without a Hamiltonian where `functions` are the energy and its gradient.
+    /// Reads the text of a system file; one without a Hamiltonian where `functions` are the energy and its gradient, and with
+    /// these functions as inputs.
     #[new]
-    #[pyo3(signature = (text, name, functions=None))]
+    #[pyo3(signature = (text, name, functions=None, inputs=Vec::new()))]
     fn new(
         py: Python<'_>,
         text: String,
         name: String,
         functions: Option<(Py<PyAny>, Py<PyAny>)>,
+        inputs: Vec<(String, Py<PyAny>)>,
     ) -> PyResult<Self> {
-        let called = functions.as_ref().map(|(energy, _)| {
+        let failures: Arc<Failures> = Arc::default();
+        let energy = functions.map(|(energy, gradient)| {
             let name = energy.getattr(py, "__name__").and_then(|name| name.extract::<String>(py));
-            name.unwrap_or_else(|_| "energy".to_owned())
+            let name = name.unwrap_or_else(|_| "energy".to_owned());
+            (name, Called::given(energy, gradient, failures.clone()))
         });
-        let functions = functions.map(|(energy, gradient)| Functions::new(energy, gradient));
+        let inputs = inputs.into_iter();
+        let inputs = inputs.map(|(name, function)| input(name, function, failures.clone()));
+        let given = Functions { energy, inputs: inputs.collect() };
         let made = work(py, None, move |_| {
-            let system = match (&functions, &called) {
-                (Some(functions), Some(called)) => {
-                    read_given(&name, &text, (called, &functions.given()))?
-                }
-                _ => read(&name, &text)?,
-            };
-            Ok(Self { functions, ..Self::of(name, text.into(), system) })
+            let system = read_given(&name, &text, Options::default(), &[], &given)?;
+            let made = Self::of(name, text.into(), system);
+            let given = Functions { energy: given.energy, ..made.given };
+            Ok(Self { given, failures, ..made })
         })?;
         made.map_err(|error: RunError| raised(py, &error))
     }
@@ -197,6 +222,9 @@ impl Core {
         let facts = PyDict::new(py);
         facts.set_item("name", name)?;
         facts.set_item("group", algebra.name())?;
+        facts.set_item("inputs_sha256", inputs_hash(self.system.signals()))?;
+        let of_files = self.system.signals().iter().any(|signal| signal.columns.is_some());
+        facts.set_item("inputs_of_files", of_files)?;
         facts.set_item("dimension", algebra.dim())?;
         facts.set_item("coordinates", coordinates)?;
         facts.set_item("truncation", truncation)?;
@@ -482,6 +510,12 @@ impl Core {
         Ok((found.layout.names(), found.places, found.unused, varied))
     }
 
+    /// The parameters, each with its lengths: none of a number, two of a matrix.
+    fn parameters(&self) -> Vec<(String, Vec<usize>)> {
+        let parameters = self.system.parameters.iter();
+        parameters.map(|parameter| (parameter.name.clone(), parameter.shape.lengths())).collect()
+    }
+
     /// H and its gradient at momenta, a row each; a potential is no part of it.
     #[allow(clippy::type_complexity)]
     fn hamiltonian<'py>(
@@ -522,8 +556,8 @@ impl Core {
             Single::new(derived, step, backend, MANY)
         })?;
         let single = made.map_err(|error| self.raised(py, &error))?;
-        let functions = self.functions.clone();
-        Ok(Stepper { single: Arc::new(single), dimension, functions })
+        let failures = self.failures.clone();
+        Ok(Stepper { single: Arc::new(single), dimension, failures })
     }
 
     /// The exact series as `text`, `json` or `latex`.
@@ -576,7 +610,7 @@ impl Core {
                 (law.name.to_owned(), law.statement.to_owned(), law.value, law.bound, law.pass)
             };
             let laws = laws.into_iter().map(law).collect();
-            Ok((laws, steep.map(check::steep)))
+            Ok((laws, steep.map(check::steep).or_else(|| check::unmeasured(&derived))))
         })?;
         made.map_err(|error: RunError| self.raised(py, &error))
     }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -139,6 +140,27 @@ def test_damping_is_a_number_or_one_for_each_coordinate() -> None:
         bool(runs[0].largest_drift.energy < 1)
     with pytest.raises(InputError, match="must not be negative"):
         ca.System("SO3", "x^2/2 + y^2/4", damping=-1, **body)
+
+
+def test_inputs_are_functions() -> None:
+    def system(u: Callable[[float], float]) -> ca.System:
+        given = dict(coordinates="x y z", step=0.1, momentum=START, time=4)
+        return ca.System("SO3", "z^2 + u*z", inputs={"u": u}, **given)
+
+    followed = system(lambda t: 1 + t)
+    run = followed.simulate()
+    angle = 2 * 4 + 4 + 8
+    cosine, sine = np.cos(angle), np.sin(angle)
+    assert np.abs(run.momentum[-1] - [2 * cosine + 0.5 * sine, 0.5 * cosine - 2 * sine, 1]).max() < 1e-12
+    assert np.abs(followed.ensemble([START])[0] - run.momentum[-1]).max() < 1e-12
+    assert run.jvp(momentum=[0, 0, 1]).momentum.shape == run.momentum.shape
+    with pytest.raises(RunError, match="the input u is nan, at time 2"):
+        system(lambda t: 1 if t < 2 else np.nan).simulate()
+    with pytest.raises(RunError, match="the input u raised division by zero, at time 0") as raised:
+        system(lambda t: 1 / 0).simulate()
+    assert isinstance(raised.value.__cause__, ZeroDivisionError)
+    with pytest.raises(InputError, match="function u as an input has no hash"):
+        followed.identity
 
 
 def test_torques_are_lists_of_expressions() -> None:

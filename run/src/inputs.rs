@@ -1,6 +1,6 @@
 //! Inputs whose tables are files, and how far they reach.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use coadjoint_codegen::potential::{Force, Potential};
@@ -8,9 +8,31 @@ use coadjoint_codegen::signal::{Columns, Signal, SignalError};
 use coadjoint_codegen::smooth::Hamiltonian;
 use coadjoint_codegen::system::System;
 use coadjoint_learn::table::{Row, Table};
+use sha2::{Digest, Sha256};
 
 use crate::error::RunError;
 use crate::number::shortest;
+
+/// The SHA-256 of the numbers of inputs; `None` where there are none.
+pub fn inputs_hash(signals: &[Signal]) -> Option<String> {
+    let mut hash = Sha256::new();
+    for signal in signals {
+        hash.update(&signal.name);
+        signal.table().concat().iter().for_each(|number| hash.update(number.to_le_bytes()));
+    }
+    (!signals.is_empty()).then(|| format!("{:x}", hash.finalize()))
+}
+
+/// The files that hold the tables of inputs, for the system of this file.
+pub fn inputs_files(system: &Path, signals: &[Signal]) -> BTreeSet<PathBuf> {
+    let columns = signals.iter().filter_map(|signal| signal.columns.as_ref());
+    columns.map(|columns| beside(system, columns)).collect()
+}
+
+/// The file of a table.
+fn beside(system: &Path, columns: &Columns) -> PathBuf {
+    system.parent().unwrap_or(Path::new("")).join(&columns.file)
+}
 
 /// Columns of a file, by their names.
 type Read = BTreeMap<String, Vec<f64>>;
@@ -28,11 +50,12 @@ pub fn fill(system: &Path, read: &mut System<Hamiltonian>) -> Result<(), RunErro
         Some((Potential { force: Force::Smooth(programs), .. }, _)) => &mut programs.signals[..],
         _ => &mut [],
     };
-    let folder = system.parent().unwrap_or(Path::new(""));
+    // Those that are given have their numbers.
+    let unread = |signal: &&Signal| signal.table()[0].is_empty();
     let mut files: BTreeMap<PathBuf, Read> = BTreeMap::new();
-    for columns in of_energy.iter().chain(&*of_torque).filter_map(|signal| signal.columns.as_ref())
-    {
-        let of_file = files.entry(folder.join(&columns.file)).or_default();
+    let signals = of_energy.iter().chain(&*of_torque).filter(unread);
+    for columns in signals.filter_map(|signal| signal.columns.as_ref()) {
+        let of_file = files.entry(beside(system, columns)).or_default();
         of_file.entry(columns.times.clone()).or_default();
         of_file.entry(columns.values.clone()).or_default();
     }
@@ -40,10 +63,11 @@ pub fn fill(system: &Path, read: &mut System<Hamiltonian>) -> Result<(), RunErro
         fill_columns(path, columns)?;
     }
     for signal in of_energy.iter_mut().chain(of_torque) {
-        if let Some(columns) = &signal.columns {
-            let path = folder.join(&columns.file);
-            *signal = from_columns(&signal.name, columns, &files[&path])
+        if let (Some(columns), [[], _]) = (signal.columns.clone(), signal.table()) {
+            let path = beside(system, &columns);
+            *signal = from_columns(&signal.name, &columns, &files[&path])
                 .map_err(|what| RunError::of(&path)(what))?;
+            signal.columns = Some(columns);
         }
     }
     Ok(())

@@ -21,6 +21,7 @@ pub use accuracy::{Accuracy, meet_tolerance};
 pub use backend::{Backend, Code, Used};
 pub use derivative::{Adjoint, Derivatives};
 pub use error::RunError;
+pub use inputs::{inputs_files, inputs_hash};
 pub use load::{
     Derived, Expansion, Flow, System, learned, polynomial, read, read_given, read_group,
     read_varying,

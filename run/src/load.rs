@@ -9,7 +9,8 @@ use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::{Integrator, Kick};
 use coadjoint_codegen::potential::Potential;
 use coadjoint_codegen::problem::Problem;
-use coadjoint_codegen::smooth::{Facts, Given, Hamiltonian, Smooth};
+use coadjoint_codegen::signal::Signal;
+use coadjoint_codegen::smooth::{Facts, Functions, Hamiltonian, Smooth};
 use coadjoint_codegen::step::{Energy, Invariants, Origin};
 use coadjoint_codegen::system::{self, Options, Run, Splitting};
 use coadjoint_learn::{GroupChoice, ModelFile};
@@ -44,7 +45,21 @@ pub fn read_varying(
     options: Options,
     varied: &[String],
 ) -> Result<System, RunError> {
-    let read = system::read_either(text, options, varied);
+    read_given(name, text, options, varied, &Functions::default())
+}
+
+/// The same of a text parts of which are given.
+///
+/// # Errors
+/// All mistakes, rendered.
+pub fn read_given(
+    name: &str,
+    text: &str,
+    options: Options,
+    varied: &[String],
+    given: &Functions,
+) -> Result<System, RunError> {
+    let read = system::read_given(text, options, varied, given);
     let mut read = read.map_err(|mistakes| RunError::Input(mistakes.render(name, text)))?;
     inputs::fill(Path::new(name), &mut read)?;
     if let (Some(parameter), true) = (varied.first(), read.potential.is_some()) {
@@ -53,15 +68,6 @@ pub fn read_varying(
         return Err(RunError::Input(format!("{name}: column {parameter}: {what}")));
     }
     Ok(read)
-}
-
-/// Reads the text of a system file without `hamiltonian`, in whose place is a function called `function.0`.
-///
-/// # Errors
-/// All mistakes, rendered.
-pub fn read_given(name: &str, text: &str, function: (&str, &Given)) -> Result<System, RunError> {
-    let read = system::read_given(text, Options::default(), function.0, function.1);
-    read.map_err(|mistakes| RunError::Input(mistakes.render(name, text)))
 }
 
 /// A system with the polynomial that its Hamiltonian is. Where it is none, `lacking` says what there is not, and `advice` what
@@ -231,19 +237,24 @@ impl Derived {
         Ok(derived)
     }
 
+    /// The inputs u(t).
+    pub fn signals(&self) -> &[Signal] {
+        match &self.flow {
+            Flow::Series(series) => {
+                let forces = series.forces.as_ref();
+                let torque = forces.and_then(|forces| forces.kick.potential.alone());
+                torque.map_or(&[], |torque| &torque.signals)
+            }
+            Flow::Collocation(smooth, ..) => &smooth.signals,
+        }
+    }
+
     /// Whether all inputs have a value from time 0 to `end`.
     ///
     /// # Errors
     /// The first that has not.
     pub fn reaches(&self, end: f64) -> Result<(), RunError> {
-        match &self.flow {
-            Flow::Series(series) => {
-                let torque =
-                    series.forces.as_ref().and_then(|forces| forces.kick.potential.alone());
-                inputs::reach(&self.file, torque.map_or(&[], |torque| &torque.signals), end)
-            }
-            Flow::Collocation(smooth, ..) => inputs::reach(&self.file, &smooth.signals, end),
-        }
+        inputs::reach(&self.file, self.signals(), end)
     }
 
     /// The facts of the system.

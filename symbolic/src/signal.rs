@@ -1,11 +1,13 @@
-//! Inputs: functions of time that a table gives.
+//! Inputs: functions of time that a table gives, or the program that reads the system.
+
+use std::sync::Arc;
 
 use thiserror::Error;
 
 /// An input u(t), given by its values at some times: the cubic spline through them whose third derivative does not jump at the
 /// second time and at the last but one ("not a knot": C. de Boor, *A Practical Guide to Splines*, IV). Through three values
-/// it is a parabola, through two a line.
-#[derive(Clone, Debug, PartialEq)]
+/// it is a parabola, through two a line. Or a function, which is called at the times that steps ask for.
+#[derive(Clone, Debug)]
 pub struct Signal {
     /// Its name.
     pub name: String,
@@ -15,6 +17,17 @@ pub struct Signal {
     slopes: Vec<f64>,
     /// The columns of a file that hold its table, where a file does.
     pub columns: Option<Columns>,
+    function: Option<Called>,
+}
+
+/// A function of the time, shared.
+#[derive(Clone)]
+struct Called(Arc<dyn Fn(f64) -> f64 + Send + Sync>);
+
+impl std::fmt::Debug for Called {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Called").finish_non_exhaustive()
+    }
 }
 
 /// A table of two columns in a file.
@@ -65,25 +78,47 @@ impl Signal {
             return Err(SignalError::Value(name, at, values[at]));
         }
         let slopes = slopes(&times, &values);
-        Ok(Self { name, times, values, slopes, columns: None })
+        Ok(Self { name, times, values, slopes, columns: None, function: None })
+    }
+
+    /// The input of this name that is a function, at all times; NaN where it has no value.
+    #[must_use]
+    pub fn of_function(
+        name: String,
+        function: impl Fn(f64) -> f64 + Send + Sync + 'static,
+    ) -> Self {
+        let (times, values, slopes, columns) = Default::default();
+        Self { name, times, values, slopes, columns, function: Some(Called(Arc::new(function))) }
     }
 
     /// The input of this name with the table in a file, which has no value until [`Signal::new`] is given the numbers.
     #[must_use]
     pub fn of_columns(name: String, columns: Columns) -> Self {
         let (times, values, slopes) = Default::default();
-        Self { name, times, values, slopes, columns: Some(columns) }
+        Self { name, times, values, slopes, columns: Some(columns), function: None }
     }
 
-    /// The first and the last time of the table; NaN where it has none.
+    /// The times and the values of the table; none of a function.
+    #[must_use]
+    pub fn table(&self) -> [&[f64]; 2] {
+        [&self.times, &self.values]
+    }
+
+    /// The first and the last time of the table; NaN where it has none. A function goes on for ever.
     #[must_use]
     pub fn range(&self) -> [f64; 2] {
+        if self.function.is_some() {
+            return [f64::NEG_INFINITY, f64::INFINITY];
+        }
         [self.times.first(), self.times.last()].map(|time| time.copied().unwrap_or(f64::NAN))
     }
 
     /// u(t); NaN outside the table, whose ends reach as far as times are rounded.
     #[must_use]
     pub(crate) fn at(&self, time: f64) -> f64 {
+        if let Some(Called(function)) = &self.function {
+            return function(time);
+        }
         let Self { times, values, slopes, .. } = self;
         let [first, end] = self.range();
         let rounding = 1e-12 * (end - first);

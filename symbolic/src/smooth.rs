@@ -65,6 +65,15 @@ impl std::fmt::Debug for Given {
     }
 }
 
+/// What the program that reads a text puts in place of parts of it.
+#[derive(Clone, Debug, Default)]
+pub struct Functions {
+    /// The Hamiltonian, and its name; the text then has none.
+    pub energy: Option<(String, Given)>,
+    /// Inputs, in place of those of the text with these names and beside the others.
+    pub inputs: Vec<Signal>,
+}
+
 /// The facts of a system that hold however its steps are made.
 #[derive(Clone, Copy, Debug)]
 pub struct Facts<'a> {

@@ -9,13 +9,13 @@ mod states;
 
 pub(crate) use shard::Shard;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use coadjoint_codegen::system::Parameters;
 use coadjoint_program::{Precision, WIDTH};
 use coadjoint_run::ensemble::{Attitude, Course, Engine, How, Known, Shape, Use, in_lanes};
 use coadjoint_run::simulate::Times;
-use coadjoint_run::{Derived, learned};
+use coadjoint_run::{Derived, inputs_files, inputs_hash, learned};
 
 use crate::arguments::EnsembleOptions;
 use crate::error::CliError;
@@ -31,7 +31,6 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let source = options.input.source(options.truncation);
     let (path, initial) = (source.file.as_path(), options.initial.as_path());
     let path = options.input.model.as_deref().unwrap_or(path);
-    let inputs: [&Path; 2] = [path, initial];
     let accuracy = &options.accuracy;
     // A learned model has its schedule with it.
     let (mut system, attitude, schedule) = match &options.input.model {
@@ -42,6 +41,9 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
         None => (load::source(&source, Parameters::Substituted)?, true, None),
     };
     let known = Known::of(&system.problem.facts(), &system.parameters);
+    let tables = inputs_files(path, system.signals());
+    let inputs: Vec<&Path> =
+        [path, initial].into_iter().chain(tables.iter().map(PathBuf::as_path)).collect();
     // Refused before the derivation, which may take long.
     run::Files::of(&options.out).check(&inputs)?;
     let form = Form::of(&options.out, "--out")?;
@@ -95,6 +97,7 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     ]
     .map(|(key, value)| (key.to_owned(), value))
     .into();
+    identity.extend(inputs_hash(derived.signals()).map(|hash| ("inputs".to_owned(), hash)));
     // In double precision all devices and processors have the same bits.
     if let Some(Use { precision: Precision::Single, name, device, .. }) = engine.device() {
         identity.insert("precision".to_owned(), format!("single, by {device} ({name})"));
@@ -105,7 +108,8 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let stops = at.map(|times| times.stops(&schedule)).unwrap_or_default();
     let parameters = states.found.layout.parameters.clone();
     let (range, course) = (options.shard.rows(states.count()?), Course { steps, stops });
-    let job = Job { options, engine: &engine, inputs, range, states, form, course, identity };
+    let job =
+        Job { options, engine: &engine, inputs: &inputs, range, states, form, course, identity };
     if let Some(threads) = options.threads {
         rayon::ThreadPoolBuilder::new()
             .num_threads(threads)

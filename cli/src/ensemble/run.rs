@@ -35,7 +35,7 @@ pub(crate) struct Job<'a> {
     /// Where rows come from.
     pub states: States,
     /// Everything the run reads.
-    pub inputs: [&'a Path; 2],
+    pub inputs: &'a [&'a Path],
     /// The form in which rows are written.
     pub form: Form,
     /// Rows of the input, counted from 0.
@@ -103,7 +103,7 @@ pub(crate) fn run(job: Job<'_>) -> Result<Outcome, CliError> {
     let begun = Instant::now();
     let files = Files::of(&job.options.out);
     // Before anything is read that another process may write.
-    let open = |path: &Path| Output::open(path, &job.inputs).map_err(unwritten(path));
+    let open = |path: &Path| Output::open(path, job.inputs).map_err(unwritten(path));
     let (output, list) = (open(&files.out)?, open(&files.list)?);
     let known: Option<Journal> =
         if job.options.restart { None } else { note::read(&files.journal, "journal", ANEW)? };
@@ -158,7 +158,7 @@ impl Run<'_> {
     fn note(&mut self) -> Result<(), CliError> {
         let synced = self.output.sync().and_then(|()| self.list.sync());
         synced.map_err(unwritten(&self.files.out))?;
-        note::write(&self.journal, &self.files.journal, &self.job.inputs)
+        note::write(&self.journal, &self.files.journal, self.job.inputs)
     }
 
     /// Advances the rows that are left of `count`. What is done is the same whatever the size of the pieces.
@@ -230,7 +230,7 @@ impl Run<'_> {
                 remove(&files.list)?;
             }
         }
-        let published = job.form.publish(output, &files.out, &job.states.names(), &job.inputs);
+        let published = job.form.publish(output, &files.out, &job.states.names(), job.inputs);
         published.map_err(unwritten(&files.out))?;
         remove(&files.journal)
     }

@@ -14,7 +14,7 @@ use std::path::Path;
 use coadjoint_codegen::system::{Parameters, Run, Units};
 use coadjoint_learn::ModelFile;
 use coadjoint_run::simulate::{Schedule, Setup, Sink, run_model};
-use coadjoint_run::{Derived, System, read_varying, text_hash};
+use coadjoint_run::{Derived, System, inputs_files, read_varying, text_hash};
 
 use crate::arguments::SimulateOptions;
 use crate::error::CliError;
@@ -26,13 +26,22 @@ use target::{Place, Target, paths};
 
 /// Runs every truncation asked for.
 pub(crate) fn run(options: &SimulateOptions) -> Result<(), CliError> {
-    let out = settings::check_names(options)?;
+    let mut inputs = settings::inputs(options);
+    let mut out = settings::check_names(options, &inputs)?;
     let (runs, units) = match &options.input.model {
         Some(path) => (vec![follow(path, options, out.clone())?], Units::default()),
-        None => runs(options, out.as_ref())?,
+        None => {
+            let read = read(options)?;
+            let tables = inputs_files(&inputs[0], read.systems[0].signals());
+            if !tables.is_empty() {
+                inputs.extend(tables);
+                out = settings::check_names(options, &inputs)?;
+            }
+            runs(options, read, out.as_ref())?
+        }
     };
     if let Some(path) = &options.plot {
-        plot::draw(path, &paths(&settings::inputs(options)), &runs, &units)?;
+        plot::draw(path, &paths(&inputs), &runs, &units)?;
     }
     let report = report::report(&runs, &units, options.format);
     // Records on the standard output are not mixed with the report.
@@ -44,16 +53,18 @@ pub(crate) fn run(options: &SimulateOptions) -> Result<(), CliError> {
     Ok(())
 }
 
-/// The run of every truncation asked for.
-fn runs(
-    options: &SimulateOptions,
-    out: Option<&Target>,
-) -> Result<(Vec<Trajectory>, Units), CliError> {
+/// The systems of all truncations asked for, and the hash of their text.
+struct Read {
+    systems: Vec<System>,
+    hash: String,
+}
+
+/// Reads the system of every truncation asked for.
+fn read(options: &SimulateOptions) -> Result<Read, CliError> {
     let source = options.input.source(None);
     let path = &source.file;
     // Read once: all runs are of this text, and its hash is that of what was run.
     let text = load::text(path)?;
-    let hash = text_hash(&text);
     let read = |truncation| {
         let source = Source { truncation, ..source.clone() };
         let given = source.options(Parameters::Substituted);
@@ -69,6 +80,16 @@ fn runs(
     } else {
         options.truncation.iter().map(|&k| read(Some(k))).collect::<Result<_, CliError>>()?
     };
+    Ok(Read { systems, hash: text_hash(&text) })
+}
+
+/// Runs every truncation asked for, and the rival.
+fn runs(
+    options: &SimulateOptions,
+    Read { systems, hash }: Read,
+    out: Option<&Target>,
+) -> Result<(Vec<Trajectory>, Units), CliError> {
+    let path = &options.input.source(None).file;
     let outs = outs(out, &systems)?;
     let mut runs = Vec::new();
     let units = systems[0].units.clone();

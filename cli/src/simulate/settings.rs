@@ -12,7 +12,7 @@ use coadjoint_learn::ModelFile;
 use coadjoint_program::quoting::line;
 use coadjoint_run::number::shortest;
 use coadjoint_run::simulate::{Event, Scales, Schedule, Setup, Times};
-use coadjoint_run::{Derived, Flow, RunError, System, read_varying};
+use coadjoint_run::{Derived, Flow, RunError, System, inputs_hash, read_varying};
 use serde_json::{Map, Value, json};
 
 use super::target::{Place, Target, paths};
@@ -111,7 +111,7 @@ pub(crate) fn with_end(
     Err(refuse(&mistakes.list().iter().map(said).collect::<Vec<_>>().join("; ")))
 }
 
-/// Everything a run reads.
+/// Everything a run reads, the system or the model first; tables that the system names are not among them.
 pub(crate) fn inputs(options: &SimulateOptions) -> Vec<PathBuf> {
     let times = options.at.iter().map(PathBuf::from);
     let system = options.input.model.clone().unwrap_or_else(|| options.input.source(None).file);
@@ -126,10 +126,13 @@ pub(crate) fn every(steps: usize) -> Result<u64, CliError> {
     }
 }
 
-/// Refuses names of files that cannot be what they are to be, before anything is computed; the target of `--out`.
-pub(crate) fn check_names(options: &SimulateOptions) -> Result<Option<Target>, CliError> {
+/// Refuses names of files that cannot be what they are to be or are inputs, before anything is computed; the target of `--out`.
+pub(crate) fn check_names(
+    options: &SimulateOptions,
+    inputs: &[PathBuf],
+) -> Result<Option<Target>, CliError> {
     let refuse = |what: String| Err(CliError::Option(what));
-    let mut used = inputs(options);
+    let mut used = inputs.to_vec();
     let out = options.out.as_deref().map(|out| Target::new(out, &used)).transpose()?;
     used.extend(out.iter().flat_map(Target::names));
     for path in options.plot.iter().chain(&options.checkpoint) {
@@ -193,6 +196,7 @@ impl Header {
                 own.extend([("method", json!("collocation")), ("nodes", json!(smooth.nodes()))])
             }
         }
+        own.extend(inputs_hash(system.signals()).map(|hash| ("inputs_sha256", json!(hash))));
         Self::of(settings, ["system", "system_sha256"], own)
     }
 

@@ -146,6 +146,20 @@ fn another_run_is_refused_by_name() {
     place.refused(&[(&run, "is no checkpoint of this version")]);
 }
 
+/// So is a run whose inputs are others: their table is no part of the text.
+#[test]
+fn a_run_with_other_inputs_is_refused() {
+    let place = place();
+    let text =
+        place.text("smooth.toml").replacen("hamiltonian = \"", "hamiltonian = \"u*mu[0] + ", 1);
+    place.write("smooth.toml", text + "\n[inputs]\ntable = \"u.csv\"\ntimes = \"t\"\nu = \"u\"\n");
+    place.write("u.csv", "t,u\n0,0.1\n2000,0\n4000,0.1\n");
+    let run = smooth("t.csv") + KEEP;
+    kill(start(&place, &run, "state", 1));
+    place.write("u.csv", "t,u\n0,0.1\n2000,0\n4000,0.2\n");
+    place.refused(&[(&run, "another inputs_sha256:")]);
+}
+
 #[test]
 fn a_killed_training_ends_with_the_same_model() {
     let place = Folder::new();

@@ -1,5 +1,12 @@
 //! Runs of Hamiltonians that are no polynomials, by collocation.
 
+use std::path::Path;
+
+use coadjoint_codegen::signal::Signal;
+use coadjoint_codegen::smooth::Functions;
+use coadjoint_codegen::system::Options;
+use coadjoint_run::simulate::{Schedule, Setup, run};
+use coadjoint_run::{Derived, read_given};
 use serde_json::{Value, json};
 
 use crate::support::{Folder, distance, numbers};
@@ -317,17 +324,25 @@ fn inputs_are_splines_and_end_with_their_table() {
     folder.run(&format!("{ensemble} 6")).ok();
 }
 
-/// Columns of a file that stands beside the system, wherever the command is called.
-#[test]
-fn tables_of_inputs_may_be_files() {
+/// The table of [`STEERED`].
+const WHEELS: &str =
+    "t,other,speed\n0,0.5,0.3\n1.2,0.596,-0.0648\n2,0.5,0.3\n3.5,-0.025,1.0875\n6,-1.9,-2.1\n";
+
+/// A folder with [`STEERED`], its table a file.
+fn steered_by_file() -> Folder {
     let (first, rest) = STEERED.split_once("times").unwrap();
     let (_, rest) = rest.split_once("[integrator]").unwrap();
     let columns = "table = \"wheels.csv\"\ntimes = \"t\"\nu = \"speed\"\nv = \"other\"";
     let folder = Folder::with(&format!("{first}{columns}\n[integrator]{rest}"));
-    let lines =
-        "t,other,speed\n0,0.5,0.3\n1.2,0.596,-0.0648\n2,0.5,0.3\n3.5,-0.025,1.0875\n6,-1.9,-2.1\n";
-    let write = |text: &str| folder.write("wheels.csv", text);
-    write(lines);
+    folder.write("wheels.csv", WHEELS);
+    folder
+}
+
+/// Columns of a file that stands beside the system, wherever the command is called.
+#[test]
+fn tables_of_inputs_may_be_files() {
+    let folder = steered_by_file();
+    let (lines, write) = (WHEELS, |text: &str| folder.write("wheels.csv", text));
     let listed = report_of(&Folder::with(STEERED), "");
     assert_eq!(report_of(&folder, "")["momentum"], listed["momentum"]);
     for (given, instead, expected) in [
@@ -346,6 +361,81 @@ fn tables_of_inputs_may_be_files() {
     }
     folder.remove("wheels.csv");
     folder.run("simulate system.toml").fails(2, &["wheels.csv"]);
+}
+
+/// Functions in place of tables, which are called at the times of the nodes; where one has no value the step is refused.
+#[test]
+fn inputs_may_be_functions() {
+    let expected = numbers(&report_of(&Folder::with(STEERED), "")["momentum"]);
+    let (first, rest) = STEERED.split_once("[inputs]").unwrap();
+    let text = format!("{first}[integrator]{}", rest.split_once("[integrator]").unwrap().1);
+    let run_until = |end: f64| {
+        // The polynomials by which the table was made.
+        let u =
+            move |t: f64| if t < end { 0.3 - t + 0.7 * t * t - 0.1 * t * t * t } else { f64::NAN };
+        let u = Signal::of_function("u".to_owned(), u);
+        let v = Signal::of_function("v".to_owned(), |t| 0.5 + 0.2 * t - 0.1 * t * t);
+        let given = Functions { inputs: vec![u, v], ..Functions::default() };
+        let system = read_given("system", &text, Options::default(), &[], &given)?;
+        let schedule = Schedule::new(Path::new("system"), None, None, &system.run)?;
+        let setup = Setup::new(schedule, system.run.momentum.clone().unwrap());
+        run(&Derived::of(system)?, &setup, &mut ())
+    };
+    let found = run_until(f64::INFINITY).unwrap().momentum;
+    assert!(distance(&found, &expected) < 1e-13, "{found:?}");
+    let error = run_until(3.05).unwrap_err().to_string();
+    assert!(error.starts_with("at time 3") && error.contains("step 31"), "{error}");
+}
+
+/// An event of the command line has the text read once more, with its inputs.
+#[test]
+fn runs_with_inputs_from_files_end_at_events() {
+    let folder = steered_by_file();
+    let ended = report_of(&folder, "--until x-0.4");
+    let listed = report_of(&Folder::with(STEERED), "--until x-0.4");
+    assert_eq!(ended["events"], listed["events"]);
+    assert!(ended["events"].to_string().contains("time"), "{ended}");
+    let advice = ["unknown variable `u`", "known here: x, y, z, g[0][0]", "g[2][2], t"];
+    folder.run("simulate system.toml --until u-1").fails(2, &advice);
+}
+
+#[test]
+fn tables_of_inputs_are_no_outputs() {
+    let folder = steered_by_file();
+    folder.write("starts.csv", "x,y,z\n0.5,-0.3,0.9\n");
+    for run in [
+        "simulate system.toml --out wheels.csv",
+        "simulate system.toml --out rows.csv --checkpoint wheels.csv",
+        "ensemble system.toml --initial starts.csv --out wheels.csv",
+    ] {
+        folder.run(run).fails(2, &["wheels.csv is the same file, which this run uses"]);
+        assert_eq!(folder.text("wheels.csv"), WHEELS);
+    }
+}
+
+/// Splines of a table have too few derivatives for the order of steps.
+#[test]
+fn laws_hold_with_inputs() {
+    let check = Folder::with(STEERED).run("check system.toml").ok();
+    check.prints(&["symplectic", "the order is not measured: the input `u`"]);
+}
+
+/// Rows whose torque depends on the time and on what it turns are those of runs.
+#[test]
+fn an_ensemble_has_the_kicks_of_a_run() {
+    let system =
+        STEERED.replace("hamiltonian = \"u*z^2/2 + v*z\"", "hamiltonian = \"x^2 + z^2/2\"");
+    let torque = "coordinates = [\"x\", \"y\", \"z\"]\ntorque = [\"t*x + u\", \"g[0][1]\", \"v\"]";
+    let folder = Folder::with(&system.replace("coordinates = [\"x\", \"y\", \"z\"]", torque));
+    folder.write("starts.csv", "x,y,z\n0.5,-0.3,0.9\n");
+    let expected = numbers(&report_of(&folder, "--time 2")["momentum"]);
+    for backend in ["interpreter", "auto"] {
+        let run = "ensemble system.toml --initial starts.csv --out rows.csv --restart --time 2";
+        folder.run(&format!("{run} --backend {backend}")).ok();
+        let row: Vec<f64> =
+            folder.table("rows.csv")[1].iter().map(|cell| cell.parse().unwrap()).collect();
+        assert!(distance(&row, &expected) < 1e-12, "{row:?} {expected:?}");
+    }
 }
 
 #[test]

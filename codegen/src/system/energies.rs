@@ -33,7 +33,7 @@ pub(super) fn hamiltonian(
         names.add(&signal.name, Name::Signal(i), *place, root.diagnostics);
     }
     // What else is called t comes first.
-    names.alias("t".to_owned(), Name::Time);
+    names.known("t", Name::Time);
     if !root.has("hamiltonian") {
         root.missing("hamiltonian", HAMILTONIAN);
     }

@@ -46,7 +46,7 @@ pub(super) fn read(
         names.alias(format!("mu[{i}]"), Name::Coordinate(i));
     }
     names.include(root.constants);
-    names.alias("t".to_owned(), Name::Time);
+    names.known("t", Name::Time);
     let tables = list.into_iter().filter_map(|value| root.entry("event", value, EVENT));
     tables.filter_map(|table| event(&table, &names, &inputs)).collect()
 }

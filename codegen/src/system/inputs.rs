@@ -9,8 +9,21 @@ const TIMES: &str = "times = [0, 1, 2, 3]";
 const TABLE: &str = "table = \"wheels.csv\"";
 const COLUMN: &str = "times = \"t\"";
 
+/// The inputs of the text with their places, in place of which stand the `given` ones of the same names; then the other given
+/// ones.
+pub(super) fn read(root: &Table<'_>, given: &[Signal]) -> Vec<(Signal, Span)> {
+    let mut found = of_text(root);
+    for own in given {
+        match found.iter_mut().find(|(signal, _)| signal.name == own.name) {
+            Some((signal, _)) => *signal = own.clone(),
+            None => found.push((own.clone(), Span::Whole)),
+        }
+    }
+    found
+}
+
 /// Reads `times` and the values of each input, with the places of these; with `table`, the names of the columns that hold them.
-pub(super) fn read(root: &Table<'_>) -> Vec<(Signal, Span)> {
+fn of_text(root: &Table<'_>) -> Vec<(Signal, Span)> {
     let Some(table) = root.table("inputs") else { return Vec::new() };
     let file = table.string("table", TABLE);
     if !table.has("times") {

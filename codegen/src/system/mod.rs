@@ -71,7 +71,7 @@ use crate::pass::{
 use crate::potential::Potential;
 use crate::problem::{Parameter, Problem};
 use crate::signal::Signal;
-use crate::smooth::{Given, Hamiltonian};
+use crate::smooth::{Functions, Hamiltonian};
 use table::Table;
 
 pub use coadjoint_program::splitting::Splitting;
@@ -101,6 +101,16 @@ pub struct System<H = Problem> {
 }
 
 impl System<Hamiltonian> {
+    /// The inputs u(t) of the Hamiltonian or of the torque.
+    #[must_use]
+    pub fn signals(&self) -> &[Signal] {
+        match (&self.problem, &self.potential) {
+            (Hamiltonian::Smooth(smooth), _) => &smooth.signals,
+            (_, Some((potential, _))) => potential.alone().map_or(&[], |alone| &alone.signals),
+            _ => &[],
+        }
+    }
+
     /// Whether it can be written as code.
     ///
     /// # Errors
@@ -116,13 +126,9 @@ impl System<Hamiltonian> {
                 "no code is written of damping: `simulate`, `ensemble` and Python make its steps";
             return Err(what.to_owned());
         }
-        let signals = match &self.problem {
-            Hamiltonian::Smooth(smooth) => &smooth.signals[..],
-            Hamiltonian::Polynomial(_) => &[],
-        };
-        signals.first().map_or(Ok(()), |signal| {
+        self.signals().first().map_or(Ok(()), |signal| {
             Err(format!(
-                "no code is written of a system with the input `{}`, whose table it would not have: `simulate`, \
+                "no code is written of a system with the input `{}`, whose values it would not have: `simulate`, \
                  `ensemble` and Python make its steps",
                 signal.name
             ))
@@ -155,7 +161,8 @@ pub(crate) fn read_varying(
     options: Options,
     varied: &[String],
 ) -> Result<System, Diagnostics> {
-    let kind = Kind { assemble: &assemble, polynomial: |problem| Some(problem), given: None };
+    let given = &Functions::default();
+    let kind = Kind { assemble: &assemble, polynomial: |problem| Some(problem), given };
     read_by(text, |document, diagnostics| {
         system((document, text), (options, varied), &kind, diagnostics)
     })
@@ -170,28 +177,26 @@ pub fn read_either(
     options: Options,
     varied: &[String],
 ) -> Result<System<Hamiltonian>, Diagnostics> {
-    let kind =
-        Kind { assemble: &assemble_either, polynomial: Hamiltonian::polynomial, given: None };
-    read_by(text, |document, diagnostics| {
-        system((document, text), (options, varied), &kind, diagnostics)
-    })
+    read_given(text, options, varied, &Functions::default())
 }
 
-/// The same of a text without `hamiltonian`, in whose place is a function called `name`.
+/// The same of a text that lacks what these functions are: `hamiltonian`, or entries of `[inputs]`.
 ///
 /// # Errors
-/// As [`read`].
+/// As [`read_varying`].
 pub fn read_given(
     text: &str,
     options: Options,
-    name: &str,
-    function: &Given,
+    varied: &[String],
+    given: &Functions,
 ) -> Result<System<Hamiltonian>, Diagnostics> {
-    let assemble = |draft, diagnostics: &_| assemble_given(draft, function.clone(), diagnostics);
-    let polynomial = Hamiltonian::polynomial;
-    let kind = Kind { assemble: &assemble, polynomial, given: Some(name) };
+    let assemble = |draft, diagnostics: &_| match &given.energy {
+        Some((_, function)) => assemble_given(draft, function.clone(), diagnostics),
+        None => assemble_either(draft, diagnostics),
+    };
+    let kind = Kind { assemble: &assemble, polynomial: Hamiltonian::polynomial, given };
     read_by(text, |document, diagnostics| {
-        system((document, text), (options, &[]), &kind, diagnostics)
+        system((document, text), (options, varied), &kind, diagnostics)
     })
 }
 
@@ -215,8 +220,8 @@ struct Kind<'a, H> {
     assemble: &'a dyn Fn(Draft, &Diagnostics) -> Option<H>,
     /// The polynomial that it has if it has one.
     polynomial: fn(&H) -> Option<&Problem>,
-    /// The name of a function that stands in the place of the key.
-    given: Option<&'a str>,
+    /// What is given in place of keys.
+    given: &'a Functions,
 }
 
 /// The result of reading the tables of `text`.
@@ -274,12 +279,12 @@ fn system<H>(
     let name = name(&root);
     let algebra = group(&root, &name);
     let (coordinates, coordinates_span) = energies::coordinates(&root, algebra.as_ref());
-    let inputs = inputs::read(&root);
-    let hamiltonian = match kind.given {
+    let inputs = inputs::read(&root, &kind.given.inputs);
+    let hamiltonian = match &kind.given.energy {
         None => energies::hamiltonian(&root, algebra.as_ref(), &coordinates, &parameters, &inputs),
-        Some(name) => {
+        Some((name, _)) => {
             let parameters = parameters.all();
-            Energy { source: name.to_owned(), parameters, ..Energy::default() }
+            Energy { source: name.clone(), parameters, ..Energy::default() }
         }
     };
     let torque = energies::torque(&root, algebra.as_ref(), &coordinates, &parameters, &inputs);

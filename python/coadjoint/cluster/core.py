@@ -63,6 +63,9 @@ def columns(system: System, available: Sequence[str]) -> tuple[list[str], list[s
     first that are parameters."""
     if not isinstance(system, System):
         raise InputError(f"system must be a coadjoint.System, not {type(system).__name__}")
+    system._plain("does not go to other machines")
+    if system._facts["inputs_of_files"]:
+        raise InputError("the table of inputs is a file, which other machines lack: give lists of values at times")
     names, places, others, varied = _core(system.text).columns(list(available), len(available))
     missing = [name for name, place in zip(names, places, strict=True) if place is None]
     if missing:

@@ -191,6 +191,10 @@ impl Compiled {
         size: f64,
         parameters: &[Vec<f64>],
     ) -> Vec<Result<Folded, StepError>> {
+        // Kicks have a list of coefficients for each flow.
+        if self.kernel().flows().is_some() {
+            return parameters.iter().map(|own| self.fold(origin, size, own)).collect();
+        }
         let step = &self.programs.step;
         // Lanes without a row have the numbers of the first one.
         let of = |lane: usize| parameters.get(lane).or_else(|| parameters.first());
