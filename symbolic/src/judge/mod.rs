@@ -167,7 +167,7 @@ pub struct Setting<'a> {
 }
 
 impl Setting<'_> {
-    /// Steps start at this time and so many steps later; at time 0 where this is not said.
+    /// Steps start this number of steps after this time; at time 0 where this is not called.
     pub fn start(&mut self, time: f64, steps: u64) {
         let [time, steps, step] = [time, steps as f64, self.step].map(DoubleDouble::from);
         self.time = time + steps * step;
