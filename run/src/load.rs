@@ -335,7 +335,7 @@ impl Derived {
         match &self.flow {
             Flow::Series(series) => Some(Origin::Series(&series.integrator)),
             Flow::Collocation(smooth, ..) => {
-                smooth.given.is_none().then(|| Origin::Collocation(smooth))
+                smooth.given.is_none().then_some(Origin::Collocation(smooth))
             }
         }
     }

@@ -92,20 +92,17 @@ impl Programs {
     pub fn beside(self, algebra: &LieAlgebra, potential: &Self, slots: usize) -> Self {
         let entries = algebra.matrix_size().pow(2);
         let count = entries + algebra.dim() + 1 + self.signals.len();
-        let both = |[of_potential, own]: [&Program; 2],
-                    join: &dyn Fn(&Graph, Vec<Id>, Vec<Id>) -> Vec<Id>| {
-            let graph = Graph::new();
-            let inputs: Vec<Id> = (0..count).map(|at| graph.input(at)).collect();
+        let graph = Graph::new();
+        let inputs: Vec<Id> = (0..count).map(|at| graph.input(at)).collect();
+        let both = |of_potential: &Program, own: &Program| {
             let first = graph.call(of_potential, &inputs[..entries]);
-            let second = graph.call_from(own, &inputs, slots);
-            let outputs = join(&graph, first, second);
-            graph.finish(count, &outputs)
+            (first, graph.call_from(own, &inputs, slots))
         };
-        let torque = both([&potential.torque, &self.torque], &|graph, first, second| {
-            first.into_iter().zip(second).map(|(a, b)| graph.add(a, b)).collect()
-        });
-        let watched =
-            both([&potential.watched, &self.watched], &|_, first, second| [first, second].concat());
+        let (first, second) = both(&potential.torque, &self.torque);
+        let sum: Vec<Id> = first.iter().zip(second).map(|(&a, b)| graph.add(a, b)).collect();
+        let (first, second) = both(&potential.watched, &self.watched);
+        let torque = graph.finish(count, &sum);
+        let watched = graph.finish(count, &[first, second].concat());
         let expressions = [potential.expressions.clone(), self.expressions].concat();
         Self { torque, watched, expressions, ..self }
     }

@@ -129,12 +129,9 @@ impl<'a> Follower<'a> {
             let energy = self.invariants.energy(&state.momentum);
             if let Some((said, (energy, size))) =
                 columns.energy.map(|column| row[column]).zip(energy)
+                && !((said - energy).abs() <= DRIFT * size)
             {
-                if !((said - energy).abs() <= DRIFT * size) {
-                    found.blame(format!(
-                        "{place}: the energy is {energy}, and the file says {said}"
-                    ));
-                }
+                found.blame(format!("{place}: the energy is {energy}, and the file says {said}"));
             }
             let mut grid = true;
             if let Some((then, before)) = &last {
