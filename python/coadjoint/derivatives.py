@@ -47,7 +47,8 @@ def _asked(run: Run, names: Iterable[str]) -> tuple[dict[str, Any], dict[str, tu
         raise InputError("a learned map has no derivatives: those are of systems known as text")
     if getattr(source, "_functions", None) is not None:
         raise InputError("a Hamiltonian that is a function has no derivatives: give it as an expression")
-    known = {name: tuple(shape) for name, shape in source._core.parameters()}
+    core: Any = source._core
+    known = {name: tuple(shape) for name, shape in core.parameters()}
     wanted = [_arrays.text(name, "parameters") for name in names]
     for name in wanted:
         if name not in known:
@@ -56,7 +57,7 @@ def _asked(run: Run, names: Iterable[str]) -> tuple[dict[str, Any], dict[str, tu
     shapes = {name: shape for name, shape in known.items() if name in wanted}
     asked = {
         **start,
-        "core": source._core,
+        "core": core,
         "step": run.step,
         "steps": run.steps,
         "truncation": run.truncation,

@@ -154,7 +154,7 @@ def test_inputs_are_functions() -> None:
     assert np.abs(run.momentum[-1] - [2 * cosine + 0.5 * sine, 0.5 * cosine - 2 * sine, 1]).max() < 1e-12
     assert np.abs(followed.ensemble([START])[0] - run.momentum[-1]).max() < 1e-12
     assert run.jvp(momentum=[0, 0, 1]).momentum.shape == run.momentum.shape
-    with pytest.raises(RunError, match="the input u is nan, at time 2"):
+    with pytest.raises(RunError, match="the input u is NaN, at time 2"):
         system(lambda t: 1 if t < 2 else np.nan).simulate()
     with pytest.raises(RunError, match="the input u raised division by zero, at time 0") as raised:
         system(lambda t: 1 / 0).simulate()
