@@ -1,4 +1,4 @@
-//! Expressions, in two forms: as the user wrote them ([`Arena`], with places), and those in
+//! Expressions, in two forms: as the user wrote them (an arena, with places), and those in
 //! parameters only that become opaque coefficients ([`ParameterExpr`]).
 
 use crate::diagnostic::Span;

@@ -39,7 +39,7 @@ pub fn open(path: &Path) -> io::Result<File> {
 /// Opens a file that is read as a whole.
 ///
 /// # Errors
-/// As [`open`], and where it has more than 64 megabytes or those that the environment variable [`LIMIT`] allows.
+/// As [`open`], and where it has more than 64 megabytes or those that an environment variable allows.
 pub fn open_whole(path: &Path) -> io::Result<File> {
     let file = open(path)?;
     check_size(file.metadata()?.len(), limit()?)?;

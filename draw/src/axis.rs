@@ -51,7 +51,7 @@ impl Axis {
 
     /// A logarithmic axis with about `count` ticks; values that are not positive are drawn at its low end. Ticks are powers of
     /// ten, or 1, 2 and 5 times these where there would be few.
-    pub(crate) fn logarithmic(low: f64, high: f64, count: usize) -> Self {
+    pub fn logarithmic(low: f64, high: f64, count: usize) -> Self {
         let low = low.max(f64::MIN_POSITIVE);
         let high = high.min(1e307).max(low * 1.000_001);
         let (first, last) = (low.log10(), high.log10());

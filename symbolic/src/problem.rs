@@ -92,8 +92,7 @@ impl Parameter {
 /// The method by which a step solves for p.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Solver {
-    /// Newton's method, or a variant of it, with the Hessian of S: the default up to
-    /// [`Solver::NEWTON_DIMENSIONS`].
+    /// Newton's method, or a variant of it, with the Hessian of S: the default up to 24 dimensions.
     Newton,
     /// The fixed point, which needs the gradient of S alone: the default beyond.
     FixedPoint,

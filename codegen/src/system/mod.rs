@@ -171,7 +171,7 @@ pub(crate) fn read_varying(
 /// The same for a Hamiltonian that need not be a polynomial; one that is none has neither potential nor angular velocity.
 ///
 /// # Errors
-/// As [`read_varying`].
+/// As [`read`], and where other numbers of the file follow from a parameter that stays one.
 pub fn read_either(
     text: &str,
     options: Options,
@@ -183,7 +183,7 @@ pub fn read_either(
 /// The same of a text that lacks what these functions are: `hamiltonian`, or entries of `[inputs]`.
 ///
 /// # Errors
-/// As [`read_varying`].
+/// As [`read`], and where other numbers of the file follow from a parameter that stays one.
 pub fn read_given(
     text: &str,
     options: Options,
