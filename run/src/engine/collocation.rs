@@ -30,17 +30,15 @@ pub(crate) fn collocated<'a>(
     parameters: &[f64],
     compiled: Option<&Arc<Compiled>>,
 ) -> Result<Box<dyn Varied + 'a>, StepError> {
-    let compiled = compiled.map(|compiled| {
-        let mut own = (**compiled).clone();
-        own.with(own.fold(Origin::Collocation(smooth), size, parameters)?);
-        Ok::<_, StepError>(Arc::new(own))
-    });
-    let symbols: Arc<[f64]> = smooth.symbols_at(parameters).into();
-    if let Some(value) = symbols.iter().copied().find(|value| !value.is_finite()) {
+    let own = |compiled: &Arc<Compiled>| {
+        compiled.anew(Origin::Collocation(smooth), size, parameters).map(Arc::new)
+    };
+    let compiled = compiled.map(own).transpose()?;
+    let energy = Interpreted::new(smooth, parameters);
+    if let Some(value) = energy.symbols.iter().copied().find(|value| !value.is_finite()) {
         return Err(StepError::InvalidParameter { name: "of the Hamiltonian", value });
     }
-    let energy = Interpreted { smooth, symbols, parameters: parameters.into() };
-    let elements = Elements { group: group.clone(), compiled: compiled.transpose()? };
+    let elements = Elements { group: group.clone(), compiled };
     Ok(match smooth.nodes() {
         1 => Box::new(Collocated::<1>::new(elements, energy, size)?),
         2 => Box::new(Collocated::<2>::new(elements, energy, size)?),
@@ -55,10 +53,18 @@ pub(crate) fn collocated<'a>(
 
 /// The energy by its programs.
 #[derive(Clone, Debug)]
-struct Interpreted<'a> {
+pub(super) struct Interpreted<'a> {
     smooth: &'a Smooth,
     symbols: Arc<[f64]>,
     parameters: Arc<[f64]>,
+}
+
+impl<'a> Interpreted<'a> {
+    /// For these values of the parameters that the system keeps.
+    pub(super) fn new(smooth: &'a Smooth, parameters: &[f64]) -> Self {
+        let symbols = smooth.symbols_at(parameters).into();
+        Self { smooth, symbols, parameters: parameters.into() }
+    }
 }
 
 impl Energy<DVector<f64>> for Interpreted<'_> {
@@ -167,9 +173,8 @@ impl<const M: usize> Motion for Collocated<'_, M> {
     fn beside(&self, state: &Numbers, time: f64, size: f64) -> Result<Numbers, StepError> {
         let mut state = state.clone();
         if let Some(compiled) = &self.elements.compiled {
-            let mut other = (**compiled).clone();
-            let energy = self.step().energy().clone();
-            other.with(other.fold(Origin::Collocation(energy.smooth), size, &energy.parameters)?);
+            let Interpreted { smooth, parameters, .. } = self.step().energy().clone();
+            let other = compiled.anew(Origin::Collocation(smooth), size, &parameters)?;
             if other.one_at(&mut state, time) {
                 return Ok(state);
             }
@@ -219,9 +224,7 @@ impl<const M: usize> Varied for Collocated<'_, M> {
         }
         let step = self.step.get_mut().unwrap_or_else(PoisonError::into_inner);
         let (group, size) = (step.group().clone(), step.step());
-        let mut energy = step.energy().clone();
-        energy.symbols = energy.smooth.symbols_at(parameters).into();
-        energy.parameters = parameters.into();
+        let energy = Interpreted::new(step.energy().smooth, parameters);
         self.response = OnceLock::new();
         if let Ok(varied) = Collocation::new(group, energy, size) {
             *step = varied;

@@ -171,6 +171,20 @@ impl Compiled {
         self.folded = folded;
     }
 
+    /// The same steps of another size or for other values of the parameters.
+    ///
+    /// # Errors
+    /// Where a coefficient is not finite.
+    pub(crate) fn anew(
+        &self,
+        origin: Origin<'_>,
+        size: f64,
+        parameters: &[f64],
+    ) -> Result<Self, StepError> {
+        let folded = self.fold(origin, size, parameters)?;
+        Ok(Self { folded, ..self.clone() })
+    }
+
     /// What the programs read for another size or other values of the parameters.
     ///
     /// # Errors
@@ -301,7 +315,7 @@ impl Compiled {
         made
     }
 
-    /// Whether states are moved alike at all times.
+    /// Whether steps depend on the time.
     pub(crate) fn moves(&self) -> bool {
         self.programs.step.moves()
     }
@@ -338,10 +352,12 @@ pub(super) fn coefficients(
     size: f64,
     parameters: &[f64],
 ) -> Result<Vec<f64>, StepError> {
-    let values = || -> Vec<f64> {
-        origin.symbols().iter().map(|symbol| symbol.expr.evaluate(parameters)).collect()
-    };
-    step.fold(size, parameters).map_err(|error| refusal(error, size, &values()))
+    step.fold(size, parameters).map_err(|error| refusal(error, size, &symbols(origin, parameters)))
+}
+
+/// The values of the symbols for these of the parameters.
+fn symbols(origin: Origin<'_>, parameters: &[f64]) -> Vec<f64> {
+    origin.symbols().iter().map(|symbol| symbol.expr.evaluate(parameters)).collect()
 }
 
 fn fold(
@@ -350,12 +366,11 @@ fn fold(
     size: f64,
     parameters: &[f64],
 ) -> Result<Folded, StepError> {
-    let symbols = origin.symbols().iter().map(|symbol| symbol.expr.evaluate(parameters));
-    let symbols: Vec<f64> = symbols.collect();
     if step.kernel().flows().is_some() {
         let slots = coefficients(origin, step, size, parameters)?;
         return Ok(Folded { size, slots, quiet: 0.0 });
     }
+    let symbols = symbols(origin, parameters);
     let folded = step.fold_rows(size, &symbols, STEEP);
     let (slots, quiet) = folded.map_err(|error| refusal(error, size, &symbols))?;
     Ok(Folded { size, slots, quiet })

@@ -3,21 +3,17 @@
 use std::sync::Arc;
 
 use coadjoint::collocation::{Damping, Energy, Undefined};
-use coadjoint::groups::{DirectProduct, MatrixGroup};
 use coadjoint::{Phase, StepError};
 use coadjoint_codegen::poly::Numeric;
 use coadjoint_codegen::problem::Problem;
 use coadjoint_codegen::smooth::Smooth;
 use nalgebra::DVector;
 
+use super::collocation::{Group, Interpreted};
 use super::compiled::{Folded, Numbers, Solves};
 use super::interpreter::symbols;
 use super::motion::{Motion, Varied, advise, one_by_one};
 use super::space::{Space, entries_of, phase_of};
-use crate::error::kept;
-
-/// The group of the states that are damped.
-type Group = DirectProduct<MatrixGroup>;
 
 /// Moves a state by a step of damping from this time, of this length.
 type Damp<'a> =
@@ -44,7 +40,7 @@ pub(crate) enum Source<'a> {
 /// The same for values of the parameters that are kept.
 enum Given<'a> {
     Polynomial(Numeric, Vec<Numeric>),
-    Smooth(&'a Smooth, Vec<f64>),
+    Smooth(Interpreted<'a>),
 }
 
 impl<'a> Source<'a> {
@@ -56,7 +52,7 @@ impl<'a> Source<'a> {
                 let gradient = value.gradient(dim);
                 Given::Polynomial(value, gradient)
             }
-            Self::Smooth(smooth) => Given::Smooth(smooth, smooth.symbols_at(parameters)),
+            Self::Smooth(smooth) => Given::Smooth(Interpreted::new(smooth, parameters)),
         }
     }
 }
@@ -65,24 +61,24 @@ impl Energy<DVector<f64>> for Given<'_> {
     fn value(&self, time: f64, mu: &DVector<f64>) -> f64 {
         match self {
             Self::Polynomial(value, _) => value.value(mu.as_slice()),
-            Self::Smooth(smooth, symbols) => smooth.energy(symbols, time, mu.as_slice()),
+            Self::Smooth(energy) => energy.value(time, mu),
         }
     }
 
     fn gradient(&self, time: f64, mu: &DVector<f64>) -> DVector<f64> {
-        let slope = match self {
+        match self {
             Self::Polynomial(_, slopes) => {
-                slopes.iter().map(|slope| slope.value(mu.as_slice())).collect()
+                DVector::from_fn(slopes.len(), |i, _| slopes[i].value(mu.as_slice()))
             }
-            Self::Smooth(smooth, symbols) => smooth.gradient(symbols, time, mu.as_slice()),
-        };
-        DVector::from_vec(slope)
+            Self::Smooth(energy) => energy.gradient(time, mu),
+        }
     }
 
     fn undefined(&self, time: f64, mu: &DVector<f64>) -> Option<Undefined> {
-        let Self::Smooth(smooth, symbols) = self else { return None };
-        let (number, argument) = smooth.undefined(symbols, time, mu.as_slice())?;
-        Some(Undefined { expression: kept(&smooth.expressions[number]), argument })
+        match self {
+            Self::Polynomial(..) => None,
+            Self::Smooth(energy) => energy.undefined(time, mu),
+        }
     }
 }
 

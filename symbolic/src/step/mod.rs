@@ -172,8 +172,8 @@ impl Step {
         Ok(Self { kernel, group, fold, symbols, radius_at, splitting, moving, memory: 0 })
     }
 
-    /// The programs of a step of collocation in numbers of this precision, in the exponential chart about its middle. Elements then have numbers that steps leave
-    /// to the next one.
+    /// The programs of a step of collocation in numbers of this precision, in the exponential chart about its middle. Elements
+    /// then have numbers that steps leave to the next one.
     ///
     /// # Errors
     /// [`StepError`] where the step has no straight-line programs.

@@ -1,7 +1,7 @@
 //! Kernels of steps by collocation, beside the runtime's generic step of the same equations.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use coadjoint::collocation::Collocation;
+use coadjoint::collocation::{Collocation, Energy};
 use coadjoint::groups::{Coordinates, DirectProduct, Heisenberg, MatrixGroup, SL2, SO4, SU3};
 use coadjoint::{LieGroup, Phase};
 use coadjoint_codegen::lie::catalogue::lookup;
@@ -32,6 +32,28 @@ fn by_kernel(smooth: &Smooth, h: f64, steps: u64, mu: &[f64]) -> (Vec<f64>, Vec<
     (matrix, mu, sweeps)
 }
 
+fn list<V: Coordinates<f64>>(vector: &V) -> Vec<f64> {
+    (0..vector.dim()).map(|i| vector[i]).collect()
+}
+
+fn vector<V: Coordinates<f64>>(list: &[f64]) -> V {
+    V::from_entries(list.len(), |i| list[i])
+}
+
+/// A Hamiltonian for these values of its symbols, by its programs.
+#[derive(Clone, Copy)]
+struct AtSymbols<'a>(&'a Smooth, &'a [f64]);
+
+impl<V: Coordinates<f64>> Energy<V> for AtSymbols<'_> {
+    fn value(&self, time: f64, mu: &V) -> f64 {
+        self.0.energy(self.1, time, &list(mu))
+    }
+
+    fn gradient(&self, time: f64, mu: &V) -> V {
+        vector(&self.0.gradient(self.1, time, &list(mu)))
+    }
+}
+
 fn by_runtime<G: LieGroup<Scalar = f64>, const M: usize>(
     group: &G,
     smooth: &Smooth,
@@ -40,14 +62,9 @@ fn by_runtime<G: LieGroup<Scalar = f64>, const M: usize>(
     mu: &[f64],
 ) -> (Vec<f64>, Vec<f64>, u32) {
     let symbols = smooth.symbols_at(&[]);
-    let list = |mu: &G::Vector| (0..mu.dim()).map(|i| mu[i]).collect::<Vec<f64>>();
-    let vector = |list: &[f64]| G::Vector::from_entries(list.len(), |i| list[i]);
-    let energy = (
-        |time: f64, mu: &G::Vector| smooth.energy(&symbols, time, &list(mu)),
-        |time: f64, mu: &G::Vector| vector(&smooth.gradient(&symbols, time, &list(mu))),
-    );
+    let energy = AtSymbols(smooth, &symbols);
     let mut step = Collocation::<_, _, M>::new(group.clone(), energy, h).unwrap();
-    let mut state = Phase::<G>::new(group.identity(), vector(mu));
+    let mut state = Phase::<G>::new(group.identity(), vector::<G::Vector>(mu));
     let report = step.advance_by(&mut state, 0.3, steps).unwrap();
     let size = group.matrix_size();
     let entry = |at: usize| group.matrix_entry(&state.group_element, at / size, at % size);
@@ -104,12 +121,7 @@ fn accepted<G: LieGroup<Scalar = f64>, const M: usize>(group: &G, name: &str, ha
     let smooth = smooth(name, hamiltonian, 2 * M - 1);
     let step = Origin::Collocation(&smooth).step(Precision::Double).unwrap();
     let symbols = smooth.symbols_at(&[]);
-    let list = |mu: &G::Vector| (0..mu.dim()).map(|i| mu[i]).collect::<Vec<f64>>();
-    let vector = |list: &[f64]| G::Vector::from_entries(list.len(), |i| list[i]);
-    let energy = (
-        |time: f64, mu: &G::Vector| smooth.energy(&symbols, time, &list(mu)),
-        |time: f64, mu: &G::Vector| vector(&smooth.gradient(&symbols, time, &list(mu))),
-    );
+    let energy = AtSymbols(&smooth, &symbols);
     let mut random = Random::new(17);
     let [mut by_kernel, mut by_runtime] = [0, 0];
     for _ in 0..400 {
@@ -120,7 +132,7 @@ fn accepted<G: LieGroup<Scalar = f64>, const M: usize>(group: &G, name: &str, ha
         let slots = step.fold(h, &[]).unwrap();
         let own = step.kernel().attempt(&slots, &mu);
         let mut generic = Collocation::<_, _, M>::new(group.clone(), energy, h).unwrap();
-        let mut state = Phase::<G>::new(group.identity(), vector(&mu));
+        let mut state = Phase::<G>::new(group.identity(), vector::<G::Vector>(&mu));
         let other = generic.advance(&mut state, 0.0);
         by_runtime += u32::from(other.is_ok());
         if !own.accepted {
