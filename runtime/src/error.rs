@@ -47,7 +47,7 @@ pub enum StepError {
     },
     /// The velocity of a step of collocation varies too much for its nodes.
     #[error(
-        "the step is too long for its nodes: what they may not resolve is {tail:.1e} of the velocity or the force, and at most {limit:.0e} is accepted; {at}"
+        "the step is too long for its nodes: {tail:.1e} of the velocity or the force is not resolved, and at most {limit:.0e} is accepted; {at}"
     )]
     Unresolved {
         /// The share of the highest polynomial in the velocity, or that in the force relative to the momentum; with one

@@ -250,7 +250,7 @@ impl<const M: usize> Differentiable for Collocated<'_, M> {
         let [hessian, mixed] = response.of(group, &solution, step.step())?;
         let of_momentum = Linear::response(place, &solution.x, &mu, [&hessian, &mixed])?;
         // In the chart of tables, which is exp.
-        let after = group.middle_transport(&solution.x, &mu).1;
+        let after = group.exp_transport(&solution.x, &mu).1;
         Ok(Linear::of_motion(place, &solution.x, &after, &of_momentum))
     }
 }

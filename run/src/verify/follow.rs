@@ -6,7 +6,6 @@ use std::path::Path;
 use coadjoint_codegen::cancel;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::judge::Judge;
-use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::problem::{Parameter, values};
 use coadjoint_codegen::smooth::Hamiltonian;
 use coadjoint_learn::table::Table;
@@ -32,11 +31,7 @@ const LONG: f64 = 1e5;
 pub fn judge_of(file: &Path, hamiltonian: &Hamiltonian) -> Result<Judge, RunError> {
     let judge = match hamiltonian {
         Hamiltonian::Polynomial(problem) => Judge::of_problem(problem, TermLimit::default()),
-        Hamiltonian::Smooth(smooth) => {
-            // As many powers of x as the order asks for, as the steps have them.
-            let degree = (2 * smooth.nodes() - 2).max(1);
-            Judge::of_smooth(smooth, Chart::Exponential, Some(degree))
-        }
+        Hamiltonian::Smooth(smooth) => Judge::of_smooth(smooth),
     };
     judge.map_err(|error| RunError::Option(format!("{}: {error}", file.display())))
 }

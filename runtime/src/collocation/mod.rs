@@ -1,6 +1,6 @@
-//! Steps of any smooth Hamiltonian H(t, μ): collocation in a chart about the middle of the step.
+//! Steps of any smooth Hamiltonian H(t, μ): collocation in the exponential chart about the middle of the step.
 //!
-//! A step needs ∂H/∂μ alone, at `M` nodes, and has order 2M. In the canonical coordinates (x, p) of a chart centred on
+//! A step needs ∂H/∂μ alone, at `M` nodes, and has order 2M. In the canonical coordinates (x, p) of the chart centred on
 //! the middle of the step, in which it goes from −x/2 to x/2, Gauss's method with its `M` nodes is applied to H∘J_R: a
 //! method that is symplectic and symmetric in (x, p), and so are they on T\*G. Whatever x is found, the group acts on the
 //! state: the momentum J_L and all Casimirs are kept to rounding. With cᵢ, bᵢ, aᵢⱼ Gauss's coefficients and ω = ∂H/∂μ,
@@ -11,9 +11,8 @@
 //! x = h Σ bᵢ ẋᵢ                 P: the momentum in the middle of the step from μ by x
 //! ```
 //!
-//! The chart belongs to the group: exp in closed form on SO(3) and SU(2), Cayley's on SE(3) and SE(2), exp by its series
-//! on other groups, and on products that of each factor. Gauss's method: E. Hairer, C. Lubich, G. Wanner, *Geometric
-//! Numerical Integration*, II.1.3.
+//! J_R has the powers of x up to 2M − 2, in closed form on SO(3), SU(2), SE(3) and SE(2); the programs of kernels compute the same
+//! map. Gauss's method: E. Hairer, C. Lubich, G. Wanner, *Geometric Numerical Integration*, II.1.3.
 
 mod damping;
 mod energy;
@@ -140,7 +139,7 @@ where
             self.anew(mu, middle)?
         };
         let Attempt { rates, x, sweeps, residual, .. } = attempt;
-        let (increment, moved) = self.group.middle_transport(&x, mu);
+        let (increment, moved) = self.group.exp_transport(&x, mu);
         let element = self.group.compose(&phase.group_element, &increment);
         let next = Phase { group_element: element, momentum: moved };
         check(&self.group, &next)?;
@@ -220,7 +219,7 @@ where
             }
             Ending::Undefined(time, node) => return Err(self.undefined(mu, *time, node, at)),
         }
-        let extent = self.group.middle_extent(&attempt.x);
+        let extent = self.group.exp_extent(&attempt.x);
         if extent.is_nan() || extent > 1.0 {
             return Err(StepError::OutsideChart { extent: extent.simd_sqrt(), at });
         }

@@ -52,7 +52,7 @@ where
         self.judge(mu, &attempt)?;
         let Attempt { rates, x, .. } = attempt;
         let Nodes { times, weights, matrix, .. } = Self::NODES;
-        let p = self.group().middle_momentum(&x, mu);
+        let p = self.group().dexp_transpose(&x, mu);
         let xs = mixed(&G::Vector::zeros(dim), &matrix, &rates.x);
         let ps = mixed(&p, &matrix, &rates.p);
         let momenta = self.group().node_momenta::<M>(&xs, &ps, degree(M));

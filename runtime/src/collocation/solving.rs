@@ -62,7 +62,7 @@ where
         let scale = if largest > 0.0 { largest } else { 1.0 };
         let whole = |rates: &Rates<G::Vector, M>| {
             let x: G::Vector = total(dim, &Self::NODES.weights, &rates.x);
-            let p = self.group.middle_momentum(&x, self.mu);
+            let p = self.group.dexp_transpose(&x, self.mu);
             (x, p)
         };
         let mut rates = guess;

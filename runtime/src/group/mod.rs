@@ -87,29 +87,7 @@ pub trait LieGroup: Clone + Debug {
     /// less one for unit quaternions). NaN where g is not finite; zero where there is nothing to check.
     fn element_defect(&self, g: &Self::Element) -> Self::Scalar;
 
-    // The chart σ about the middle of a step of collocation: a step goes from σ(−x/2) to σ(x/2) = σ(−x/2)⁻¹, and the
-    // momentum in the middle is P. If not given, σ = exp by its series.
-
-    /// P, the canonical momentum in the middle of the step that moves μ by x: ½(p⁺ + p⁻) of its two ends.
-    fn middle_momentum(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        self.dexp_transpose(x, mu)
-    }
-
-    /// The increment k = σ(x/2)² of that step together with Ad\*_{k⁻¹} μ.
-    fn middle_transport(
-        &self,
-        x: &Self::Vector,
-        mu: &Self::Vector,
-    ) -> (Self::Element, Self::Vector) {
-        self.exp_transport(x, mu)
-    }
-
-    /// How far that step goes into the chart, which reaches to one; as [`LieGroup::exp_extent`].
-    fn middle_extent(&self, x: &Self::Vector) -> Self::Scalar {
-        self.exp_extent(x)
-    }
-
-    /// J_R(x, p), the body momentum at the points (x, p) of the chart. A series in x ends with the power `degree`.
+    /// J_R(x, p) of the exponential chart, the body momentum, at several nodes (x, p): its series in x up to the power `degree`.
     fn node_momenta<const M: usize>(
         &self,
         x: &Rows<Self, M>,

@@ -1,5 +1,7 @@
 //! Vectors of space at several nodes, the numbers of all nodes side by side: the compiler makes lanes of them.
 
+use coadjoint_program::collocation::BETA;
+
 use crate::number::Scalar;
 
 /// A number at each node.
@@ -58,8 +60,38 @@ pub(super) fn scaled<T: Scalar, const M: usize>(s: T, a: &Rows3<T, M>) -> Rows3<
     [entry(0), entry(1), entry(2)]
 }
 
+/// a·b at each node
+#[inline(always)]
+pub(super) fn product<T: Scalar, const M: usize>(a: &Row<T, M>, b: &Row<T, M>) -> Row<T, M> {
+    each(|i| a[i] * b[i])
+}
+
+/// a + b at each node
+#[inline(always)]
+pub(super) fn plus_rows<T: Scalar, const M: usize>(a: &Row<T, M>, b: &Row<T, M>) -> Row<T, M> {
+    each(|i| a[i] + b[i])
+}
+
 /// −s for each node
 #[inline(always)]
 pub(super) fn minus<T: Scalar, const M: usize>(s: &Row<T, M>) -> Row<T, M> {
     each(|i| -s[i])
+}
+
+/// c(t) = Σ |B₂ₖ|/(2k)! tᵏ⁻¹, t = |x|², the factor of exp's J_R on so(3), with as many terms as its series has to this degree;
+/// 2 dc/dt, and 4 d²c/dt².
+#[inline(always)]
+pub(super) fn bernoulli<T: Scalar, const M: usize>(t: &Row<T, M>, degree: usize) -> [Row<T, M>; 3] {
+    let mut sums = [[T::of(0.0); M]; 3];
+    for k in (0..degree / 2).rev() {
+        let beta = BETA[2 * k + 2].abs();
+        let factors = [1.0, 2.0 * k as f64, 4.0 * (k * k.saturating_sub(1)) as f64];
+        // The powers tᵏ, tᵏ⁻¹, tᵏ⁻².
+        for (order, (sum, factor)) in sums.iter_mut().zip(factors).enumerate() {
+            if order <= k {
+                *sum = each(|i| sum[i].times_plus(t[i], T::of(factor * beta)));
+            }
+        }
+    }
+    sums
 }

@@ -152,25 +152,6 @@ impl<T: Scalar> LieGroup for SE2<T> {
         (x.x * x.x).times_plus(T::of(1.0 / (core::f64::consts::PI * core::f64::consts::PI)), finite)
     }
 
-    fn middle_momentum(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        drop(&SE3::new().middle_momentum(&lift(x), &lift(mu)))
-    }
-
-    fn middle_transport(
-        &self,
-        x: &Self::Vector,
-        mu: &Self::Vector,
-    ) -> (Self::Element, Self::Vector) {
-        let g = self.cayley(&(x * T::of(0.5)));
-        let g = self.compose(&g, &g);
-        let moved = self.coadjoint(&self.inverse(&g), mu);
-        (g, moved)
-    }
-
-    fn middle_extent(&self, x: &Self::Vector) -> T {
-        self.cayley_extent(&(x * T::of(0.5)))
-    }
-
     fn node_momenta<const M: usize>(
         &self,
         x: &Rows3<T, M>,

@@ -87,16 +87,6 @@ fn isometry<T: Scalar>(rotation: nalgebra::UnitQuaternion<T>, t: V<T>) -> Isomet
     Isometry3 { rotation, translation: Translation3 { vector: t } }
 }
 
-impl<T: Scalar> SE3<T> {
-    /// Cayley's J_R at one point.
-    #[inline(always)]
-    fn alone(&self, x: &Vector6<T>, p: &Vector6<T>) -> Vector6<T> {
-        let rows = |v: &Vector6<T>| [0, 1, 2, 3, 4, 5].map(|i| [v[i]]);
-        let momentum = self.node_momenta::<1>(&rows(x), &rows(p), 2);
-        Vector6::from_fn(|i, _| momentum[i][0])
-    }
-}
-
 impl<T: Scalar> LieGroup for SE3<T> {
     type Scalar = T;
     type Vector = Vector6<T>;
@@ -176,47 +166,27 @@ impl<T: Scalar> LieGroup for SE3<T> {
         angle.times_plus(T::of(1.0 / (core::f64::consts::PI * core::f64::consts::PI)), finite)
     }
 
-    fn middle_momentum(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        // ½(q₀ + q₁), the pull-backs of μ and of the momentum in the middle by y = x/2.
-        let y = x * T::of(0.5);
-        let first = self.dcay_transpose(&y, mu);
-        let second = self.dcay_transpose(&y, &self.alone(&y, &first));
-        (first + second) * T::of(0.5)
-    }
+    // On SO(3) with dual numbers a + εb, f + εn, w + εv in the place of x, p, ω.
 
-    fn middle_transport(
-        &self,
-        x: &Self::Vector,
-        mu: &Self::Vector,
-    ) -> (Self::Element, Self::Vector) {
-        let g = self.cayley(&(x * T::of(0.5)));
-        let g = self.compose(&g, &g);
-        let moved = self.coadjoint(&self.inverse(&g), mu);
-        (g, moved)
-    }
-
-    fn middle_extent(&self, x: &Self::Vector) -> T {
-        self.cayley_extent(&(x * T::of(0.5)))
-    }
-
-    /// Cayley's chart, a polynomial in x = (a, b) and p = (n, f):
-    /// (n + ½(n×a + f×b) + ¼(a·n)a − ¼ b×(f×a), f + ½ f×a).
     #[inline(always)]
     fn node_momenta<const M: usize>(
         &self,
         x: &Rows6<T, M>,
         p: &Rows6<T, M>,
-        _degree: usize,
+        degree: usize,
     ) -> Rows6<T, M> {
         let ([a, b], [n, f]) = (halves(x), halves(p));
-        let (half, quarter) = (T::of(0.5), T::of(0.25));
-        let bent = nodes::cross(&f, &a);
-        let turned = nodes::plus(&nodes::cross(&n, &a), T::of(1.0), &nodes::cross(&f, &b));
-        let along = nodes::dot(&a, &nodes::scaled(quarter, &n));
-        let angular = nodes::plus_each(&nodes::plus(&n, half, &turned), &along, &a);
+        let half = T::of(-0.5);
+        let [c, slope, _] = nodes::bernoulli(&nodes::dot(&a, &a), degree);
+        let (once, bent) = (nodes::cross(&a, &f), nodes::cross(&b, &f));
+        let twice = nodes::cross(&a, &once);
+        let turned = nodes::plus(&nodes::cross(&a, &n), T::of(1.0), &bent);
+        let second = nodes::plus(&nodes::cross(&a, &turned), T::of(1.0), &nodes::cross(&b, &once));
+        let along = nodes::product(&slope, &nodes::dot(&a, &b));
+        let angular = nodes::plus_each(&nodes::plus(&n, half, &turned), &c, &second);
         whole(
-            nodes::plus(&angular, -quarter, &nodes::cross(&b, &bent)),
-            nodes::plus(&f, half, &bent),
+            nodes::plus_each(&angular, &along, &twice),
+            nodes::plus_each(&nodes::plus(&f, half, &once), &c, &twice),
         )
     }
 
@@ -226,25 +196,40 @@ impl<T: Scalar> LieGroup for SE3<T> {
         x: &Rows6<T, M>,
         p: &Rows6<T, M>,
         omega: &Rows6<T, M>,
-        _degree: usize,
+        degree: usize,
     ) -> [Rows6<T, M>; 2] {
         let ([a, b], [n, f], [w, v]) = (halves(x), halves(p), halves(omega));
-        let (half, quarter) = (T::of(0.5), T::of(0.25));
-        let (bent, moved) = (nodes::cross(&f, &a), nodes::cross(&w, &b));
-        let part = nodes::scaled(quarter, &a);
-        let (along_n, along_w) = (nodes::dot(&part, &n), nodes::dot(&part, &w));
-        let turn = nodes::plus(&w, half, &nodes::cross(&a, &w));
-        let turn = nodes::plus_each(&turn, &along_w, &a);
-        let shift = nodes::plus(&nodes::cross(&a, &v), T::of(-1.0), &moved);
-        let shift =
-            nodes::plus(&nodes::plus(&v, half, &shift), -quarter, &nodes::cross(&a, &moved));
-        let angular = nodes::plus(&nodes::cross(&n, &w), T::of(1.0), &nodes::cross(&f, &v));
-        let angular = nodes::scaled(half, &angular);
-        let angular = nodes::plus(&angular, quarter, &nodes::cross(&moved, &f));
-        let angular = nodes::plus_each(&angular, &nodes::minus(&along_n), &w);
-        let angular = nodes::plus_each(&angular, &nodes::minus(&along_w), &n);
-        let linear = nodes::scaled(half, &nodes::cross(&f, &w));
-        let linear = nodes::plus(&linear, quarter, &nodes::cross(&bent, &w));
+        let (one, half) = (T::of(1.0), T::of(0.5));
+        let [c, slope, bend] = nodes::bernoulli(&nodes::dot(&a, &a), degree);
+        let stretch = nodes::dot(&a, &b);
+        let along = nodes::product(&slope, &stretch);
+        // a×w and its dual part, a×f and its dual part.
+        let (turned, once) = (nodes::cross(&a, &w), nodes::cross(&a, &f));
+        let moved = nodes::plus(&nodes::cross(&a, &v), one, &nodes::cross(&b, &w));
+        let bent = nodes::plus(&nodes::cross(&a, &n), one, &nodes::cross(&b, &f));
+
+        let twice = nodes::cross(&a, &turned);
+        let turn = nodes::plus_each(&nodes::plus(&w, half, &turned), &c, &twice);
+        let second = nodes::plus(&nodes::cross(&a, &moved), one, &nodes::cross(&b, &turned));
+        let shift = nodes::plus_each(&nodes::plus(&v, half, &moved), &c, &second);
+        let shift = nodes::plus_each(&shift, &along, &twice);
+
+        // −ω·x×(x×p) = (x×ω)·(x×p)
+        let across = nodes::dot(&turned, &once);
+        let other = nodes::plus_rows(&nodes::dot(&turned, &bent), &nodes::dot(&moved, &once));
+        let own = nodes::plus(&nodes::cross(&w, &once), one, &nodes::cross(&f, &turned));
+        let linear = nodes::plus_each(&nodes::scaled(half, &nodes::cross(&f, &w)), &c, &own);
+        let linear = nodes::plus_each(&linear, &nodes::product(&slope, &across), &a);
+        let angular = nodes::plus(&nodes::cross(&n, &w), one, &nodes::cross(&f, &v));
+        let dual = nodes::plus(&nodes::cross(&w, &bent), one, &nodes::cross(&v, &once));
+        let dual = nodes::plus(&dual, one, &nodes::cross(&n, &turned));
+        let dual = nodes::plus(&dual, one, &nodes::cross(&f, &moved));
+        let angular = nodes::plus_each(&nodes::scaled(half, &angular), &c, &dual);
+        let angular = nodes::plus_each(&angular, &along, &own);
+        let curved = nodes::product(&bend, &nodes::product(&stretch, &across));
+        let weight = nodes::plus_rows(&nodes::product(&slope, &other), &curved);
+        let angular = nodes::plus_each(&angular, &weight, &a);
+        let angular = nodes::plus_each(&angular, &nodes::product(&slope, &across), &b);
         [whole(turn, shift), whole(angular, linear)]
     }
 

@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Quaternion, Rotation3, SimdBool, UnitQuaternion, Vector3
 
 use crate::group::element_error::{ElementError, finite, fixed, within};
 use crate::group::entire::{entire, half_angle, log_factor};
-use crate::group::nodes::{self, Row, Rows3};
+use crate::group::nodes::{self, Rows3};
 use crate::group::{CayleyGroup, FixedDimension, LieGroup};
 use crate::number::Scalar;
 
@@ -91,31 +91,6 @@ pub(crate) fn scaled<T: Scalar>(s: T, a: &V<T>) -> V<T> {
 #[inline(always)]
 pub(crate) fn quaternion<T: Scalar>(w: T, u: &V<T>) -> UnitQuaternion<T> {
     UnitQuaternion::new_unchecked(Quaternion::new(w, u.x, u.y, u.z))
-}
-
-/// c(t) = Σ |B₂ₖ|/(2k)! tᵏ⁻¹ up to k = 6, t = |x|², and 2 dc/dt: the factors of exp's J_R.
-#[inline(always)]
-fn bernoulli<T: Scalar, const M: usize>(t: &Row<T, M>) -> [Row<T, M>; 2] {
-    const C: [f64; 6] = [
-        1.0 / 12.0,
-        1.0 / 720.0,
-        1.0 / 30_240.0,
-        1.0 / 1_209_600.0,
-        1.0 / 47_900_160.0,
-        691.0 / 1_307_674_368_000.0,
-    ];
-    let pair = |i: usize, a: f64, b: f64| T::of(b).times_plus(t[i], T::of(a));
-    let c = nodes::each(|i| {
-        let square = t[i] * t[i];
-        let high = pair(i, C[4], C[5]).times_plus(square, pair(i, C[2], C[3]));
-        high.times_plus(square, pair(i, C[0], C[1]))
-    });
-    let slope = nodes::each(|i| {
-        let square = t[i] * t[i];
-        let high = T::of(10.0 * C[5]).times_plus(square, pair(i, 6.0 * C[3], 8.0 * C[4]));
-        high.times_plus(square, pair(i, 2.0 * C[1], 4.0 * C[2]))
-    });
-    [c, slope]
 }
 
 /// The rotation whose matrix has these (finite) entries.
@@ -263,11 +238,11 @@ impl<T: Scalar, const DOUBLE_COVER: bool> LieGroup for Quaternions<T, DOUBLE_COV
         &self,
         x: &Rows3<T, M>,
         p: &Rows3<T, M>,
-        _degree: usize,
+        degree: usize,
     ) -> Rows3<T, M> {
         // p − ½ x×p + c x×(x×p)
         let once = nodes::cross(x, p);
-        let [c, _] = bernoulli(&nodes::dot(x, x));
+        let [c, ..] = nodes::bernoulli(&nodes::dot(x, x), degree);
         let twice = nodes::cross(x, &once);
         nodes::plus_each(&nodes::plus(p, T::of(-0.5), &once), &c, &twice)
     }
@@ -278,10 +253,10 @@ impl<T: Scalar, const DOUBLE_COVER: bool> LieGroup for Quaternions<T, DOUBLE_COV
         x: &Rows3<T, M>,
         p: &Rows3<T, M>,
         omega: &Rows3<T, M>,
-        _degree: usize,
+        degree: usize,
     ) -> [Rows3<T, M>; 2] {
         // ẋ = ω + ½ x×ω + c x×(x×ω), −ṗ = ½ ω×p + c[(x×p)×ω + (x×ω)×p] + 2c′ (ω·x×(x×p)) x
-        let [c, slope] = bernoulli(&nodes::dot(x, x));
+        let [c, slope, _] = nodes::bernoulli(&nodes::dot(x, x), degree);
         let (turned, once) = (nodes::cross(x, omega), nodes::cross(x, p));
         let velocity = nodes::plus(omega, T::of(0.5), &turned);
         let velocity = nodes::plus_each(&velocity, &c, &nodes::cross(x, &turned));

@@ -134,7 +134,7 @@ impl Stage<'_> {
         let shift = T::from(1.0 + shift);
         let mu = mu * shift;
         let x = self.increment(rates);
-        let (p, _) = geometry.through_middle(&x, &mu)?;
+        let p = geometry.pull_back(geometry.chart, &x, &mu)?;
         let rates = rates.clone().reshape_generic(Dyn(n), Dyn(2 * m));
         let matrix = weights.rows(1, m).map(T::of).transpose();
         let (xs, ps) = (rates.columns(0, m) * &matrix, rates.columns(m, m) * &matrix);

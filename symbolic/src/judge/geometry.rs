@@ -184,22 +184,7 @@ impl Geometry {
         matrix
     }
 
-    /// The momentum P in the middle of the step σ(x/2)², and the momentum after it, from the one before it.
-    pub(super) fn through_middle<T: Real>(
-        &self,
-        x: &DMatrix<T>,
-        mu: &DMatrix<T>,
-    ) -> Result<(DMatrix<T>, DMatrix<T>), JudgeError> {
-        let half = T::from(0.5);
-        let y = x * half;
-        let first = self.pull_back(self.chart, &y, mu)?;
-        let middle = self.transport(self.chart, &y, mu, &first);
-        let last = self.pull_back(self.chart, &y, &middle)?;
-        let end = self.transport(self.chart, &y, &middle, &last);
-        Ok(((first + last) * half, end))
-    }
-
-    /// J_R(x, p) = Σ βₖ (ad\*_x)ᵏ p, and with Cayley's chart the part that is quadratic in x.
+    /// J_R(x, p) = Σ βₖ (ad\*_x)ᵏ p of the exponential chart.
     pub(super) fn momentum<T: Real>(
         &self,
         beta: &[T],
@@ -210,9 +195,6 @@ impl Geometry {
         for &beta in &beta[1..] {
             power = times(&ad, &power);
             sum += &power * beta;
-        }
-        for Entry { at: [a, b, argument, result], value } in &self.cubic {
-            sum[*argument] -= T::of(*value) * x[*a] * x[*b] * p[*result] * T::from(0.25);
         }
         sum
     }
@@ -234,12 +216,6 @@ impl Geometry {
         for (power, &beta) in powers.iter().zip(beta).rev() {
             force += times(&self.ad(&velocity), power);
             velocity = times(&bracket, &velocity) + omega * beta;
-        }
-        for Entry { at: [a, b, argument, result], value } in &self.cubic {
-            let value = T::of(*value) * omega[*argument] * T::from(0.25);
-            velocity[*result] -= value * x[*a] * x[*b];
-            force[*a] += value * x[*b] * p[*result];
-            force[*b] += value * x[*a] * p[*result];
         }
         [velocity, force]
     }

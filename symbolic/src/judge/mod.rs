@@ -72,9 +72,6 @@ use wide::exponent_of;
 /// Momenta of about this many binary digits of range are counted in the same unit.
 const UNITS: i64 = 32;
 
-/// The most powers of x in charts by series, which is all of them in doubled precision.
-const POWERS: usize = 40;
-
 /// Judges the steps of one problem.
 #[derive(Clone, Debug)]
 pub struct Judge {
@@ -117,22 +114,16 @@ impl Judge {
         Ok(judge)
     }
 
-    /// For steps by collocation in a chart about the middle. The exponential chart is known by its series up to the power
-    /// `degree` of x, or as closely as doubled precision tells where there is none.
+    /// For steps by collocation in the exponential chart about the middle, known by its series up to the power 2m − 2 of x with
+    /// m nodes (1 with one node).
     ///
     /// # Errors
-    /// [`JudgeError::Chart`] where the algebra has no such chart, and [`JudgeError::Given`].
-    pub fn of_smooth(
-        smooth: &Smooth,
-        chart: Chart,
-        degree: Option<usize>,
-    ) -> Result<Self, JudgeError> {
-        let geometry = Geometry::new(&smooth.algebra, chart)?;
-        let degree = match chart {
-            Chart::Cayley => 1,
-            Chart::Exponential => degree.unwrap_or(POWERS),
-        };
-        let collocation = Collocation::new(Energy::new(smooth)?, smooth.nodes(), degree);
+    /// [`JudgeError::Given`] where the Hamiltonian is no expression.
+    pub fn of_smooth(smooth: &Smooth) -> Result<Self, JudgeError> {
+        let geometry = Geometry::new(&smooth.algebra, Chart::Exponential)?;
+        let nodes = smooth.nodes();
+        let degree = if nodes == 1 { 1 } else { 2 * nodes - 2 };
+        let collocation = Collocation::new(Energy::new(smooth)?, nodes, degree);
         let law = Law::Collocation(Box::new(collocation.ok_or(JudgeError::OutOfRange)?));
         Ok(Self { geometry, law })
     }

@@ -82,14 +82,10 @@ impl Step<'_> {
         }
     }
 
-    /// Whether x is inside the chart, which about the middle of a step reaches to its ends.
+    /// Whether x is inside the chart.
     #[must_use]
     pub fn inside(&self, x: &[f64]) -> Inside {
-        let x = column(x.iter().copied());
-        match (&self.equation, self.geometry.chart) {
-            (Equation::Collocation(_), Chart::Cayley) => inside(self.geometry, &(x * 0.5)),
-            _ => inside(self.geometry, &x),
-        }
+        inside(self.geometry, &column(x.iter().copied()))
     }
 
     /// Whether the Hamiltonian is defined where the step starts.
@@ -179,20 +175,10 @@ impl Step<'_> {
         let (geometry, chart) = (self.geometry, self.geometry.chart);
         let exact_x = self.increment(right);
         let x = doubles(&exact_x);
-        let (mut momentum, mut element, [turn, slope]) = match &self.equation {
-            Equation::Series(_) => {
-                let p = geometry.pull_back(chart, &exact_x, &self.momentum)?;
-                let momentum = geometry.transport(chart, &exact_x, &self.momentum, &p);
-                let element = geometry.element(chart, &exact_x)?;
-                (momentum, element, geometry.sensitivity(chart, &x)?)
-            }
-            Equation::Collocation(_) => {
-                let (_, momentum) = geometry.through_middle(&exact_x, &self.momentum)?;
-                let half = geometry.element(chart, &(exact_x * DoubleDouble::from(0.5)))?;
-                let [turn, slope] = geometry.sensitivity(chart, &(&x * 0.5))?;
-                (momentum, &half * &half, [turn * turn, 0.5 * slope * (1.0 + turn)])
-            }
-        };
+        let p = geometry.pull_back(chart, &exact_x, &self.momentum)?;
+        let mut momentum = geometry.transport(chart, &exact_x, &self.momentum, &p);
+        let mut element = geometry.element(chart, &exact_x)?;
+        let [turn, slope] = geometry.sensitivity(chart, &x)?;
         let (a, b, mu) = (geometry.bracket_norm, geometry.basis_norm, norm(&self.double));
         let (bound, influence) = self.bound(&doubles(&right.x), unit)?;
         let moved = 2.0 * right.response * bound;

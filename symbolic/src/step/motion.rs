@@ -3,10 +3,10 @@
 use crate::graph::{Graph, Id};
 use crate::lie::Chart;
 use crate::step::entire::{Accuracy, Angle, WideAngle};
-use crate::step::product::{Moved, Part, series_momentum};
+use crate::step::product::{Moved, Part};
 use crate::step::rotation::{
-    Dexp, QUARTER_TURN, Rotation, compose, dexp_transpose, dexp_with_derivative, quaternion_of,
-    rotate_back, rotation_matrix, turned,
+    Dexp, QUARTER_TURN, Rotation, bernoulli, compose, dexp_transpose, dexp_with_derivative,
+    quaternion_of, rotate_back, rotation_matrix, turned,
 };
 use crate::step::vector::{
     Matrix, V3, cross, difference, dot, finite, minus, plus, scaled, sum, three,
@@ -212,13 +212,22 @@ impl Part for Motion {
         (join(&angular, &linear), derivative)
     }
 
-    /// exp's, by its series, with ad\*_(a, b) (n, f) = (n×a + f×b, f×a).
+    /// exp's: with so(3)'s J(a, p) = p − ½ a×p + c a×(a×p) it is (J(a, n) + D J(a, f) b, J(a, f)), D the derivative in a:
+    /// D J b = −½ b×f + c [b×(a×f) + a×(b×f)] + 2c′ (a·b) a×(a×f).
     fn node_momentum(&self, graph: &Graph, x: &[Id], p: &[Id], degree: usize) -> Vec<Id> {
-        let (a, b) = (three(x, 0), three(x, 3));
-        series_momentum(graph, p, degree, |p| {
-            let (n, f) = (three(p, 0), three(p, 3));
-            join(&sum(graph, &cross(graph, &n, &a), &cross(graph, &f, &b)), &cross(graph, &f, &a))
-        })
+        let (a, b, n, f) = (three(x, 0), three(x, 3), three(p, 0), three(p, 3));
+        let [c, slope] = bernoulli(graph, dot(graph, &a, &a), degree);
+        let half = graph.constant(-0.5);
+        let (turned, once, bent) =
+            (cross(graph, &a, &n), cross(graph, &a, &f), cross(graph, &b, &f));
+        let twice = cross(graph, &a, &once);
+        let linear = plus(graph, &plus(graph, &f, half, &once), c, &twice);
+        let first = plus(graph, &n, half, &sum(graph, &turned, &bent));
+        let second = cross(graph, &a, &sum(graph, &turned, &bent));
+        let second = sum(graph, &second, &cross(graph, &b, &once));
+        let along = graph.mul(slope, dot(graph, &a, &b));
+        let angular = plus(graph, &plus(graph, &first, c, &second), along, &twice);
+        join(&angular, &linear)
     }
 
     fn transport(&self, graph: &Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved {

@@ -3,8 +3,6 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use coadjoint_program::collocation::BETA;
-
 use crate::graph::{Graph, Id};
 use crate::step::vector::{Matrix, finite, largest};
 
@@ -262,22 +260,6 @@ pub(crate) trait Part: std::fmt::Debug + Send + Sync {
 
     /// The numbers of the element with this matrix, row by row.
     fn element_of(&self, matrix: &[f64]) -> Vec<f64>;
-}
-
-/// Σ βₖ (ad\*_x)ᵏ p up to this degree, given ad\*_x.
-pub(crate) fn series_momentum(
-    graph: &Graph,
-    p: &[Id],
-    degree: usize,
-    ad_star: impl Fn(&[Id]) -> Vec<Id>,
-) -> Vec<Id> {
-    let (mut power, mut sum) = (p.to_vec(), p.to_vec());
-    for &beta in BETA.iter().take(degree + 1).skip(1) {
-        power = ad_star(&power);
-        let beta = graph.constant(beta);
-        sum = sum.iter().zip(&power).map(|(&sum, &w)| graph.times_plus(beta, w, sum)).collect();
-    }
-    sum
 }
 
 /// A state moved on.

@@ -167,6 +167,14 @@ fn doubled(graph: &Graph, a: &V3, mu: &V3) -> (Id, V3) {
     (graph.add(one, n), plus(graph, &rest, two, &bent))
 }
 
+/// c(t) = Σ |B₂ₖ|/(2k)! tᵏ⁻¹, t = |x|², and 2 dc/dt: the factors of exp's J_R, with as many terms as the series has to this
+/// degree. It is the map of groups by tables.
+pub(crate) fn bernoulli(graph: &Graph, t: Id, degree: usize) -> [Id; 2] {
+    let term = |k: usize| BETA[..=degree].get(2 * k + 2).map_or(0.0, |beta| beta.abs());
+    let slope = |k: usize| 2.0 * (k + 1) as f64 * term(k + 1);
+    [series(graph, t, 1.0, 1e-17, term), series(graph, t, 1.0, 1e-17, slope)]
+}
+
 impl Part for Rotation {
     fn dim(&self) -> usize {
         3
@@ -231,12 +239,10 @@ impl Part for Rotation {
         }
     }
 
-    /// exp's: p − ½ x×p + c x×(x×p), with as many terms in c as the series has to this degree: the map of groups by tables.
+    /// exp's: p − ½ x×p + c x×(x×p).
     fn node_momentum(&self, graph: &Graph, x: &[Id], p: &[Id], degree: usize) -> Vec<Id> {
         let (x, p) = (three(x, 0), three(p, 0));
-        let beta = |k: usize| BETA[..=degree].get(2 * k + 2);
-        let term = |k: usize| beta(k).map_or(0.0, |beta| beta.abs());
-        let c = series(graph, dot(graph, &x, &x), 1.0, 1e-17, term);
+        let [c, _] = bernoulli(graph, dot(graph, &x, &x), degree);
         let once = cross(graph, &x, &p);
         let turned = plus(graph, &p, graph.constant(-0.5), &once);
         plus(graph, &turned, c, &cross(graph, &x, &once)).to_vec()

@@ -1,10 +1,12 @@
 //! Any group by its structure constants and the matrices of its basis; elements as matrices, row by row.
 
+use coadjoint_program::collocation::BETA;
+
 use crate::graph::{Graph, Id};
 use crate::lie::{Chart, LieAlgebra, RationalMatrix};
 use crate::number::nearest_float;
 use crate::step::MOST_OF_TABLES;
-use crate::step::product::{Moved, Part, series_momentum};
+use crate::step::product::{Moved, Part};
 use crate::step::vector::{Matrix, dot, finite, largest, solve};
 
 /// The norm of ad_x and of the matrix of x up to which series are exact to rounding: up to it steps are accepted at once.
@@ -389,10 +391,17 @@ impl Part for Tables {
         }
     }
 
-    /// exp's, by its series.
+    /// exp's, by its series Σ βₖ (ad\*_x)ᵏ p.
     fn node_momentum(&self, graph: &Graph, x: &[Id], p: &[Id], degree: usize) -> Vec<Id> {
         let a = self.ad_transpose(graph, x);
-        series_momentum(graph, p, degree, |p| a.apply(graph, p))
+        let (mut power, mut sum) = (p.to_vec(), p.to_vec());
+        for &beta in &BETA[1..=degree] {
+            power = a.apply(graph, &power);
+            let beta = graph.constant(beta);
+            let next = sum.iter().zip(&power);
+            sum = next.map(|(&sum, &w)| graph.times_plus(beta, w, sum)).collect();
+        }
+        sum
     }
 
     fn transport(&self, graph: &Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved {

@@ -2,8 +2,10 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use coadjoint::collocation::{Collocation, Energy};
-use coadjoint::groups::{Coordinates, DirectProduct, Heisenberg, MatrixGroup, SL2, SO4, SU3};
-use coadjoint::{LieGroup, Phase};
+use coadjoint::groups::{
+    Coordinates, DirectProduct, Heisenberg, MatrixGroup, Product, SE2, SL2, SO4, SU2, SU3,
+};
+use coadjoint::{LieGroup, Phase, SE3, SO3};
 use coadjoint_codegen::lie::catalogue::lookup;
 use coadjoint_codegen::smooth::Smooth;
 use coadjoint_codegen::step::Origin;
@@ -99,20 +101,23 @@ fn named(name: &str) -> MatrixGroup {
 #[test]
 fn kernels_make_the_steps_of_the_runtime() {
     let root = "sqrt(1 + a^2/2 + b^2/3 + c^2/5) + b^3/10";
-    compare(&named("SO3"), "SO3", root);
-    compare(&named("SU2"), "SU2", root);
-    compare(&named("SO3"), "SO3", "exp(-a/2)/3 + a + b*sin(2*t)/4 + ln(2 + c)*cos(t)");
-    // By the series of tables; the runtime's own types have closed forms, or Cayley's map.
-    compare(&named("SE2"), "SE2", "exp(a/3) + b^2/2 + c^2/3");
+    compare(&SO3::new(), "SO3", root);
+    compare(&SU2::new(), "SU2", root);
+    compare(&SO3::new(), "SO3", "exp(-a/2)/3 + a + b*sin(2*t)/4 + ln(2 + c)*cos(t)");
+    let plane = "exp(a/3) + b^2/2 + c^2/3";
+    compare(&SE2::new(), "SE2", plane);
     let six = "sqrt(1 + a^2 + b^2/2 + c^2/3) + exp(d/5) + e^2/3 + 1/(2 + f^2) + a*d/7";
+    compare(&SE3::new(), "SE3", six);
+    // By tables.
+    compare(&named("SU2"), "SU2", root);
+    compare(&named("SE2"), "SE2", plane);
     compare(&named("SE3"), "SE3", six);
     compare(&Heisenberg::new(), "Heisenberg", root);
     compare(&SL2::new(), "SL2", root);
     compare(&SO4::new(), "SO4", six);
     let product = DirectProduct::new(vec![named("SO3"), named("SO3")]);
     compare(&product, "SO3^2", six);
-    let product = DirectProduct::new(vec![named("SO3"), named("SE2")]);
-    compare(&product, "SO3*SE2", six);
+    compare(&Product::<SO3, SE2, 6>::new(), "SO3*SE2", six);
     compare(&SU3::new(), "SU3", "sqrt(1 + a^2 + b^2/2 + c^2/3) + exp(d/5) + e^2/3 + g*h/4 + f/3");
 }
 

@@ -4,7 +4,7 @@
 use coadjoint::collocation::{Collocation, Energy};
 use coadjoint::{LieGroup, Phase, SE3, SO3};
 use coadjoint_codegen::judge::{DoubleDouble, Judge, JudgeError, Motion};
-use coadjoint_codegen::lie::{Chart, catalogue::lookup};
+use coadjoint_codegen::lie::catalogue::lookup;
 use coadjoint_codegen::smooth::{Hamiltonian, Smooth};
 use coadjoint_codegen::system::{Options, read_either};
 use coadjoint_tests::bridge::matrix_group;
@@ -49,9 +49,7 @@ fn steps_of_the_judge_have_the_orders_of_their_nodes() {
     let all = "exp(mu[0]/3) + ln(2 + mu[1]) + sin(mu[2])/2 + cos(mu[0] + t) + tan(mu[1]/4) + atan(mu[2]) + tanh(mu[0]) \
         + (3 + mu[2])^(2/3)";
     for (energy, most) in [(DRIVEN, 5), (all, 4)] {
-        let judge = |nodes| {
-            Judge::of_smooth(&smooth("SO3", energy, nodes), Chart::Exponential, None).unwrap()
-        };
+        let judge = |nodes| Judge::of_smooth(&smooth("SO3", energy, nodes)).unwrap();
         let exact = judge(8);
         for nodes in 1..=most {
             let judge = judge(nodes);
@@ -95,20 +93,18 @@ where
 #[test]
 fn steps_of_the_runtime_are_those_of_the_judge_to_rounding() {
     let within = |deviation: f64| assert!(deviation > 0.0 && deviation < 1.0, "{deviation}");
-    let exact = |smooth: &Smooth| Judge::of_smooth(smooth, Chart::Exponential, None).unwrap();
     for h in [0.05, 0.2, 0.5] {
         let case = (h, &THREE[..]);
-        let judge = exact(&smooth("SO3", ROOT, 4));
+        let judge = Judge::of_smooth(&smooth("SO3", ROOT, 4)).unwrap();
         within(deviation::<SO3, Root, 4>(&SO3::new(), Root, &judge, case));
-        let judge = exact(&smooth("SO3", DRIVEN, 3));
+        let judge = Judge::of_smooth(&smooth("SO3", DRIVEN, 3)).unwrap();
         within(deviation::<SO3, Driven, 3>(&SO3::new(), Driven, &judge, case));
-        let judge = Judge::of_smooth(&six(4), Chart::Cayley, None).unwrap();
+        let judge = Judge::of_smooth(&six(4)).unwrap();
         within(deviation::<SE3, Six, 4>(&SE3::new(), Six, &judge, (h, &SIX)));
-        // By tables the chart is a series that ends.
+        // By tables.
         let tables = matrix_group(&lookup("SL2").unwrap()).unwrap();
         for (nodes, found) in [(2, 0), (4, 1)] {
-            let judge = smooth("SL2", ANY, nodes);
-            let judge = Judge::of_smooth(&judge, Chart::Exponential, Some(2 * nodes - 2)).unwrap();
+            let judge = Judge::of_smooth(&smooth("SL2", ANY, nodes)).unwrap();
             let case = (0.5 * h, &THREE[..]);
             within(match found {
                 0 => deviation::<_, Any, 2>(&tables, Any, &judge, case),
@@ -121,7 +117,7 @@ fn steps_of_the_runtime_are_those_of_the_judge_to_rounding() {
 #[test]
 fn what_has_no_value_is_not_judged() {
     let judge = smooth("SO3", "ln(mu[0]) + mu[1]^2", 2);
-    let judge = Judge::of_smooth(&judge, Chart::Exponential, None).unwrap();
+    let judge = Judge::of_smooth(&judge).unwrap();
     let mut setting = judge.at(0.1, &[]).unwrap();
     assert!(setting.step(&[1.0, 0.2, 0.3]).unwrap().right_solution().is_ok());
     assert!(matches!(setting.step(&[-1.0, 0.2, 0.3]), Err(JudgeError::Undefined)));

@@ -171,26 +171,6 @@ where
         A::default().exp_extent(&a).worse(B::default().exp_extent(&b))
     }
 
-    fn middle_momentum(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        Self::by_factor(x, mu, A::middle_momentum, B::middle_momentum)
-    }
-
-    fn middle_transport(
-        &self,
-        x: &Self::Vector,
-        mu: &Self::Vector,
-    ) -> (Self::Element, Self::Vector) {
-        let ((a, b), (c, d)) = (Self::split(x), Self::split(mu));
-        let (g, left) = A::default().middle_transport(&a, &c);
-        let (h, right) = B::default().middle_transport(&b, &d);
-        ((g, h), Self::join((left, right)))
-    }
-
-    fn middle_extent(&self, x: &Self::Vector) -> T {
-        let (a, b) = Self::split(x);
-        A::default().middle_extent(&a).worse(B::default().middle_extent(&b))
-    }
-
     fn node_momenta<const M: usize>(
         &self,
         x: &Rows<Self, M>,

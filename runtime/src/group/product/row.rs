@@ -283,25 +283,6 @@ impl<T: Scalar, R: Row<Group: LieGroup<Scalar = T>>> RowProduct<R> {
         result
     }
 
-    /// Increments of the factors and the momentum they move.
-    fn transport_by_parts(
-        &self,
-        x: &R::Vector,
-        mu: &R::Vector,
-        f: impl Fn(&R::Group, &VectorOf<R>, &VectorOf<R>) -> (ElementOf<R>, VectorOf<R>),
-    ) -> (R::Element, R::Vector) {
-        let mut moved = R::Vector::zeros(mu.dim());
-        let element = self.0.element(|at| {
-            let (group, start) = (self.0.group(at), self.0.place(at).coordinate);
-            let (g, part) = f(group.borrow(), &self.part(at, x), &self.part(at, mu));
-            for i in 0..part.dim() {
-                moved[start + i] = part[i];
-            }
-            g
-        });
-        (element, moved)
-    }
-
     /// The largest of numbers, one for each factor; NaN if one is.
     fn largest(&self, f: impl Fn(usize, &R::Group) -> T) -> T {
         (0..self.0.count())
@@ -329,8 +310,6 @@ type VectorOf<R> = <<R as Row>::Group as LieGroup>::Vector;
 /// Coordinates of the product at each node.
 type RowsOf<R, const M: usize> =
     <<R as Row>::Vector as Coordinates<<<R as Row>::Group as LieGroup>::Scalar>>::Rows<M>;
-/// Elements of a factor.
-type ElementOf<R> = <<R as Row>::Group as LieGroup>::Element;
 
 impl<T: Scalar, R: Row<Group: LieGroup<Scalar = T>>> LieGroup for RowProduct<R> {
     type Scalar = T;
@@ -371,7 +350,16 @@ impl<T: Scalar, R: Row<Group: LieGroup<Scalar = T>>> LieGroup for RowProduct<R> 
     }
 
     fn exp_transport(&self, x: &Self::Vector, mu: &Self::Vector) -> (Self::Element, Self::Vector) {
-        self.transport_by_parts(x, mu, R::Group::exp_transport)
+        let mut moved = R::Vector::zeros(mu.dim());
+        let element = self.0.element(|at| {
+            let (group, start) = (self.0.group(at), self.0.place(at).coordinate);
+            let (g, part) = group.borrow().exp_transport(&self.part(at, x), &self.part(at, mu));
+            for i in 0..part.dim() {
+                moved[start + i] = part[i];
+            }
+            g
+        });
+        (element, moved)
     }
 
     fn dexp_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
@@ -380,22 +368,6 @@ impl<T: Scalar, R: Row<Group: LieGroup<Scalar = T>>> LieGroup for RowProduct<R> 
 
     fn exp_extent(&self, x: &Self::Vector) -> T {
         self.largest(|at, group| group.exp_extent(&self.part(at, x)))
-    }
-
-    fn middle_momentum(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        self.by_parts(x, mu, R::Group::middle_momentum)
-    }
-
-    fn middle_transport(
-        &self,
-        x: &Self::Vector,
-        mu: &Self::Vector,
-    ) -> (Self::Element, Self::Vector) {
-        self.transport_by_parts(x, mu, R::Group::middle_transport)
-    }
-
-    fn middle_extent(&self, x: &Self::Vector) -> T {
-        self.largest(|at, group| group.middle_extent(&self.part(at, x)))
     }
 
     fn node_momenta<const M: usize>(
