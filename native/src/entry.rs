@@ -41,7 +41,6 @@ impl Entry {
     /// # Safety
     /// The functions must be compiled from `kernel`, be pure but for the slices they are given, and be valid as long
     /// as `code` is not dropped.
-    #[must_use]
     pub(crate) unsafe fn new(
         kernel: &Kernel,
         advance: Option<AdvanceFunction>,

@@ -56,7 +56,6 @@ pub const BETA: [f64; MAX_DEGREE + 1] = [
 
 /// The degree of that series in a step: the orders of the step, and that of the force at its middle, which a step with one
 /// node is judged by.
-#[must_use]
 pub const fn degree(nodes: usize) -> usize {
     if nodes == 1 { 1 } else { 2 * nodes - 2 }
 }
@@ -126,7 +125,6 @@ const fn legendre(degree: usize, x: f64) -> [f64; MAX_NODES + 1] {
 
 impl<const M: usize> Nodes<M> {
     /// The coefficients.
-    #[must_use]
     #[allow(clippy::new_without_default)]
     pub const fn new() -> Self {
         assert!(M >= 1 && M <= MAX_NODES, "a step has 1 to 8 nodes");

@@ -187,7 +187,6 @@ enum Slope {
 
 impl Program {
     /// The gradient of the first output in these arguments, by reverse mode: a program of the same inputs and slots.
-    #[must_use]
     pub fn gradient(&self, of: &[Argument]) -> Self {
         self.backwards(of, 0, |graph, outputs| {
             let one = graph.constant(1.0);
@@ -197,7 +196,6 @@ impl Program {
 
     /// Jᵀ·w by reverse mode, J being the derivative of all outputs in these arguments: a program whose inputs are those
     /// of this one and w, a number for each output.
-    #[must_use]
     pub fn pull_back(&self, of: &[Argument]) -> Self {
         let inputs = self.inputs();
         self.backwards(of, self.outputs().len(), |graph, outputs| {
@@ -222,7 +220,6 @@ impl Program {
     /// J·v by forward mode, J being the derivative of all outputs in these arguments: a program whose inputs are those
     /// of this one and v, a number for each argument. Of the [gradient](Self::gradient) it is the Hessian's product with
     /// v.
-    #[must_use]
     pub fn push_forward(&self, of: &[Argument]) -> Self {
         let graph = Graph::new();
         let inputs: Vec<Id> = (0..self.inputs()).map(|i| graph.input(i)).collect();

@@ -201,7 +201,6 @@ impl Fold<'_> {
 
     /// The |p| of each direct factor of the group up to which the last two terms of the series have at most this ratio in
     /// every direction.
-    #[must_use]
     pub fn radius(&self, step: f64, symbols: &[f64], ratio: f64) -> f64 {
         self.radius_by(step, |number| self.product(number, symbols), ratio)
     }
@@ -224,7 +223,6 @@ impl Fold<'_> {
     }
 
     /// The radius where the products of symbols are known, for rows side by side.
-    #[must_use]
     #[inline(always)]
     pub fn radius_by<T: Values>(&self, step: f64, product: impl Fn(u32) -> T, ratio: f64) -> T {
         let value = |&(part, ..): &LastTerm| self.part(part as usize, step, &product);

@@ -24,7 +24,6 @@ pub struct Graph {
 
 impl Graph {
     /// A graph without nodes.
-    #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
@@ -51,19 +50,16 @@ impl Graph {
     }
 
     /// The operation that `id` stands for.
-    #[must_use]
     pub fn node(&self, id: Id) -> Node {
         self.nodes.borrow()[id.index()]
     }
 
     /// Whether this is the number 0, known without any input.
-    #[must_use]
     pub fn is_zero(&self, id: Id) -> bool {
         self.node(id) == Node::Zero
     }
 
     /// The number this is, where it is known without any input.
-    #[must_use]
     pub fn known_number(&self, id: Id) -> Option<f64> {
         match self.node(id) {
             Node::Zero => Some(0.0),
@@ -277,7 +273,6 @@ impl Graph {
     }
 
     /// How many nodes there are: a mark for [`Graph::rewind`] and [`Graph::cost_since`].
-    #[must_use]
     pub fn mark(&self) -> usize {
         self.nodes.borrow().len()
     }
@@ -291,7 +286,6 @@ impl Graph {
     }
 
     /// The operations of the nodes made after `mark`.
-    #[must_use]
     pub fn cost_since(&self, mark: usize) -> Cost {
         Cost::of(&self.nodes.borrow()[mark..])
     }
@@ -313,7 +307,6 @@ impl Graph {
     }
 
     /// The program that computes `outputs`, nodes nothing needs left out.
-    #[must_use]
     pub fn finish(&self, inputs: usize, outputs: &[Id]) -> Program {
         let needed = self.needed(outputs);
         let (own, calls) = (self.nodes.borrow(), self.calls.borrow());
@@ -347,7 +340,6 @@ pub struct Id(pub(crate) u32);
 
 impl Id {
     /// The index into [`Program::nodes`](crate::Program::nodes).
-    #[must_use]
     pub fn index(self) -> usize {
         self.0 as usize
     }
@@ -419,13 +411,11 @@ impl Node {
     }
 
     /// Whether it has operands. Inputs, coefficients and numbers are read where they are used.
-    #[must_use]
     pub fn is_operation(&self) -> bool {
         self.operands().next().is_some()
     }
 
     /// The same operation with operands renamed by `rename`.
-    #[must_use]
     pub fn map(self, rename: impl Fn(Id) -> Id) -> Self {
         match self {
             Self::Add(a, b) => Self::Add(rename(a), rename(b)),
@@ -462,13 +452,11 @@ pub struct Cost {
 
 impl Cost {
     /// All operations; comparisons, signs and absolute values count nothing.
-    #[must_use]
     pub fn total(self) -> usize {
         self.multiplications + self.additions + self.divisions
     }
 
     /// The cost of these nodes.
-    #[must_use]
     pub fn of(nodes: &[Node]) -> Self {
         let mut cost = Self::default();
         for node in nodes {
@@ -502,43 +490,36 @@ pub struct Program {
 
 impl Program {
     /// How many inputs the program reads.
-    #[must_use]
     pub fn inputs(&self) -> usize {
         self.inputs
     }
 
     /// One more than the number of the last folded coefficient it reads; zero if none.
-    #[must_use]
     pub fn slots(&self) -> usize {
         self.slots
     }
 
     /// All nodes; operands come before their users.
-    #[must_use]
     pub fn nodes(&self) -> &[Node] {
         &self.nodes
     }
 
     /// The nodes whose values are the results, in order.
-    #[must_use]
     pub fn outputs(&self) -> &[Id] {
         &self.outputs
     }
 
     /// The nodes that are a function's value, as (value, function, argument), in order.
-    #[must_use]
     pub fn calls(&self) -> &[(Id, Function, Id)] {
         &self.calls
     }
 
     /// How many nodes are operations.
-    #[must_use]
     pub fn operations(&self) -> usize {
         self.nodes.iter().filter(|node| node.is_operation()).count()
     }
 
     /// The part of each node where the program is cut into parts of about as many operations, at most `longest`; ascending.
-    #[must_use]
     pub fn parts(&self, longest: usize) -> Vec<usize> {
         let operations = self.operations();
         let length = operations.div_ceil(operations.div_ceil(longest).max(1)).max(1);
@@ -551,13 +532,11 @@ impl Program {
     }
 
     /// The cost of one evaluation.
-    #[must_use]
     pub fn cost(&self) -> Cost {
         Cost::of(&self.nodes)
     }
 
     /// How often each node is used, as an operand or as a result.
-    #[must_use]
     pub fn uses(&self) -> Vec<usize> {
         let mut uses = vec![0; self.nodes.len()];
         for node in &self.nodes {

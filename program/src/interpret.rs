@@ -46,7 +46,6 @@ pub struct Attempt {
 
 impl Kernel {
     /// The solution of the equation of the step from μ, by the interpreter.
-    #[must_use]
     pub fn attempt(&self, slots: &[f64], mu: &[f64]) -> Attempt {
         let mut walk = Walk::<f64, 1>::new(self, slots, &[], mu);
         walk.run(1, [true]);
@@ -59,7 +58,6 @@ impl Kernel {
     }
 
     /// The numbers of `watch` at a state.
-    #[must_use]
     pub fn watch(&self, slots: &[f64], g: &[f64], mu: &[f64]) -> Vec<f64> {
         self.programs.watch.run(&[g, mu].concat(), slots)
     }
@@ -329,7 +327,6 @@ impl Program {
     }
 
     /// The results of the program on `inputs` with these folded coefficients. Missing inputs and slots read as 0.
-    #[must_use]
     pub fn run(&self, inputs: &[f64], slots: &[f64]) -> Vec<f64> {
         let read = |list: &[f64], i: usize| list.get(i).copied().unwrap_or(0.0);
         let mut nodes = Vec::new();

@@ -169,49 +169,41 @@ impl Kernel {
 
     /// The numbers that the programs are made for. The interpreter and machine code evaluate them in 64 bits all the
     /// same.
-    #[must_use]
     pub fn precision(&self) -> Precision {
         self.precision
     }
 
     /// k, how many constants a solve has.
-    #[must_use]
     pub fn constants(&self) -> usize {
         self.constants
     }
 
     /// Whether a guess looks at g, where steps leave numbers to the next one, and not at μ alone.
-    #[must_use]
     pub fn guesses_from_element(&self) -> bool {
         self.programs.guess.inputs() != self.dim
     }
 
     /// How many folded coefficients a step has; with kicks those of every flow and of the last kick.
-    #[must_use]
     pub fn slots(&self) -> usize {
         self.slots * self.flows().map_or(1, |flows| flows as usize + 1)
     }
 
     /// How many of them the programs read at a time.
-    #[must_use]
     pub fn slots_of_flow(&self) -> usize {
         self.slots
     }
 
     /// The flows between the kicks of a step, where it has kicks.
-    #[must_use]
     pub fn flows(&self) -> Option<u32> {
         self.kicks.as_ref().map(|kicks| kicks.flows)
     }
 
     /// The program of a kick.
-    #[must_use]
     pub fn kick(&self) -> Option<&Program> {
         self.kicks.as_ref().map(|kicks| &kicks.kick)
     }
 
     /// The loop that calls the programs.
-    #[must_use]
     pub fn schedule(&self) -> &Block {
         &self.schedule
     }
@@ -262,7 +254,6 @@ pub enum Precision {
 
 impl Precision {
     /// The distance from 1 to the next larger number.
-    #[must_use]
     pub fn epsilon(self) -> f64 {
         match self {
             Self::Double => f64::EPSILON,
@@ -271,7 +262,6 @@ impl Precision {
     }
 
     /// The largest number.
-    #[must_use]
     pub fn largest(self) -> f64 {
         match self {
             Self::Double => f64::MAX,
@@ -280,7 +270,6 @@ impl Precision {
     }
 
     /// Bytes of a number.
-    #[must_use]
     pub fn bytes(self) -> usize {
         match self {
             Self::Double => 8,
@@ -289,7 +278,6 @@ impl Precision {
     }
 
     /// The number nearest to this one.
-    #[must_use]
     pub fn round(self, value: f64) -> f64 {
         match self {
             Self::Double => value,
@@ -324,13 +312,11 @@ pub enum Trajectories {
 
 impl Trajectories {
     /// Whether one trajectory is going to be made by itself.
-    #[must_use]
     pub fn one(self) -> bool {
         self != Self::Lanes
     }
 
     /// Whether trajectories are going to be made side by side.
-    #[must_use]
     pub fn lanes(self) -> bool {
         self != Self::One
     }

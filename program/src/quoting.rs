@@ -41,7 +41,6 @@ const LETTERS: [(char, &str); 34] = [
 ];
 
 /// Text on one line of ASCII, for a comment of C, C++, OpenCL or CUDA.
-#[must_use]
 pub fn c_comment(text: &str) -> String {
     let mut result = String::new();
     for letter in line(text).chars() {
@@ -67,13 +66,11 @@ pub fn c_comment(text: &str) -> String {
 }
 
 /// Text on one line, for a comment of Rust; backticks, which quote it there, become quotes.
-#[must_use]
 pub fn rust_comment(text: &str) -> String {
     line(text).replace('`', "'")
 }
 
 /// Text on one line that shows what it is: characters that move others, or end lines, become spaces, and spaces one.
-#[must_use]
 pub fn line(text: &str) -> String {
     let mut result = String::with_capacity(text.len());
     for word in text.split(|c: char| c.is_whitespace() || is_hidden(c)).filter(|w| !w.is_empty()) {

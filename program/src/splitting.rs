@@ -37,13 +37,11 @@ impl Splitting {
     pub const MAX_FLOWS: usize = 6;
 
     /// The name in files.
-    #[must_use]
     pub fn name(self) -> &'static str {
         self.lengths().name
     }
 
     /// The order of accuracy.
-    #[must_use]
     pub fn order(self) -> u32 {
         self.lengths().order
     }

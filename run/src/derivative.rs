@@ -58,13 +58,11 @@ impl<'a> Derivatives<'a> {
     }
 
     /// n, the dimension of the group.
-    #[must_use]
     pub fn dim(&self) -> usize {
         self.start.mu.len()
     }
 
     /// q, the number of parameters.
-    #[must_use]
     pub fn parameters(&self) -> usize {
         self.motion.differentiable().map_or(0, Differentiable::parameters)
     }

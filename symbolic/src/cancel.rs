@@ -54,7 +54,6 @@ pub fn scope<T>(flag: Arc<AtomicBool>, work: impl FnOnce() -> T) -> T {
 }
 
 /// The flag of this thread's work.
-#[must_use]
 pub fn token() -> Token {
     CURRENT.with_borrow(Token::clone)
 }

@@ -39,7 +39,6 @@ pub struct Frame {
 
 impl Frame {
     /// The function f as one polynomial.
-    #[must_use]
     pub fn energy(&self) -> Polynomial {
         &self.spin + &self.casimirs
     }
@@ -73,7 +72,6 @@ impl Frame {
 /// let frame = comoving(&so3, Chart::Exponential, &body([1, 1, 2])).unwrap();
 /// assert_eq!(frame.spin, body([0, 0, 1]));
 /// ```
-#[must_use]
 pub fn comoving(algebra: &LieAlgebra, chart: Chart, hamiltonian: &Polynomial) -> Option<Frame> {
     let dim = algebra.dim();
     let length = |h: &Polynomial| length(algebra, chart, h);
@@ -302,7 +300,6 @@ pub(super) fn commute(algebra: &LieAlgebra, hamiltonian: &Polynomial, f: &Polyno
 /// Of ⟨μ, L⟩, L = Σ σ L_σ with products σ of symbols, it takes for each σ the orthogonal projection of L_σ (in the
 /// coordinates of the basis) onto the η for which ⟨μ, η⟩ commutes, where that makes the coordinates of L_σ smaller in sum.
 /// A term that commutes with all of 𝔤 is left: the series is exact for it.
-#[must_use]
 pub fn commuting_field(algebra: &LieAlgebra, hamiltonian: &Polynomial) -> Polynomial {
     let (dim, variables) = (algebra.dim(), hamiltonian.variables());
     let mut linear = Linear::new();

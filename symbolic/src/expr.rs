@@ -45,7 +45,6 @@ impl Function {
     ];
 
     /// The name of the function: the same in a system file and as a method of `f64`.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Sqrt => "sqrt",
@@ -61,13 +60,11 @@ impl Function {
     }
 
     /// The function of this name.
-    #[must_use]
     pub fn lookup(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|function| function.name() == name)
     }
 
     /// The value of the function at `x`.
-    #[must_use]
     pub fn apply(self, x: f64) -> f64 {
         match self {
             Self::Sqrt => x.sqrt(),
@@ -83,7 +80,6 @@ impl Function {
     }
 
     /// The derivative of the function at `x`.
-    #[must_use]
     pub(crate) fn slope(self, x: f64) -> f64 {
         match self {
             Self::Sqrt => 0.5 / x.sqrt(),
@@ -125,13 +121,11 @@ pub enum ParameterExpr {
 
 impl ParameterExpr {
     /// The value of the expression for given values of the flattened parameters; a missing one counts as NaN.
-    #[must_use]
     pub fn evaluate(&self, parameters: &[f64]) -> f64 {
         self.evaluate_rows(parameters)
     }
 
     /// The same for rows of values side by side.
-    #[must_use]
     pub fn evaluate_rows<T: Values>(&self, parameters: &[T]) -> T {
         let all = |x: f64| T::each(|_| x);
         let one = |a: &Self, of: &dyn Fn(f64) -> f64| {
@@ -156,7 +150,6 @@ impl ParameterExpr {
     }
 
     /// The same with these exact values put in for parameters that have one, and numbers computed where they are exact.
-    #[must_use]
     pub(crate) fn with_values(&self, values: &[Option<Rational>]) -> Self {
         type Exact<'a> = &'a dyn Fn(&Rational, &Rational) -> Option<Rational>;
         let within = |a: &Self| Box::new(a.with_values(values));
@@ -192,7 +185,6 @@ impl ParameterExpr {
     }
 
     /// The derivative of the expression along a change of the flattened parameters; NaN where it has none.
-    #[must_use]
     pub fn slope(&self, parameters: &[f64], change: &[f64]) -> f64 {
         let value = |e: &Self| e.evaluate(parameters);
         let slope = |e: &Self| e.slope(parameters, change);
@@ -211,7 +203,6 @@ impl ParameterExpr {
     }
 
     /// The expression as a user would write it, with `names` for the flattened parameters.
-    #[must_use]
     pub fn text(&self, names: &[String]) -> String {
         let mut out = String::new();
         self.write(&mut out, names, 0);

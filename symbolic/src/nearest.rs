@@ -1,7 +1,6 @@
 //! "Did you mean …?": the nearest of the known names.
 
 /// The known name nearest to `name`, if one is near enough to be meant.
-#[must_use]
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let lower = name.to_lowercase();
     let allowed = if lower.chars().count() < 5 { 1 } else { 2 };

@@ -48,7 +48,6 @@ pub struct Programs {
 impl Programs {
     /// Of a potential, by programs for V, its derivatives in the entries, and what is watched, whose inputs are the entries and
     /// the time, of which they do not depend.
-    #[must_use]
     pub fn of_potential(
         algebra: &LieAlgebra,
         [value, gradient, watched]: [&Program; 3],
@@ -88,7 +87,6 @@ impl Programs {
     }
 
     /// This torque and that of a potential, given by programs with this many slots. The sum has no potential.
-    #[must_use]
     pub fn beside(self, algebra: &LieAlgebra, potential: &Self, slots: usize) -> Self {
         let entries = algebra.matrix_size().pow(2);
         let count = entries + algebra.dim() + 1 + self.signals.len();
@@ -108,7 +106,6 @@ impl Programs {
     }
 
     /// The inputs of the programs for these entries of the matrix, this momentum and this time.
-    #[must_use]
     pub fn inputs(&self, entries: &[f64], mu: &[f64], time: f64) -> Vec<f64> {
         match self.value {
             Some(_) => entries.to_vec(),
@@ -117,7 +114,6 @@ impl Programs {
     }
 
     /// The text of the first expression that is not defined for these inputs, and its argument there.
-    #[must_use]
     pub fn undefined(&self, inputs: &[f64], symbols: &[f64]) -> Option<(&str, f64)> {
         let (number, argument) = undefined(&self.watched.run(inputs, symbols))?;
         Some((&self.expressions[number], argument))
@@ -151,13 +147,11 @@ pub struct Potential {
 
 impl Potential {
     /// The size d of group elements, which are d × d matrices.
-    #[must_use]
     pub fn size(&self) -> usize {
         self.algebra.matrix_size()
     }
 
     /// The torque without potential, where it is one.
-    #[must_use]
     pub fn alone(&self) -> Option<&Programs> {
         match &self.force {
             Force::Smooth(programs) if programs.value.is_none() => Some(programs),
@@ -166,14 +160,12 @@ impl Potential {
     }
 
     /// Whether kicks depend on the time.
-    #[must_use]
     pub fn moves(&self) -> bool {
         self.alone().is_some_and(|torque| torque.moves)
     }
 
     /// The body torque of a polynomial V: component k is −d/ds V(g·exp(s e_k)) at s = 0, which is
     /// −Σ ∂V/∂g_ij (g e_k)_ij.
-    #[must_use]
     pub fn torque(&self, energy: &Polynomial) -> Vec<Polynomial> {
         // (g e)_ij = Σ_l g_il e_lj.
         let motion = |e: &RationalMatrix, i: usize, j: usize| {
@@ -217,7 +209,6 @@ const TERMS: usize = 30;
 impl Potential {
     /// A basis of the ξ ∈ 𝔤 with ⟨J_L, ξ⟩ conserved, their largest coordinate being 1: of a polynomial exactly, of another V by
     /// its slopes at random elements of the group. Of a torque without potential there are none.
-    #[must_use]
     pub(crate) fn directions(&self) -> Vec<Vec<f64>> {
         let found = match &self.force {
             Force::Polynomial(energy) => {
@@ -236,7 +227,6 @@ impl Potential {
     /// A basis of the ξ ∈ 𝔤 with V(exp(sξ)g) = V(g), found as polynomials in the entries of any
     /// matrix g: by Noether's theorem ⟨J_L, ξ⟩ is conserved, by kicks exactly. Symmetries that
     /// rest on relations between the entries, such as orthogonality, are not found.
-    #[must_use]
     pub fn symmetries(&self, energy: &Polynomial) -> Vec<Vec<Rational>> {
         // (e g)_ij = Σ_l e_il g_lj.
         let motion = |e: &RationalMatrix, i: usize, j: usize| {
@@ -273,7 +263,6 @@ impl Potential {
 
     /// Whether kicks conserve this function C of the momentum: Σ_k ∂C/∂μ_k τ_k = 0 for all μ and g, τ the body torque; where
     /// that is no polynomial, as far as random states and times tell.
-    #[must_use]
     pub fn keeps(&self, casimir: &Polynomial) -> bool {
         let torque = match &self.force {
             Force::Polynomial(energy) => self.torque(energy),

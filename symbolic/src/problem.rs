@@ -16,7 +16,6 @@ pub struct Symbol {
 }
 
 /// The values of symbols in which no parameter is left, such as sqrt(2).
-#[must_use]
 pub fn values(symbols: &[Symbol]) -> Vec<f64> {
     symbols.iter().map(|symbol| symbol.expr.evaluate(&[])).collect()
 }
@@ -38,7 +37,6 @@ pub enum Shape {
 
 impl Shape {
     /// Its lengths: none of a scalar, one of a list, two of a matrix.
-    #[must_use]
     pub fn lengths(&self) -> Vec<usize> {
         match self {
             Self::Scalar => Vec::new(),
@@ -48,13 +46,11 @@ impl Shape {
     }
 
     /// The number of scalars it holds.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.lengths().iter().product()
     }
 
     /// Whether it holds no scalars.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -73,7 +69,6 @@ pub struct Parameter {
 
 impl Parameter {
     /// The names of its scalars: `m`, or `inertia[0]`, …, or `a[0][0]`, ….
-    #[must_use]
     pub fn scalar_names(&self) -> Vec<String> {
         let name = &self.name;
         match self.shape {
@@ -109,7 +104,6 @@ impl Solver {
     pub const NAMES: [&str; 2] = ["newton", "fixed_point"];
 
     /// The default for a group of this dimension.
-    #[must_use]
     pub fn of_dimension(dimension: usize) -> Self {
         match dimension {
             0..=Self::NEWTON_DIMENSIONS => Self::Newton,
@@ -118,7 +112,6 @@ impl Solver {
     }
 
     /// The solver of this name.
-    #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         match name {
             "newton" => Some(Self::Newton),
@@ -146,7 +139,6 @@ impl FrameChoice {
     pub const NAMES: [&str; 3] = ["auto", "fixed", "comoving"];
 
     /// The choice of this name.
-    #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         match name {
             "auto" => Some(Self::Auto),
@@ -171,7 +163,6 @@ impl Method {
     pub const NAMES: [&str; 2] = ["series", "collocation"];
 
     /// The method of this name.
-    #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         match name {
             "series" => Some(Self::Series),
@@ -217,14 +208,12 @@ pub struct Problem {
 
 impl Problem {
     /// The Hamiltonian whose flow S generates: H_red, less the summand f of a comoving frame.
-    #[must_use]
     pub fn generated(&self) -> &Polynomial {
         self.comoving.as_ref().map_or(&self.hamiltonian, |frame| &frame.rest)
     }
 
     /// The same problem, in the same frame, with the values put in that its parameters have by default; exactly, where
     /// the coefficients are rational then.
-    #[must_use]
     pub fn with_defaults(&self) -> Self {
         let dim = self.algebra.dim();
         let values = |parameter: &Parameter| match &parameter.default {
@@ -262,13 +251,11 @@ impl Problem {
     }
 
     /// The name of the frame in which S generates the motion, `fixed` or `comoving`.
-    #[must_use]
     pub fn frame_name(&self) -> &'static str {
         if self.comoving.is_some() { "comoving" } else { "fixed" }
     }
 
     /// The solver asked for, or the default for the dimension.
-    #[must_use]
     pub fn solver(&self) -> Solver {
         self.solver.unwrap_or(Solver::of_dimension(self.algebra.dim()))
     }
@@ -276,7 +263,6 @@ impl Problem {
 
 impl Problem {
     /// Whether H_red is of degree two or less in the momenta.
-    #[must_use]
     pub fn is_quadratic(&self) -> bool {
         let dim = self.algebra.dim();
         let degree = |factors: &[(u32, u32)]| {

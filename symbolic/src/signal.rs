@@ -82,7 +82,6 @@ impl Signal {
     }
 
     /// The input of this name that is a function, at all times; NaN where it has no value.
-    #[must_use]
     pub fn of_function(
         name: String,
         function: impl Fn(f64) -> f64 + Send + Sync + 'static,
@@ -92,20 +91,17 @@ impl Signal {
     }
 
     /// The input of this name with the table in a file, which has no value until [`Signal::new`] is given the numbers.
-    #[must_use]
     pub fn of_columns(name: String, columns: Columns) -> Self {
         let (times, values, slopes) = Default::default();
         Self { name, times, values, slopes, columns: Some(columns), function: None }
     }
 
     /// The times and the values of the table; none of a function.
-    #[must_use]
     pub fn table(&self) -> [&[f64]; 2] {
         [&self.times, &self.values]
     }
 
     /// The first and the last time of the table; NaN where it has none. A function goes on for ever.
-    #[must_use]
     pub fn range(&self) -> [f64; 2] {
         if self.function.is_some() {
             return [f64::NEG_INFINITY, f64::INFINITY];
@@ -114,7 +110,6 @@ impl Signal {
     }
 
     /// u(t); NaN outside the table, whose ends reach as far as times are rounded.
-    #[must_use]
     pub(crate) fn at(&self, time: f64) -> f64 {
         if let Some(Called(function)) = &self.function {
             return function(time);

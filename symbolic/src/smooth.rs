@@ -91,7 +91,6 @@ pub struct Facts<'a> {
 
 impl Facts<'_> {
     /// The values that the input gives the parameters that are kept; NaN where it gives none.
-    #[must_use]
     pub fn defaults(&self) -> Vec<f64> {
         let values =
             self.parameters.iter().flat_map(|parameter| parameter.default.iter().flatten());
@@ -101,7 +100,6 @@ impl Facts<'_> {
 
 impl Problem {
     /// The facts of the system.
-    #[must_use]
     pub fn facts(&self) -> Facts<'_> {
         let Self { name, algebra, coordinates, parameters, truncation, .. } = self;
         Facts { name, algebra, coordinates, parameters, truncation: *truncation }
@@ -110,38 +108,32 @@ impl Problem {
 
 impl Smooth {
     /// The facts of the system.
-    #[must_use]
     pub fn facts(&self) -> Facts<'_> {
         let Self { name, algebra, coordinates, parameters, truncation, .. } = self;
         Facts { name, algebra, coordinates, parameters, truncation: *truncation }
     }
 
     /// The nodes of a step of collocation, (K + 1)/2: its order is twice their number.
-    #[must_use]
     pub fn nodes(&self) -> usize {
         self.truncation.div_ceil(2)
     }
 
     /// Whether the programs read the time or signals.
-    #[must_use]
     pub fn depends_on_time(&self) -> bool {
         self.moves || !self.signals.is_empty()
     }
 
     /// The values of the symbols for these of the parameters that are kept.
-    #[must_use]
     pub fn symbols_at(&self, parameters: &[f64]) -> Vec<f64> {
         self.symbols.iter().map(|symbol| symbol.expr.evaluate(parameters)).collect()
     }
 
     /// The inputs of the programs at (t, μ).
-    #[must_use]
     pub fn inputs(&self, time: f64, mu: &[f64]) -> Vec<f64> {
         signal::inputs(Vec::new(), mu, time, &self.signals)
     }
 
     /// H(t, μ) for these values of the symbols.
-    #[must_use]
     pub fn energy(&self, symbols: &[f64], time: f64, mu: &[f64]) -> f64 {
         if let Some(Given(function)) = &self.given {
             return function.value(time, mu);
@@ -150,7 +142,6 @@ impl Smooth {
     }
 
     /// ∂H/∂μ(t, μ) for these values of the symbols.
-    #[must_use]
     pub fn gradient(&self, symbols: &[f64], time: f64, mu: &[f64]) -> Vec<f64> {
         if let Some(Given(function)) = &self.given {
             return function.gradient(time, mu);
@@ -159,7 +150,6 @@ impl Smooth {
     }
 
     /// The first expression that is not defined, or has no derivative, at (t, μ), by its number, and its argument there.
-    #[must_use]
     pub fn undefined(&self, symbols: &[f64], time: f64, mu: &[f64]) -> Option<(usize, f64)> {
         undefined(&self.watched.run(&self.inputs(time, mu), symbols))
     }
@@ -185,7 +175,6 @@ pub enum Hamiltonian {
 
 impl Hamiltonian {
     /// The facts of the system.
-    #[must_use]
     pub fn facts(&self) -> Facts<'_> {
         match self {
             Self::Polynomial(problem) => problem.facts(),
@@ -202,7 +191,6 @@ impl Hamiltonian {
     }
 
     /// The polynomial, where it is one.
-    #[must_use]
     pub fn polynomial(&self) -> Option<&Problem> {
         match self {
             Self::Polynomial(problem) => Some(problem),

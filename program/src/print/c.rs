@@ -119,7 +119,6 @@ impl C {
     }
 
     /// A number in hexadecimal, which every compiler reads without rounding.
-    #[must_use]
     pub fn literal(&self, value: f64) -> String {
         if value.is_nan() {
             return "NAN".into();
@@ -202,13 +201,11 @@ pub struct Field {
 
 impl Field {
     /// An array of this length.
-    #[must_use]
     pub fn array(name: &str, len: usize) -> Self {
         Self { name: name.to_owned(), len: Some(len) }
     }
 
     /// A single number.
-    #[must_use]
     pub fn number(name: &str) -> Self {
         Self { name: name.to_owned(), len: None }
     }

@@ -59,7 +59,6 @@ const LONGEST: usize = 1000;
 /// Numbers have the kernel's [precision](Kernel::precision). No operation is contracted: in 64 bits the results have the
 /// bits of the interpreter wherever the language's operations are rounded as IEEE 754 says. `about` is what the text says of
 /// itself, a line or several.
-#[must_use]
 pub fn device_unit(
     kernel: &Kernel,
     slots: &[f64],

@@ -13,7 +13,6 @@ use crate::print::c::Signature;
 
 /// The function of a signature, where it has more than `longest` operations as pieces that it calls. What a piece leaves
 /// for later ones is in an array `w`.
-#[must_use]
 pub fn function(dialect: &impl Dialect, signature: &Signature<'_>, longest: usize) -> String {
     let nodes = signature.program.nodes();
     let count = signature.program.operations().div_ceil(longest).max(1);

@@ -30,7 +30,6 @@ const LONGEST: usize = 1000;
 ///
 /// It asks for GNU C (GCC 10, Clang 10 or later), no header and, where the processor has fused products, no library. It
 /// computes the bits of the interpreter where the compiler contracts nothing (`-ffp-contract=off`).
-#[must_use]
 pub fn native_unit(kernel: &Kernel, trajectories: Trajectories) -> String {
     let calls = String::from("static __attribute__((noinline)) void");
     let total: usize = signatures(kernel, "").map(|one| one.program.cost().total()).sum();

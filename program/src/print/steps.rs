@@ -56,7 +56,6 @@ impl Default for LoopStyle {
 }
 
 /// The statements of the loop in a dialect; lines begin with `depth` spaces.
-#[must_use]
 pub fn steps(kernel: &Kernel, dialect: &impl Dialect, style: &LoopStyle, depth: usize) -> String {
     let lanes = style.count == "M";
     let mut writer = Writer { kernel, dialect, style, lanes, depth, masks: 0, text: String::new() };

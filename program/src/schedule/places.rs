@@ -20,7 +20,6 @@ pub enum Kind {
 
 impl Variable {
     /// The kind of its contents.
-    #[must_use]
     pub fn kind(self, kernel: &Kernel) -> Kind {
         match self {
             Self::Element => Kind::Array(kernel.element),
@@ -36,7 +35,6 @@ impl Variable {
 
 impl Part {
     /// The program in this kernel, if there is one.
-    #[must_use]
     pub fn program(self, kernel: &Kernel) -> Option<&Program> {
         let programs = &kernel.programs;
         match self {
@@ -51,7 +49,6 @@ impl Part {
     }
 
     /// The variables it reads and those it assigns, in order. All are read before any is assigned.
-    #[must_use]
     pub fn variables(self, kernel: &Kernel) -> (&'static [Variable], &'static [Variable]) {
         use Variable::*;
         match self {
@@ -80,7 +77,6 @@ pub struct Places {
 
 impl Places {
     /// The places for a kernel's variables. A count has one, where programs read it as a number.
-    #[must_use]
     pub fn of(kernel: &Kernel) -> Self {
         let mut len = 0;
         let range = |(variable, _): (Variable, _)| {
@@ -96,20 +92,17 @@ impl Places {
     }
 
     /// How many places there are.
-    #[must_use]
     #[allow(clippy::len_without_is_empty)]
     pub fn len(&self) -> usize {
         self.len
     }
 
     /// The places of a variable.
-    #[must_use]
     pub fn range(&self, variable: Variable) -> Range<usize> {
         self.ranges[variable as usize].clone()
     }
 
     /// The places of the state: g, then μ.
-    #[must_use]
     pub fn state(&self) -> Range<usize> {
         self.range(Variable::Element).start..self.range(Variable::Momentum).end
     }

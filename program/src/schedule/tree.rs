@@ -62,7 +62,6 @@ impl Variable {
     ];
 
     /// Its name in texts.
-    #[must_use]
     pub fn name(self) -> &'static str {
         Self::ALL[self as usize].1
     }
@@ -103,7 +102,6 @@ impl Part {
     ];
 
     /// Whether it reads the coefficients of a flow, where a step has kicks.
-    #[must_use]
     pub fn is_of_flow(self) -> bool {
         !matches!(self, Self::Frame | Self::Sound)
     }
@@ -138,7 +136,6 @@ pub struct Block {
 
 impl Block {
     /// Whether a variable is one of its own.
-    #[must_use]
     pub fn owns(&self, variable: Variable) -> bool {
         self.variables.iter().any(|&(own, _)| own == variable)
     }

@@ -53,14 +53,12 @@ pub(super) fn meeting(x: &DVector<f64>) -> StepError {
 
 impl Linear {
     /// That of no step at all.
-    #[must_use]
     pub fn identity(dim: usize, parameters: usize) -> Self {
         let state = DMatrix::identity(2 * dim, 2 * dim);
         Self { state, parameters: DMatrix::zeros(2 * dim, parameters) }
     }
 
     /// That of this step and the next one.
-    #[must_use]
     pub fn then(&self, next: &Self) -> Self {
         let parameters = &next.state * &self.parameters + &next.parameters;
         Self { state: &next.state * &self.state, parameters }

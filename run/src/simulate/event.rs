@@ -25,7 +25,6 @@ pub enum Direction {
 
 impl Direction {
     /// The changes at which the function's slope has this sign, in the direction of the run; all for 0.
-    #[must_use]
     pub fn of_slope(sign: i8) -> Self {
         match sign.signum() {
             1 => Self::Up,
@@ -50,7 +49,6 @@ pub struct Event {
 
 impl Event {
     /// The event of a system file.
-    #[must_use]
     pub fn of(event: system::Event) -> Self {
         let system::Event { name, function, slots, direction, stop } = event;
         let direction = Direction::of_slope(direction);

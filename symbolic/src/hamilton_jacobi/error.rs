@@ -14,7 +14,6 @@ pub struct TermLimit {
 
 impl TermLimit {
     /// Allows this many terms in one polynomial, and a number of products in proportion to it.
-    #[must_use]
     pub fn new(terms: usize) -> Self {
         Self { terms, products: (terms as u64).saturating_mul(2000) }
     }

@@ -28,19 +28,16 @@ pub struct GeneratingSeries {
 
 impl GeneratingSeries {
     /// The chart in which S generates the flow.
-    #[must_use]
     pub fn chart(&self) -> Chart {
         self.chart
     }
 
     /// The truncation K.
-    #[must_use]
     pub fn truncation(&self) -> usize {
         self.orders.len() - 1
     }
 
     /// S_k as a polynomial in p and the symbols, for k from 1 to K; zero for any other k.
-    #[must_use]
     pub fn order(&self, k: usize) -> &Polynomial {
         self.orders.get(k).unwrap_or(&self.orders[0])
     }

@@ -58,13 +58,11 @@ impl Coefficients {
     }
 
     /// How many bases belong to the series S₁ + … + S_K; they are the first.
-    #[must_use]
     pub fn series(&self) -> usize {
         self.monomials.len()
     }
 
     /// The monomials of the series, each as (coordinate, exponent), ascending.
-    #[must_use]
     pub fn monomials(&self) -> &[Vec<(u32, u32)>] {
         &self.monomials
     }
@@ -80,13 +78,11 @@ impl Coefficients {
     }
 
     /// The summands of each base coefficient.
-    #[must_use]
     pub fn bases(&self) -> &[Vec<Contribution>] {
         &self.bases
     }
 
     /// For each slot its base and the integer that multiplies it.
-    #[must_use]
     pub fn slots(&self) -> &[(usize, u32)] {
         &self.slots
     }
@@ -135,7 +131,6 @@ pub(crate) struct BaseTerm {
 
 impl BaseTerm {
     /// The exponent of a coordinate.
-    #[must_use]
     pub(crate) fn exponent(&self, coordinate: usize) -> u32 {
         let found = self.factors.binary_search_by_key(&coordinate, |&(i, _)| i as usize);
         found.map_or(0, |at| self.factors[at].1)

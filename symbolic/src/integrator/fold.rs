@@ -35,13 +35,11 @@ impl FoldTable {
     /// All coefficients of an integrator, as its programs and those of a step read them: its slots; the bound on what is
     /// left out of the Hessian, by degrees; the square of the radius of the series; and the coefficients of its last two
     /// terms, in the order of [`Coefficients::last_orders`].
-    #[must_use]
     pub fn new(integrator: &Integrator) -> Self {
         Self::placed(integrator, Some)
     }
 
     /// The same, each coefficient where `place` wants it; without those that it does not want.
-    #[must_use]
     pub fn placed(integrator: &Integrator, place: impl Fn(usize) -> Option<usize>) -> Self {
         let coefficients = &integrator.coefficients;
         let bound_at = coefficients.slots().len();
@@ -58,13 +56,11 @@ impl FoldTable {
     }
 
     /// The place of the square of the radius.
-    #[must_use]
     pub fn radius_at(integrator: &Integrator) -> usize {
         integrator.coefficients.slots().len() + integrator.defect_len()
     }
 
     /// The coefficients of a potential; none holds the step size.
-    #[must_use]
     pub fn of_kick(kick: &Kick) -> Self {
         let mut table = Self::assemble(&kick.coefficients, Some, Vec::new(), Vec::new());
         table.len = kick.coefficients.slots().len();
@@ -72,7 +68,6 @@ impl FoldTable {
     }
 
     /// The values of this many symbols, then the step size, and the square of a radius that is infinite.
-    #[must_use]
     pub fn of_symbols(count: usize) -> Self {
         let numbers = 0..number(count);
         Self {
@@ -137,7 +132,6 @@ impl FoldTable {
     }
 
     /// The lists.
-    #[must_use]
     pub fn lists(&self) -> Fold<'_> {
         Fold {
             products: &self.products,
@@ -153,13 +147,11 @@ impl FoldTable {
     }
 
     /// How many coefficients there are.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.len
     }
 
     /// Whether there is no coefficient.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }

@@ -30,7 +30,6 @@ pub struct Kick {
 
 impl Kick {
     /// Derives the torque and lowers it.
-    #[must_use]
     pub fn build(potential: Potential) -> Self {
         let entries = potential.size() * potential.size();
         let mut coefficients = Coefficients::default();

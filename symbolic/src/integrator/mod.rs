@@ -192,25 +192,21 @@ impl Integrator {
     }
 
     /// How many terms S₁ + … + S_K has.
-    #[must_use]
     pub fn terms(&self) -> usize {
         (1..=self.problem.truncation).map(|k| self.series.order(k).len()).sum()
     }
 
     /// The program an iteration of the solver runs: gradient and Hessian, or the gradient alone.
-    #[must_use]
     pub(crate) fn iteration(&self) -> &Program {
         self.newton.as_ref().or(self.hessian.as_ref()).unwrap_or(&self.gradient)
     }
 
     /// How many coefficients the bound of [`Integrator::defect`] has: its degree plus one.
-    #[must_use]
     pub(crate) fn defect_len(&self) -> usize {
         self.defect.iter().map(|term| term.degree as usize + 1).max().unwrap_or(0)
     }
 
     /// The order of accuracy, K + 1: the method is symmetric and even terms vanish.
-    #[must_use]
     pub fn order(&self) -> usize {
         self.problem.truncation + 1
     }

@@ -22,7 +22,6 @@ pub enum Predictor {
 
 impl Predictor {
     /// The degree in h up to which the guess is exact.
-    #[must_use]
     pub(crate) fn degree(self) -> usize {
         match self {
             Self::Explicit(degree) | Self::Flow(degree) => degree,

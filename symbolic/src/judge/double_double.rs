@@ -52,26 +52,22 @@ fn two_product(a: f64, b: f64) -> (f64, f64) {
 
 impl DoubleDouble {
     /// The number `hi + lo`.
-    #[must_use]
     pub fn new(hi: f64, lo: f64) -> Self {
         let (hi, lo) = two_sum(hi, lo);
         Self { hi, lo }
     }
 
     /// The nearest double.
-    #[must_use]
     pub fn to_f64(self) -> f64 {
         self.hi
     }
 
     /// Whether it is neither infinite nor NaN.
-    #[must_use]
     pub fn is_finite(self) -> bool {
         self.hi.is_finite() && self.lo.is_finite()
     }
 
     /// The product with 2^exponent.
-    #[must_use]
     pub fn scaled(self, exponent: i64) -> Self {
         let mut left = exponent.clamp(-4400, 4400);
         let mut value = self;

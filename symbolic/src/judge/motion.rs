@@ -28,7 +28,6 @@ pub struct Motion {
 
 impl Motion {
     /// From a momentum.
-    #[must_use]
     pub fn new(mu: &[f64]) -> Self {
         let momentum = column(mu.iter().map(|&m| DoubleDouble::from(m)));
         Self { momentum, scale: 0, element: None, momentum_bound: 0.0, element_bound: 0.0 }
@@ -70,13 +69,11 @@ impl Motion {
     }
 
     /// The momentum, rounded.
-    #[must_use]
     pub fn momentum(&self) -> Vec<f64> {
         self.momentum.iter().map(|m| m.scaled(self.scale).to_f64()).collect()
     }
 
     /// The group element, row by row, that this motion has led to from `before`, rounded.
-    #[must_use]
     pub fn element_from(&self, before: &[f64]) -> Vec<f64> {
         self.exact_element_from(before).transpose().iter().map(|g| g.to_f64()).collect()
     }
@@ -90,7 +87,6 @@ impl Motion {
 
     /// Whether the motion and its bounds are numbers, so that a deviation means something: turns of hundreds of radians are
     /// bounded by what exceeds all numbers.
-    #[must_use]
     pub fn is_bounded(&self) -> bool {
         let mut numbers = self.momentum.iter().chain(self.element.iter().flatten());
         let bounds = self.momentum_bound.is_finite() && self.element_bound.is_finite();
@@ -98,14 +94,12 @@ impl Motion {
     }
 
     /// How far a momentum is from this one over the bound of both motions' difference.
-    #[must_use]
     pub fn momentum_deviation(&self, momentum: &[f64]) -> f64 {
         let found = column(momentum.iter().map(|&m| DoubleDouble::from(m).scaled(-self.scale)));
         ratio(norm(&(&self.momentum - found)), self.momentum_bound)
     }
 
     /// How far a group element is from `before` times the steps' elements, over the bound.
-    #[must_use]
     pub fn element_deviation(&self, before: &[f64], after: &[f64]) -> f64 {
         let product = self.exact_element_from(before);
         let found = after.iter().map(|&g| DoubleDouble::from(g));

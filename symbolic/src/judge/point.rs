@@ -46,7 +46,6 @@ pub struct Residual {
 
 impl Residual {
     /// residual / bound; infinite where a number is not finite.
-    #[must_use]
     pub fn relative(&self) -> f64 {
         ratio(self.residual, self.bound)
     }
@@ -55,7 +54,6 @@ impl Residual {
 impl Point<'_> {
     /// Whether x solves x = ∂S(p̂): the residual and its bound for a scalar of this unit roundoff, 2⁻⁵³ for
     /// `f64` and 2⁻²⁴ for `f32`.
-    #[must_use]
     pub fn residual(&self, unit: f64) -> Residual {
         let bound = self.step.bound(&self.x, unit).map_or(f64::NAN, |(bound, _)| bound);
         Residual { residual: norm(&self.defect), bound }
@@ -65,7 +63,6 @@ impl Point<'_> {
     /// sums of the absolute values of all monomials of their gradients; or of the bounds on these for all momenta as long
     /// as the longest part of μ in a factor, if that is less. Terms below rounding of a scalar of this unit roundoff do
     /// not count. `None` where the series has one term, and where there is none.
-    #[must_use]
     pub fn series_ratio(&self, unit: f64) -> Option<f64> {
         // Nothing to compare with is no ratio, and a term below rounding of coordinates of order one is what cancels
         // (in a spherical body, say).
@@ -85,7 +82,6 @@ impl Point<'_> {
     }
 
     /// Whether x is the right solution, and that solution: the exact one next to x.
-    #[must_use]
     pub fn branch(&self) -> (Branch, Option<RightSolution>) {
         self.step.branch(&self.x)
     }

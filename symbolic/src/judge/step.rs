@@ -68,13 +68,11 @@ pub struct End {
 
 impl Step<'_> {
     /// μ in the units of this step.
-    #[must_use]
     pub fn momentum(&self) -> &[DoubleDouble] {
         self.momentum.as_slice()
     }
 
     /// The increment x of the group that a solution has.
-    #[must_use]
     pub fn increment(&self, right: &RightSolution) -> DMatrix<DoubleDouble> {
         match &self.equation {
             Equation::Series(_) => right.x.clone(),
@@ -83,7 +81,6 @@ impl Step<'_> {
     }
 
     /// Whether x is inside the chart.
-    #[must_use]
     pub fn inside(&self, x: &[f64]) -> Inside {
         inside(self.geometry, &column(x.iter().copied()))
     }

@@ -217,49 +217,41 @@ impl LieAlgebra {
     }
 
     /// The dimension.
-    #[must_use]
     pub fn dim(&self) -> usize {
         self.generators.len()
     }
 
     /// The name.
-    #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
     /// The names of the basis elements, used in messages.
-    #[must_use]
     pub fn generators(&self) -> &[String] {
         &self.generators
     }
 
     /// The nonzero structure constants, ascending by (i, j, k); both orders of i and j occur.
-    #[must_use]
     pub fn structure(&self) -> &[StructureConstant] {
         &self.structure
     }
 
     /// The structure constants (i, j, k, c_ij^k) as floating-point numbers.
-    #[must_use]
     pub fn constants(&self) -> Vec<(usize, usize, usize, f64)> {
         self.structure.iter().map(|c| (c.i, c.j, c.k, nearest_float(&c.value))).collect()
     }
 
     /// The matrices of the basis; none if the algebra is known by its brackets alone.
-    #[must_use]
     pub fn basis(&self) -> Option<&[RationalMatrix]> {
         self.basis.as_deref()
     }
 
     /// The rows of [`Self::matrices`].
-    #[must_use]
     pub fn matrix_size(&self) -> usize {
         self.basis().and_then(<[_]>::first).map_or(self.dim(), RationalMatrix::rows)
     }
 
     /// The matrices of the basis, or those of ad where only the brackets are known: entry (k, j) of that of e_i is c_ij^k.
-    #[must_use]
     pub fn matrices(&self) -> Vec<RationalMatrix> {
         let n = self.dim();
         let adjoint = |i: usize| {
@@ -475,7 +467,6 @@ pub enum LieAlgebraError {
 impl LieAlgebra {
     /// ad\*_{∂H/∂μ} μ, component by component: how each coordinate of the momentum moves. Variables
     /// of `hamiltonian` beyond the dimension are constants.
-    #[must_use]
     pub(crate) fn hamiltonian_field(&self, hamiltonian: &Polynomial) -> Vec<Polynomial> {
         let dim = self.dim();
         let variables = hamiltonian.variables();

@@ -59,7 +59,6 @@ pub fn casimirs(algebra: &LieAlgebra, degree: u32) -> Result<Vec<Polynomial>, Ca
 
 /// The Casimirs that runs and emitted code watch: generators of degree two at most, or one where two is too much work.
 /// Those of higher degrees take long to find in large algebras; [`casimirs`] finds them.
-#[must_use]
 pub fn watched_casimirs(algebra: &LieAlgebra) -> Vec<Polynomial> {
     [2, 1].into_iter().find_map(|degree| casimirs(algebra, degree).ok()).unwrap_or_default()
 }

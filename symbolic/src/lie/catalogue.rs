@@ -187,7 +187,6 @@ fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> {
 }
 
 /// The names of the catalogue, families by their smallest members.
-#[must_use]
 pub fn names() -> &'static [&'static str] {
     &[
         "SO2",
@@ -220,7 +219,6 @@ pub fn names() -> &'static [&'static str] {
 /// assert!(names().iter().all(|name| summary(name).is_some()));
 /// assert_eq!(summary("SO3").as_deref(), Some("rotations of space; about axes 1, 2, 3"));
 /// ```
-#[must_use]
 pub fn summary(name: &str) -> Option<String> {
     let split = name.find(|c: char| c.is_ascii_digit()).unwrap_or(name.len());
     let (family, digits) = name.split_at(split);

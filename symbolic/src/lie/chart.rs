@@ -67,7 +67,6 @@ impl Chart {
     }
 
     /// The name in files and attributes: `exp` or `cayley`.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Exponential => "exp",

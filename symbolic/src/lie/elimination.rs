@@ -153,7 +153,6 @@ impl Span {
 
 impl RationalMatrix {
     /// The inverse of a square matrix; nothing where there is none.
-    #[must_use]
     pub fn inverse(&self) -> Option<Self> {
         if self.rows() != self.columns() {
             return None;

@@ -19,7 +19,6 @@ impl LieAlgebra {
     /// assert_eq!((factors.len(), factors[2].dim()), (4, 3));
     /// assert_eq!(lookup("SE3").unwrap().factors().len(), 1);
     /// ```
-    #[must_use]
     pub fn factors(&self) -> Vec<Self> {
         let blocks = self.blocks();
         if blocks.len() <= 1 {
@@ -58,7 +57,6 @@ impl LieAlgebra {
     }
 
     /// The number of the direct factor that each coordinate belongs to, ascending from 0.
-    #[must_use]
     pub fn factor_of_coordinates(&self) -> Vec<u32> {
         let starts: Vec<usize> = self.blocks().iter().map(|block| block.element).collect();
         let factor = |i| starts.partition_point(|&start| start <= i).saturating_sub(1) as u32;
@@ -122,7 +120,6 @@ impl LieAlgebra {
     /// assert!(lookup("Heisenberg").unwrap().is_nilpotent());
     /// assert!(!lookup("SE2").unwrap().is_nilpotent());
     /// ```
-    #[must_use]
     pub fn is_nilpotent(&self) -> bool {
         // The brackets of e_i with e_j, for each i and j.
         let mut brackets: BTreeMap<usize, Vec<(usize, usize, &Rational)>> = BTreeMap::new();
@@ -161,7 +158,6 @@ impl LieAlgebra {
 impl LieAlgebra {
     /// The direct product; its basis is the bases one after the other, its matrices block
     /// diagonal. Without factors it would be no algebra, so one factor at least is expected.
-    #[must_use]
     pub(crate) fn direct_product(factors: &[Self]) -> Self {
         let mut structure = Vec::new();
         let mut generators = Vec::new();
@@ -231,7 +227,6 @@ impl LieAlgebra {
     }
 
     /// The direct product of equal factors, one at least.
-    #[must_use]
     pub(crate) fn power(&self, count: usize) -> Self {
         if count <= 1 {
             return self.clone();

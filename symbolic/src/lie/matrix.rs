@@ -17,7 +17,6 @@ pub struct RationalMatrix {
 
 impl RationalMatrix {
     /// The zero matrix.
-    #[must_use]
     pub fn zero(rows: usize, columns: usize) -> Self {
         Self { rows, columns, entries: BTreeMap::new() }
     }
@@ -63,19 +62,16 @@ impl RationalMatrix {
     }
 
     /// The number of rows.
-    #[must_use]
     pub fn rows(&self) -> usize {
         self.rows
     }
 
     /// The number of columns.
-    #[must_use]
     pub fn columns(&self) -> usize {
         self.columns
     }
 
     /// The entry at (row, column), counted from zero.
-    #[must_use]
     pub fn get(&self, row: usize, column: usize) -> Rational {
         self.entries.get(&(row, column)).cloned().unwrap_or_else(Rational::zero)
     }
@@ -86,19 +82,16 @@ impl RationalMatrix {
     }
 
     /// Whether the transpose is the negative: of a basis of such matrices, exponentials are orthogonal.
-    #[must_use]
     pub fn is_antisymmetric(&self) -> bool {
         self.entries().all(|(i, j, value)| self.get(j, i) == -value.clone())
     }
 
     /// Whether every entry is zero.
-    #[must_use]
     pub(crate) fn is_zero(&self) -> bool {
         self.entries.is_empty()
     }
 
     /// The product with another matrix.
-    #[must_use]
     pub fn times(&self, other: &Self) -> Self {
         let mut result = Self::zero(self.rows, other.columns);
         for (&(i, k), a) in &self.entries {
@@ -110,7 +103,6 @@ impl RationalMatrix {
     }
 
     /// The sum with `factor` times another matrix.
-    #[must_use]
     pub fn plus(&self, other: &Self, factor: &Rational) -> Self {
         let mut result = self.clone();
         for (&(i, j), value) in &other.entries {
@@ -120,7 +112,6 @@ impl RationalMatrix {
     }
 
     /// The commutator `self·other − other·self`.
-    #[must_use]
     pub(crate) fn commutator(&self, other: &Self) -> Self {
         self.times(other).plus(&other.times(self), &crate::number::integer(-1))
     }

@@ -12,7 +12,6 @@ pub type Rational = num_rational::BigRational;
 /// The rational `numerator / denominator`.
 ///
 /// Meant for literals; a zero denominator gives zero rather than a panic.
-#[must_use]
 pub fn ratio(numerator: i64, denominator: i64) -> Rational {
     if denominator == 0 {
         return Rational::from_integer(0.into());
@@ -21,13 +20,11 @@ pub fn ratio(numerator: i64, denominator: i64) -> Rational {
 }
 
 /// The nearest `f64`; NaN beyond the largest.
-#[must_use]
 pub fn nearest_float(value: &Rational) -> f64 {
     num_traits::ToPrimitive::to_f64(value).unwrap_or(f64::NAN)
 }
 
 /// The rational with the value of an integer.
-#[must_use]
 pub fn integer(value: i64) -> Rational {
     Rational::from_integer(value.into())
 }

@@ -8,7 +8,6 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 impl Polynomial {
     /// The partial derivative by the variable of this index; zero if there is no such variable.
-    #[must_use]
     pub fn derivative(&self, index: usize) -> Self {
         let mut exponents = Vec::new();
         let mut places = Vec::new();
@@ -45,7 +44,6 @@ impl Polynomial {
 
     /// The partial derivatives by the first `count` variables, in one pass over the terms if most
     /// variables are absent from most terms.
-    #[must_use]
     pub fn gradient(&self, count: usize) -> Vec<Self> {
         let Keys::Sparse(keys) = &self.keys else {
             return (0..count).map(|i| self.derivative(i)).collect();
@@ -85,7 +83,6 @@ impl Polynomial {
     }
 
     /// The polynomial times a number.
-    #[must_use]
     pub fn scale(&self, factor: &Rational) -> Self {
         if factor.is_zero() {
             return Self::zero(self.variables());
@@ -100,7 +97,6 @@ impl Polynomial {
     }
 
     /// The polynomial raised to a power.
-    #[must_use]
     pub fn pow(&self, exponent: u32) -> Self {
         let mut result = Self::constant(self.variables(), Rational::one());
         for bit in (0..32 - exponent.leading_zeros()).rev() {

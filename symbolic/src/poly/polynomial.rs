@@ -72,7 +72,6 @@ impl Keys {
 
 impl Polynomial {
     /// The zero polynomial.
-    #[must_use]
     pub fn zero(variables: usize) -> Self {
         let keys = match Packing::new(variables) {
             Some(_) => Keys::Packed(Vec::new()),
@@ -82,13 +81,11 @@ impl Polynomial {
     }
 
     /// A constant polynomial.
-    #[must_use]
     pub fn constant(variables: usize, value: Rational) -> Self {
         Self::from_factors(variables, [(Vec::new(), value)])
     }
 
     /// The polynomial that is the variable of this index; zero if there is no such variable.
-    #[must_use]
     pub fn variable(variables: usize, index: usize) -> Self {
         if index >= variables {
             return Self::zero(variables);
@@ -163,7 +160,6 @@ impl Polynomial {
     }
 
     /// The same polynomial in `variables` variables, where it has fewer.
-    #[must_use]
     pub fn widened(&self, variables: usize) -> Cow<'_, Self> {
         if variables <= self.variables {
             return Cow::Borrowed(self);
@@ -172,25 +168,21 @@ impl Polynomial {
     }
 
     /// The number of variables of the polynomial's ring, whether they occur or not.
-    #[must_use]
     pub fn variables(&self) -> usize {
         self.variables
     }
 
     /// Whether it is the zero polynomial.
-    #[must_use]
     pub fn is_zero(&self) -> bool {
         self.keys.len() == 0
     }
 
     /// The number of terms.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.keys.len()
     }
 
     /// Whether there are no terms; the same as [`is_zero`](Self::is_zero).
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.is_zero()
     }
@@ -204,7 +196,6 @@ impl Polynomial {
     }
 
     /// The total degree; zero for the zero polynomial.
-    #[must_use]
     pub fn degree(&self) -> u32 {
         (0..self.len()).map(|i| self.monomial(i).iter().map(|(_, e)| e).sum()).max().unwrap_or(0)
     }
@@ -237,7 +228,6 @@ impl Polynomial {
     }
 
     /// The value at a point in floating point; missing coordinates count as zero.
-    #[must_use]
     pub fn evaluate(&self, point: &[f64]) -> f64 {
         let mut sum = 0.0;
         for index in 0..self.len() {
@@ -295,7 +285,6 @@ pub struct Numeric(Vec<(f64, Vec<(usize, i32)>)>);
 
 impl Numeric {
     /// `polynomial` in its first `variables` variables, with these values of the symbols after them.
-    #[must_use]
     pub fn new(polynomial: &Polynomial, variables: usize, symbols: &[f64]) -> Self {
         let mut terms: Vec<(f64, Vec<(usize, i32)>)> = Vec::new();
         for (factors, value) in polynomial.factors() {
@@ -320,19 +309,16 @@ impl Numeric {
     }
 
     /// The value at x.
-    #[must_use]
     pub fn value(&self, x: &[f64]) -> f64 {
         self.each(x).sum()
     }
 
     /// The sum of the absolute values of the terms, against which rounding and drift of the value are measured.
-    #[must_use]
     pub fn magnitude(&self, x: &[f64]) -> f64 {
         self.each(x).map(f64::abs).sum()
     }
 
     /// The derivatives by the first `dim` variables.
-    #[must_use]
     pub fn gradient(&self, dim: usize) -> Vec<Self> {
         let derivative = |i: usize| {
             let terms = self.0.iter().filter_map(|(value, factors)| {
@@ -479,7 +465,6 @@ impl Key for Factors {
 pub type Monomial = [(u32, u32)];
 
 /// The product of two monomials.
-#[must_use]
 pub fn product(a: &Monomial, b: &Monomial) -> Vec<(u32, u32)> {
     let mut result = Vec::with_capacity(a.len() + b.len());
     let (mut i, mut j) = (0, 0);
@@ -507,7 +492,6 @@ pub fn product(a: &Monomial, b: &Monomial) -> Vec<(u32, u32)> {
 }
 
 /// The factors with variables before this one, the momenta say, and the others.
-#[must_use]
 pub fn split_at(factors: &Monomial, variable: usize) -> (&Monomial, &Monomial) {
     factors.split_at(factors.partition_point(|&(own, _)| (own as usize) < variable))
 }

@@ -33,13 +33,11 @@ impl Drift {
     }
 
     /// Spatial momentum, Casimirs, energy; NaN for `None`.
-    #[must_use]
     pub fn numbers(self) -> [f64; 3] {
         [self.spatial_momentum, self.casimirs, self.energy].map(|drift| drift.unwrap_or(f64::NAN))
     }
 
     /// The inverse of [`Self::numbers`].
-    #[must_use]
     pub fn of_numbers(numbers: [f64; 3]) -> Self {
         let [spatial_momentum, casimirs, energy] = numbers.map(|x| (!x.is_nan()).then_some(x));
         Self { spatial_momentum, casimirs, energy }
@@ -57,14 +55,12 @@ pub enum Energy {
 
 impl Energy {
     /// A polynomial without parameters.
-    #[must_use]
     pub fn of_polynomial(problem: &Problem) -> Self {
         let Problem { hamiltonian, algebra, symbols, .. } = problem;
         Self::Polynomial(Numeric::new(hamiltonian, algebra.dim(), &values(symbols)))
     }
 
     /// A Hamiltonian; a smooth one with the values that its input gives the parameters.
-    #[must_use]
     pub fn new(hamiltonian: &Hamiltonian) -> Self {
         match hamiltonian {
             Hamiltonian::Polynomial(problem) => Self::of_polynomial(problem),
@@ -75,7 +71,6 @@ impl Energy {
     }
 
     /// The value at μ; at time 0 where it moves in time.
-    #[must_use]
     pub fn value(&self, mu: &[f64]) -> f64 {
         match self {
             Self::Polynomial(polynomial) => polynomial.value(mu),
@@ -84,7 +79,6 @@ impl Energy {
     }
 
     /// The sum of the absolute values of a polynomial's terms; of other functions the absolute value.
-    #[must_use]
     pub fn magnitude(&self, mu: &[f64]) -> f64 {
         match self {
             Self::Polynomial(polynomial) => polynomial.magnitude(mu),
@@ -93,7 +87,6 @@ impl Energy {
     }
 
     /// ∂H/∂μ in `dim` coordinates; at time 0 where it moves in time.
-    #[must_use]
     pub fn gradient(&self, dim: usize) -> Gradient<'_> {
         match self {
             Self::Polynomial(polynomial) => {
@@ -134,7 +127,6 @@ pub enum PotentialEnergy {
 
 impl PotentialEnergy {
     /// V(g).
-    #[must_use]
     pub fn value(&self, g: &[f64]) -> f64 {
         match self {
             Self::Polynomial(polynomial) => polynomial.value(g),
@@ -145,7 +137,6 @@ impl PotentialEnergy {
     }
 
     /// The sum of the absolute values of a polynomial's terms; of other functions the absolute value.
-    #[must_use]
     pub fn magnitude(&self, g: &[f64]) -> f64 {
         match self {
             Self::Polynomial(polynomial) => polynomial.magnitude(g),
@@ -156,7 +147,6 @@ impl PotentialEnergy {
 
 impl Invariants {
     /// Of every motion on the coadjoint orbits of this algebra that keeps the spatial momentum.
-    #[must_use]
     pub fn of(algebra: &LieAlgebra) -> Self {
         let casimirs = watched_casimirs(algebra).into_iter();
         let casimirs = casimirs.map(|casimir| Numeric::new(&casimir, algebra.dim(), &[]));
@@ -164,7 +154,6 @@ impl Invariants {
     }
 
     /// Of the motion with this Hamiltonian, with the kicks of a potential if there is one.
-    #[must_use]
     pub fn new(algebra: &LieAlgebra, hamiltonian: Energy, potential: Option<&Potential>) -> Self {
         let dim = algebra.dim();
         let Some(potential) = potential else {
@@ -276,7 +265,6 @@ pub struct Start {
 
 impl Start {
     /// The drift of a state with these conserved quantities.
-    #[must_use]
     pub fn drift(&self, now: &Conserved) -> Drift {
         let Self { conserved: then, scales } = self;
         let momenta = now.momenta.iter().zip(&then.momenta);
@@ -294,7 +282,6 @@ impl Start {
     /// The drift of a state, as far as it can be measured: where rounding of a state alone may move a conserved quantity by
     /// more than 1e-11 of its scale, as it does after long motions in groups that are not compact, there is none. `beside`
     /// is what is conserved of the state whose numbers are [nudged](nudge).
-    #[must_use]
     pub fn measured(&self, now: &Conserved, beside: Conserved) -> Drift {
         const MEASURABLE: f64 = 1e-11;
         let beside = Self { conserved: beside, scales: self.scales.clone() };

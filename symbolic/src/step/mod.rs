@@ -79,7 +79,6 @@ impl<'a> Origin<'a> {
     }
 
     /// The facts of the system.
-    #[must_use]
     pub fn facts(self) -> Facts<'a> {
         match self {
             Self::Series(integrator) => integrator.problem.facts(),
@@ -88,7 +87,6 @@ impl<'a> Origin<'a> {
     }
 
     /// The expressions in parameters that coefficients are made of.
-    #[must_use]
     pub fn symbols(self) -> &'a [Symbol] {
         match self {
             Self::Series(integrator) => &integrator.problem.symbols,
@@ -97,7 +95,6 @@ impl<'a> Origin<'a> {
     }
 
     /// The kicks between flows, where there are any.
-    #[must_use]
     pub fn kicks(self) -> Option<&'a Kicks> {
         match self {
             Self::Series(integrator) => integrator.kicks.as_ref(),
@@ -204,7 +201,6 @@ impl Step {
     }
 
     /// The programs.
-    #[must_use]
     pub fn kernel(&self) -> &Kernel {
         &self.kernel
     }
@@ -236,7 +232,6 @@ impl Step {
     }
 
     /// Whether a step depends on the time, which [`Step::set_time`] then sets.
-    #[must_use]
     pub fn moves(&self) -> bool {
         self.moving.is_some()
     }
@@ -266,7 +261,6 @@ impl Step {
     }
 
     /// How many of an element's numbers, the last ones, steps leave to the next one. They may be set to 0.
-    #[must_use]
     pub fn memory(&self) -> usize {
         self.memory
     }
@@ -288,14 +282,12 @@ impl Step {
     }
 
     /// The place among the coefficients of the square of the |μ| up to which the series can be trusted.
-    #[must_use]
     pub fn radius_at(&self) -> usize {
         self.radius_at
     }
 
     /// g, g⁻¹, μ ↦ Ad\*_g μ, the spatial momentum, which every step conserves. Of g⁻¹ only the matrices of
     /// [`Step::inverted`] are read.
-    #[must_use]
     pub fn spatial(&self) -> Program {
         let (n, m) = (self.group.dim(), self.group.element());
         let graph = Graph::new();
@@ -306,19 +298,16 @@ impl Step {
 
     /// Parts of an element that are matrices by rows, other than rotations and motions: where each begins in the
     /// element's numbers, and how many rows it has.
-    #[must_use]
     pub fn inverted(&self) -> Vec<(usize, usize)> {
         self.group.inverted()
     }
 
     /// A description of the numbers of a group element; those of factors one after the other.
-    #[must_use]
     pub fn element_about(&self) -> String {
         self.group.about()
     }
 
     /// The numbers of the group element with this matrix, row by row; factors are its diagonal blocks.
-    #[must_use]
     pub fn element_of(&self, matrix: &[f64]) -> Vec<f64> {
         self.group.element_of(matrix)
     }

@@ -15,14 +15,12 @@ pub struct Spatial {
 
 impl Spatial {
     /// For the states of this step.
-    #[must_use]
     pub fn new(step: &Step) -> Self {
         Self { program: step.spatial(), inverted: step.inverted() }
     }
 
     /// The spatial momentum of the state with these numbers of the group element and this μ; NaN where a matrix has no
     /// inverse.
-    #[must_use]
     pub fn momentum(&self, g: &[f64], mu: &[f64]) -> Vec<f64> {
         // The program reads of the inverse what has been inverted here, and nothing else.
         let mut inputs = [g, g, mu].concat();

@@ -73,7 +73,6 @@ impl Region {
     }
 
     /// Points spread over the region, half of them on its boundary.
-    #[must_use]
     pub fn points(&self, dim: usize, count: usize) -> Vec<Vec<f64>> {
         let mut random = Random(1);
         (0..count).map(|number| self.point(dim, number, &mut random)).collect()
