@@ -55,9 +55,8 @@ pub(crate) fn run(options: &CheckOptions) -> Result<(), CliError> {
             "{name}: group {group}, {method}, h = {step}, {points} random points {place} (seed {seed})"
         );
         ratio.iter().for_each(|&ratio| outln!("  warning: {}", steep(ratio)));
-        let forces = system.series().and_then(|series| series.forces.as_ref());
-        let torque = forces.and_then(|forces| forces.kick.potential.alone());
-        if torque.is_some() && system.damping.is_none() {
+        let torque = system.series().and_then(|series| series.integrator.torque());
+        if torque.is_some() && !system.is_damped() {
             outln!("  the flow between kicks, whose laws the torque breaks:");
         }
         laws.iter().for_each(|law| outln!("  {}", line(law)));

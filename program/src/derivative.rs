@@ -130,7 +130,7 @@ impl Graph {
     }
 
     /// Σᵢ ∂yⱼ/∂xᵢ vᵢ for each yⱼ, by forward mode: `variables` are the (xᵢ, vᵢ), `outputs` the yⱼ.
-    pub fn push_forward(&self, outputs: &[Id], variables: &[(Id, Id)]) -> Vec<Id> {
+    fn push_forward(&self, outputs: &[Id], variables: &[(Id, Id)]) -> Vec<Id> {
         let dependent = self.dependent(variables.iter().map(|&(variable, _)| variable));
         let mut tangents: Vec<Option<Id>> = vec![None; dependent.len()];
         for &(variable, direction) in variables {
@@ -188,33 +188,12 @@ enum Slope {
 impl Program {
     /// The gradient of the first output in these arguments, by reverse mode: a program of the same inputs and slots.
     pub fn gradient(&self, of: &[Argument]) -> Self {
-        self.backwards(of, 0, |graph, outputs| {
-            let one = graph.constant(1.0);
-            outputs.first().map(|&output| (output, one)).into_iter().collect()
-        })
-    }
-
-    /// Jᵀ·w by reverse mode, J being the derivative of all outputs in these arguments: a program whose inputs are those
-    /// of this one and w, a number for each output.
-    pub fn pull_back(&self, of: &[Argument]) -> Self {
-        let inputs = self.inputs();
-        self.backwards(of, self.outputs().len(), |graph, outputs| {
-            let weight = |(j, &output)| (output, graph.input(inputs + j));
-            outputs.iter().enumerate().map(weight).collect()
-        })
-    }
-
-    fn backwards(
-        &self,
-        of: &[Argument],
-        more_inputs: usize,
-        weights: impl FnOnce(&Graph, &[Id]) -> Vec<(Id, Id)>,
-    ) -> Self {
         let graph = Graph::new();
         let inputs: Vec<Id> = (0..self.inputs()).map(|i| graph.input(i)).collect();
-        let arguments = graph.arguments(of);
-        let results = graph.pull_back(&weights(&graph, &graph.call(self, &inputs)), &arguments);
-        graph.finish(self.inputs() + more_inputs, &results)
+        let (arguments, outputs) = (graph.arguments(of), graph.call(self, &inputs));
+        let one = graph.constant(1.0);
+        let weights: Vec<_> = outputs.first().map(|&output| (output, one)).into_iter().collect();
+        graph.finish(self.inputs(), &graph.pull_back(&weights, &arguments))
     }
 
     /// J·v by forward mode, J being the derivative of all outputs in these arguments: a program whose inputs are those

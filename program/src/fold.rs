@@ -224,7 +224,7 @@ impl Fold<'_> {
 
     /// The radius where the products of symbols are known, for rows side by side.
     #[inline(always)]
-    pub fn radius_by<T: Values>(&self, step: f64, product: impl Fn(u32) -> T, ratio: f64) -> T {
+    fn radius_by<T: Values>(&self, step: f64, product: impl Fn(u32) -> T, ratio: f64) -> T {
         let value = |&(part, ..): &LastTerm| self.part(part as usize, step, &product);
         radius(self.last.iter().map(|term| (value(term), *term)), ratio)
     }

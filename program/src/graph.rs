@@ -50,7 +50,7 @@ impl Graph {
     }
 
     /// The operation that `id` stands for.
-    pub fn node(&self, id: Id) -> Node {
+    pub(crate) fn node(&self, id: Id) -> Node {
         self.nodes.borrow()[id.index()]
     }
 
@@ -416,7 +416,7 @@ impl Node {
     }
 
     /// The same operation with operands renamed by `rename`.
-    pub fn map(self, rename: impl Fn(Id) -> Id) -> Self {
+    pub(crate) fn map(self, rename: impl Fn(Id) -> Id) -> Self {
         match self {
             Self::Add(a, b) => Self::Add(rename(a), rename(b)),
             Self::Sub(a, b) => Self::Sub(rename(a), rename(b)),
@@ -457,7 +457,7 @@ impl Cost {
     }
 
     /// The cost of these nodes.
-    pub fn of(nodes: &[Node]) -> Self {
+    fn of(nodes: &[Node]) -> Self {
         let mut cost = Self::default();
         for node in nodes {
             match node {
@@ -495,7 +495,7 @@ impl Program {
     }
 
     /// One more than the number of the last folded coefficient it reads; zero if none.
-    pub fn slots(&self) -> usize {
+    pub(crate) fn slots(&self) -> usize {
         self.slots
     }
 

@@ -174,7 +174,7 @@ impl Kernel {
     }
 
     /// k, how many constants a solve has.
-    pub fn constants(&self) -> usize {
+    pub(crate) fn constants(&self) -> usize {
         self.constants
     }
 
@@ -261,14 +261,6 @@ impl Precision {
         }
     }
 
-    /// The largest number.
-    pub fn largest(self) -> f64 {
-        match self {
-            Self::Double => f64::MAX,
-            Self::Single => f64::from(f32::MAX),
-        }
-    }
-
     /// Bytes of a number.
     pub fn bytes(self) -> usize {
         match self {
@@ -278,7 +270,7 @@ impl Precision {
     }
 
     /// The number nearest to this one.
-    pub fn round(self, value: f64) -> f64 {
+    pub(crate) fn round(self, value: f64) -> f64 {
         match self {
             Self::Double => value,
             Self::Single => f64::from(value as f32),

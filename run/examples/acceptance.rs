@@ -5,11 +5,12 @@
 //! `docs/measurements/acceptance.md` is missed.
 
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use coadjoint_codegen::lie::catalogue;
-use coadjoint_program::Trajectories;
-use coadjoint_run::engine::{Numbers, STEEP, identity};
-use coadjoint_run::{Backend, Derived, read};
+use coadjoint_codegen::step::Energy;
+use coadjoint_run::simulate::Single;
+use coadjoint_run::{Backend, Derived, STEEP, read};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -211,30 +212,32 @@ fn rows(name: &str, compact: bool, truncation: usize, rows: usize, seed: u64) ->
     let text = format!(
         "group = \"{name}\"\nhamiltonian = \"{energy}\"\n[integrator]\ntruncation = {truncation}\n"
     );
-    let derived = read(name, &text).and_then(Derived::of).map_err(|error| said(&error))?;
-    let energy_of = derived.invariants.hamiltonian.as_ref().ok_or_else(|| said(&"no energy"))?;
+    let system = read(name, &text).map_err(|error| said(&error))?;
+    let energy_of = Energy::new(&system.problem);
+    let derived = Arc::new(Derived::of(system).map_err(|error| said(&error))?);
     let (structure, factors) = (algebra.constants(), algebra.factor_of_coordinates());
     let truth = Truth { velocity: &energy_of.gradient(dim), structure, factors, compact };
-    let compiled = derived.compiled(1.0, Backend::Interpreter, 1.0, Trajectories::One);
-    let compiled = compiled.map_err(|error| said(&error))?.ok_or_else(|| said(&"no programs"))?;
-    let motion = derived.steps(1.0, Some(&compiled)).map_err(|error| said(&error))?;
-    let identity = motion.space().numbers(&identity(motion.space().size()));
+    let step = Single::new(derived, 1.0, Backend::Interpreter, 1.0);
+    let step = step.map_err(|error| said(&error))?;
+    let size = step.matrix_size();
+    let identity = (0..size * size).map(|at| f64::from(u8::from(at / size == at % size)));
+    let identity: Vec<f64> = identity.collect();
     let mut tally = Tally::default();
     for _ in 0..rows {
         let mu = momentum(&truth, &mut random);
         let length = mu.iter().copied().fold(0.0, f64::hypot);
         let promised =
             name == "SO3" && truncation >= 5 && least.is_some_and(|i| length / i < PROMISED);
-        let mut state = Numbers { g: identity.clone(), mu: mu.clone() };
-        let made = motion.advance(&mut state, 0, 1).is_ok();
+        let mut end = mu.clone();
+        let made = step.advance(&mut identity.clone(), &mut end, 1).is_ok();
         tally.rows += 1;
         tally.promised += usize::from(promised);
         tally.refused += usize::from(promised && !made);
         if !made {
             continue;
         }
-        let error = truth.error(&mu, &state.mu);
-        let warned = motion.ratio(&mu) > STEEP;
+        let error = truth.error(&mu, &end);
+        let warned = step.ratio(&mu) > STEEP;
         tally.accepted += 1;
         tally.warned += usize::from(warned);
         tally.worst = tally.worst.max(error);

@@ -80,7 +80,7 @@ struct Coming {
 
 /// Programs ready to make steps: interpreted until there is machine code of them, if any is made. The bits are the same.
 #[derive(Debug)]
-pub struct Code {
+pub(crate) struct Code {
     coming: Arc<Coming>,
     /// Runs the compiler.
     thread: Mutex<Option<JoinHandle<()>>>,
@@ -96,7 +96,7 @@ impl Code {
     ///
     /// # Errors
     /// Where the backend that the user named cannot be had.
-    pub fn new(
+    pub(crate) fn new(
         kernel: &Kernel,
         backend: Backend,
         steps: f64,
@@ -160,7 +160,7 @@ impl Code {
     }
 
     /// Ends a compiler that is still at work: the run is over.
-    pub fn stop(&self) {
+    pub(crate) fn stop(&self) {
         self.coming.stop.store(true, Ordering::Relaxed);
         let thread = self.thread.lock().unwrap_or_else(PoisonError::into_inner).take();
         // One that panicked has made nothing.
@@ -191,12 +191,12 @@ impl Code {
     }
 
     /// Notes on backends that are not available so far.
-    pub fn notes(&self) -> Vec<String> {
+    pub(crate) fn notes(&self) -> Vec<String> {
         self.coming.notes.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// The stepper for the next steps of this kernel, from which the code is.
-    pub fn stepper<'a>(&'a self, kernel: &'a Kernel) -> &'a dyn Stepper {
+    pub(crate) fn stepper<'a>(&'a self, kernel: &'a Kernel) -> &'a dyn Stepper {
         match self.coming.made.get() {
             Some(made) => &made.entry,
             None => {

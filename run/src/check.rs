@@ -11,7 +11,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::engine::{
-    Group, Interpreter, Map, Numbers, STEEP, advise, cayley_group, entries_of, phase_of,
+    self, Group, Interpreter, Map, Numbers, STEEP, advise, cayley_group, entries_of, phase_of,
     product_group,
 };
 use crate::error::RunError;
@@ -158,11 +158,10 @@ fn laws_of<G: Group, C: Chart<G> + Send + Sync>(
         let map = make(h)?;
         (0..steps).try_for_each(|_| advance(&map, state).map(|_| ()))
     }));
-    if let Some(forces) = &series.forces {
-        let make = |h| forces.step::<G, C>(integrator, &group, h);
-        let expected = forces.splitting.order().min(integrator.order() as u32);
-        let hamiltonian = forces.kick.potential.alone().is_none();
-        let tried = (hamiltonian, &points[..], &starts[..]);
+    if let Some(kicks) = &integrator.kicks {
+        let make = |h| engine::kicked::<G, C>(integrator, kicks, &group, h);
+        let expected = kicks.splitting.order().min(integrator.order() as u32);
+        let tried = (integrator.torque().is_none(), &points[..], &starts[..]);
         laws.extend(kicked(h, make, expected.into(), &group, tried).map_err(RunError::at_start)?);
     }
     Ok((laws, ratio))

@@ -74,7 +74,7 @@ pub enum RunError {
 
 impl RunError {
     /// The error of a system, which is called `file`.
-    pub fn of<E>(file: &Path) -> impl Fn(E) -> Self + '_
+    pub(crate) fn of<E>(file: &Path) -> impl Fn(E) -> Self + '_
     where
         E: Into<Box<dyn std::error::Error + Send + Sync>>,
     {

@@ -41,7 +41,7 @@ type Read = BTreeMap<String, Vec<f64>>;
 ///
 /// # Errors
 /// The file, and the row and the column where it is wrong.
-pub fn fill(system: &Path, read: &mut System<Hamiltonian>) -> Result<(), RunError> {
+pub(crate) fn fill(system: &Path, read: &mut System<Hamiltonian>) -> Result<(), RunError> {
     let of_energy = match &mut read.problem {
         Hamiltonian::Smooth(smooth) => &mut smooth.signals[..],
         Hamiltonian::Polynomial(_) => &mut [],
@@ -114,7 +114,7 @@ fn from_columns(name: &str, columns: &Columns, read: &Read) -> Result<Signal, St
 ///
 /// # Errors
 /// The first that has not, in the system that is called `file`.
-pub fn reach(file: &Path, signals: &[Signal], end: f64) -> Result<(), RunError> {
+pub(crate) fn reach(file: &Path, signals: &[Signal], end: f64) -> Result<(), RunError> {
     let [from, to] = [end.min(0.0), end.max(0.0)];
     let short = signals.iter().find(|signal| {
         let [first, last] = signal.range();

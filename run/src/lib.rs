@@ -5,7 +5,7 @@ mod backend;
 pub mod check;
 mod derivative;
 pub mod emit;
-pub mod engine;
+mod engine;
 pub mod ensemble;
 mod error;
 mod inputs;
@@ -18,13 +18,13 @@ pub mod verify;
 use sha2::{Digest, Sha256};
 
 pub use accuracy::{Accuracy, meet_tolerance};
-pub use backend::{Backend, Code, Used};
+pub use backend::{Backend, Used};
 pub use derivative::{Adjoint, Derivatives};
+pub use engine::STEEP;
 pub use error::RunError;
 pub use inputs::{inputs_files, inputs_hash};
 pub use load::{
-    Derived, Expansion, Flow, System, learned, polynomial, read, read_given, read_group,
-    read_varying,
+    Derived, Expansion, System, learned, polynomial, read, read_given, read_group, read_varying,
 };
 
 /// The SHA-256 of a text in hexadecimal digits.

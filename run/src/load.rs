@@ -6,7 +6,7 @@ use std::sync::Arc;
 use coadjoint::StepError;
 use coadjoint::groups::{DirectProduct, MatrixGroup};
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
-use coadjoint_codegen::integrator::{Integrator, Kick};
+use coadjoint_codegen::integrator::{Integrator, Kick, Kicks};
 use coadjoint_codegen::potential::Potential;
 use coadjoint_codegen::problem::Problem;
 use coadjoint_codegen::signal::Signal;
@@ -18,7 +18,7 @@ use coadjoint_program::Trajectories;
 
 use crate::backend::Backend;
 use crate::engine::{
-    Charted, Compiled, Damped, Damper, Equations, Forces, Kept, Motion, Source, Varied, collocated,
+    Charted, Compiled, Damped, Damper, Equations, Kept, Motion, Source, Varied, collocated,
     product_group, whole_group,
 };
 use crate::error::RunError;
@@ -135,7 +135,7 @@ pub(crate) fn integrator(path: &Path, problem: Problem) -> Result<Integrator, Ru
 ///
 /// # Errors
 /// As [`integrator`].
-pub(crate) fn with_kicks(
+fn with_kicks(
     path: &Path,
     problem: Problem,
     potential: Option<(Potential, Splitting)>,
@@ -151,18 +151,18 @@ pub(crate) fn with_kicks(
 #[derive(Debug)]
 pub struct Derived {
     /// The name of the system in messages.
-    pub file: PathBuf,
+    pub(crate) file: PathBuf,
     /// The means by which they are made.
-    pub flow: Flow,
+    pub(crate) flow: Flow,
     /// The damping before and after each, where there is any.
-    pub damping: Option<Damper>,
+    pub(crate) damping: Option<Damper>,
     /// The conserved quantities.
-    pub invariants: Invariants,
+    pub(crate) invariants: Invariants,
 }
 
 /// The means by which the steps of a system are made.
 #[derive(Debug)]
-pub enum Flow {
+pub(crate) enum Flow {
     /// The series of a polynomial, as programs.
     Series(Box<Expansion>),
     /// Collocation on a group, and the programs compiled so far.
@@ -172,10 +172,8 @@ pub enum Flow {
 /// The series of a polynomial as programs, with the kicks of a potential between flows.
 #[derive(Debug)]
 pub struct Expansion {
-    /// The flow.
+    /// The flow, with the kicks.
     pub integrator: Integrator,
-    /// The kicks of a potential.
-    pub forces: Option<Forces>,
     /// The group with the chart of the steps.
     group: Charted,
     /// The programs compiled so far.
@@ -185,8 +183,7 @@ pub struct Expansion {
 impl Expansion {
     /// The equations, for these values of the parameters.
     fn equations(&self, parameters: Vec<f64>) -> Equations<'_> {
-        let Self { integrator, forces, .. } = self;
-        Equations { integrator, forces: forces.as_ref(), parameters }
+        Equations { integrator: &self.integrator, parameters }
     }
 }
 
@@ -213,17 +210,16 @@ impl Derived {
         }
         let flow = match problem {
             Hamiltonian::Polynomial(problem) => {
-                let integrator = with_kicks(file, *problem, potential.clone())?;
+                let integrator = with_kicks(file, *problem, potential)?;
                 let Problem { algebra, chart, .. } = &integrator.problem;
                 // Kicks look at the matrices of the whole group; a flow alone goes factor by factor.
-                let group = match &potential {
+                let group = match &integrator.kicks {
                     Some(_) => whole_group(file, algebra)?,
                     None => product_group(file, algebra)?,
                 };
                 let group = Charted::new(file, group, *chart)?;
-                let forces = potential.map(|(kicks, splitting)| Forces::new(kicks, splitting));
                 let kept = Kept::default();
-                Flow::Series(Box::new(Expansion { integrator, forces, group, kept }))
+                Flow::Series(Box::new(Expansion { integrator, group, kept }))
             }
             Hamiltonian::Smooth(smooth) => {
                 let group = Arc::new(product_group(file, &smooth.algebra)?);
@@ -241,9 +237,7 @@ impl Derived {
     pub fn signals(&self) -> &[Signal] {
         match &self.flow {
             Flow::Series(series) => {
-                let forces = series.forces.as_ref();
-                let torque = forces.and_then(|forces| forces.kick.potential.alone());
-                torque.map_or(&[], |torque| &torque.signals)
+                series.integrator.torque().map_or(&[], |torque| &torque.signals)
             }
             Flow::Collocation(smooth, ..) => &smooth.signals,
         }
@@ -273,16 +267,22 @@ impl Derived {
         }
     }
 
+    /// Whether damping acts before and after each step.
+    pub fn is_damped(&self) -> bool {
+        self.damping.is_some()
+    }
+
+    fn kicks(&self) -> Option<&Kicks> {
+        self.series()?.integrator.kicks.as_ref()
+    }
+
     /// Whether states move by programs alone and alike at all times, so that many may move side by side.
-    pub fn alike(&self) -> bool {
+    pub(crate) fn alike(&self) -> bool {
         if self.damping.is_some() {
             return false;
         }
         match &self.flow {
-            Flow::Series(series) => {
-                let moves = |forces: &Forces| forces.kick.potential.moves();
-                !series.forces.as_ref().is_some_and(moves)
-            }
+            Flow::Series(series) => !series.integrator.torque().is_some_and(|torque| torque.moves),
             Flow::Collocation(smooth, ..) => smooth.given.is_none() && !smooth.depends_on_time(),
         }
     }
@@ -291,9 +291,9 @@ impl Derived {
     ///
     /// # Errors
     /// Where the data defines no group.
-    pub fn group(&self) -> Result<DirectProduct<MatrixGroup>, RunError> {
+    pub(crate) fn group(&self) -> Result<DirectProduct<MatrixGroup>, RunError> {
         let algebra = self.facts().algebra;
-        match self.series().and_then(|series| series.forces.as_ref()) {
+        match self.kicks() {
             Some(_) => whole_group(&self.file, algebra),
             None => product_group(&self.file, algebra),
         }
@@ -303,7 +303,7 @@ impl Derived {
     ///
     /// # Errors
     /// Where the step makes no sense, or the backend that the user named cannot be had.
-    pub fn compiled(
+    pub(crate) fn compiled(
         &self,
         step: f64,
         backend: Backend,
@@ -344,7 +344,7 @@ impl Derived {
     ///
     /// # Errors
     /// Where the step or the parameters make no sense.
-    pub fn steps(
+    pub(crate) fn steps(
         &self,
         step: f64,
         compiled: Option<&Arc<Compiled>>,
@@ -381,7 +381,7 @@ impl Derived {
     ///
     /// # Errors
     /// As [`Derived::steps`].
-    pub fn varied(
+    pub(crate) fn varied(
         &self,
         step: f64,
         parameters: &[f64],
@@ -399,13 +399,12 @@ impl Derived {
     }
 
     /// The order of accuracy: K + 1, or that of the splitting where it is lower; 2 with damping.
-    pub fn order(&self) -> u32 {
+    pub(crate) fn order(&self) -> u32 {
         if self.damping.is_some() {
             return 2;
         }
         let order = self.facts().truncation as u32 + 1;
-        let forces = self.series().and_then(|series| series.forces.as_ref());
-        forces.map_or(order, |forces| order.min(forces.splitting.order()))
+        self.kicks().map_or(order, |kicks| order.min(kicks.splitting.order()))
     }
 
     /// The method of a run, in a few words.
@@ -417,8 +416,8 @@ impl Derived {
                 if problem.comoving.is_some() {
                     label.push_str(", comoving");
                 }
-                if let Some(forces) = &series.forces {
-                    label = format!("{label}, {}", forces.splitting.name());
+                if let Some(kicks) = &series.integrator.kicks {
+                    label = format!("{label}, {}", kicks.splitting.name());
                 }
                 label
             }

@@ -7,9 +7,6 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, HashMap};
 use std::hash::Hash;
-use std::ops::{Add, Mul};
-
-use num_traits::Zero;
 
 use crate::cancel;
 
@@ -190,37 +187,4 @@ fn horner(graph: &Graph, mut terms: Vec<SlotTerm>) -> Id {
     with.iter_mut().for_each(|term| divide(term, &[(variable, lowest)]));
     let power = graph.power(graph.input(variable as usize), lowest);
     graph.times_plus(horner(graph, with), power, horner(graph, without))
-}
-
-/// Numbers that add and multiply: `f64`, `f32`, or a pack of lanes.
-pub trait Arithmetic: Copy + Add<Output = Self> + Mul<Output = Self> + Zero {}
-
-impl<T: Copy + Add<Output = T> + Mul<Output = T> + Zero> Arithmetic for T {}
-
-/// Evaluates every node into `scratch`, where [`Program::outputs`] then point. For programs of sums and products, as
-/// [`lower`] makes them; other operations read as 0.
-///
-/// Always inlined, so that lanes get the instruction set of the caller.
-#[inline(always)]
-pub fn evaluate<T: Arithmetic>(
-    program: &Program,
-    input: impl Fn(usize) -> T,
-    slot: impl Fn(usize) -> T,
-    scratch: &mut Vec<T>,
-) {
-    scratch.clear();
-    scratch.reserve(program.nodes().len());
-    for node in program.nodes() {
-        let value = match *node {
-            Node::Input(i) => input(i as usize),
-            Node::Slot(i) => slot(i as usize),
-            Node::Add(a, b) => scratch[a.index()] + scratch[b.index()],
-            Node::Mul(a, b) => scratch[a.index()] * scratch[b.index()],
-            Node::TimesPlus(a, b, c) => {
-                scratch[a.index()] * scratch[b.index()] + scratch[c.index()]
-            }
-            _ => T::zero(),
-        };
-        scratch.push(value);
-    }
 }

@@ -159,11 +159,6 @@ impl Potential {
         }
     }
 
-    /// Whether kicks depend on the time.
-    pub fn moves(&self) -> bool {
-        self.alone().is_some_and(|torque| torque.moves)
-    }
-
     /// The body torque of a polynomial V: component k is −d/ds V(g·exp(s e_k)) at s = 0, which is
     /// −Σ ∂V/∂g_ij (g e_k)_ij.
     pub fn torque(&self, energy: &Polynomial) -> Vec<Polynomial> {

@@ -37,7 +37,7 @@ pub enum Shape {
 
 impl Shape {
     /// Its lengths: none of a scalar, one of a list, two of a matrix.
-    pub fn lengths(&self) -> Vec<usize> {
+    fn lengths(&self) -> Vec<usize> {
         match self {
             Self::Scalar => Vec::new(),
             Self::Array(n) | Self::Vector(n) => vec![*n],
@@ -46,13 +46,9 @@ impl Shape {
     }
 
     /// The number of scalars it holds.
+    #[allow(clippy::len_without_is_empty)]
     pub fn len(&self) -> usize {
         self.lengths().iter().product()
-    }
-
-    /// Whether it holds no scalars.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
     }
 }
 

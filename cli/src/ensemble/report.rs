@@ -2,7 +2,7 @@
 
 use coadjoint_program::Precision;
 use coadjoint_run::Derived;
-use coadjoint_run::engine::STEEP;
+use coadjoint_run::STEEP;
 use coadjoint_run::ensemble::{Engine, Rejected};
 use coadjoint_run::simulate::LARGE;
 use serde_json::{Value, json};

@@ -12,7 +12,7 @@ use coadjoint_learn::ModelFile;
 use coadjoint_program::quoting::line;
 use coadjoint_run::number::shortest;
 use coadjoint_run::simulate::{Event, Scales, Schedule, Setup, Times};
-use coadjoint_run::{Derived, Flow, RunError, System, inputs_hash, read_varying};
+use coadjoint_run::{Derived, RunError, System, inputs_hash, read_varying};
 use serde_json::{Map, Value, json};
 
 use super::target::{Place, Target, paths};
@@ -177,8 +177,8 @@ impl Header {
             ("group", json!(algebra.name())),
             ("truncation", json!(truncation)),
         ];
-        match &system.flow {
-            Flow::Series(series) => {
+        match system.series() {
+            Some(series) => {
                 let problem = &series.integrator.problem;
                 let solver = match problem.solver() {
                     Solver::Newton => Solver::NAMES[0],
@@ -189,12 +189,13 @@ impl Header {
                     ("frame", json!(problem.frame_name())),
                     ("solver", json!(solver)),
                 ]);
-                let splitting = series.forces.as_ref().map(|forces| forces.splitting.name());
+                let splitting = series.integrator.kicks.as_ref().map(|own| own.splitting.name());
                 own.extend(splitting.map(|splitting| ("splitting", json!(splitting))));
             }
-            Flow::Collocation(smooth, ..) => {
-                own.extend([("method", json!("collocation")), ("nodes", json!(smooth.nodes()))])
-            }
+            None => own.extend([
+                ("method", json!("collocation")),
+                ("nodes", json!(truncation.div_ceil(2))),
+            ]),
         }
         own.extend(inputs_hash(system.signals()).map(|hash| ("inputs_sha256", json!(hash))));
         Self::of(settings, ["system", "system_sha256"], own)

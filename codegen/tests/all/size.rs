@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use coadjoint_codegen::emit;
-use coadjoint_codegen::graph::{Program, evaluate};
+use coadjoint_codegen::graph::Program;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::problem::Solver;
@@ -158,9 +158,7 @@ truncation = 7
     let momentum = [2.0, 0.5, -1.25];
     let s = |integrator: &Integrator, symbols: &[f64]| {
         let slots = integrator.fold_table().fold(0.5, symbols).unwrap();
-        let mut scratch = Vec::new();
-        evaluate(&integrator.value, |i| momentum[i], |i| slots[i], &mut scratch);
-        scratch[integrator.value.outputs()[0].index()]
+        integrator.value.run(&momentum, &slots)[0]
     };
     let (with, without) = (s(&kept, &symbols.collect::<Vec<_>>()), s(&literal, &[]));
     assert!((with - without).abs() < 1e-15, "{with} {without}");

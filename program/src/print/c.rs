@@ -119,7 +119,7 @@ impl C {
     }
 
     /// A number in hexadecimal, which every compiler reads without rounding.
-    pub fn literal(&self, value: f64) -> String {
+    pub(super) fn literal(&self, value: f64) -> String {
         if value.is_nan() {
             return "NAN".into();
         }

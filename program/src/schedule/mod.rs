@@ -5,4 +5,4 @@ mod tree;
 
 pub use places::{Kind, Places};
 pub(crate) use tree::schedule;
-pub use tree::{BLOCK, Block, Condition, Kept, Part, Statement, Test, Variable};
+pub use tree::{BLOCK, Block, Kept, Part, Statement, Test, Variable};

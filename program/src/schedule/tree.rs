@@ -123,7 +123,7 @@ pub enum Test {
 }
 
 /// Tests that hold all (`true`) or fail all (`false`) as is said beside each.
-pub type Condition = Vec<(bool, Test)>;
+type Condition = Vec<(bool, Test)>;
 
 /// Statements, and the variables that only they know.
 #[derive(Clone, Debug, PartialEq)]

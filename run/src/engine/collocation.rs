@@ -84,7 +84,7 @@ impl Energy<DVector<f64>> for Interpreted<'_> {
 }
 
 /// The group of all steps by collocation.
-pub type Group = DirectProduct<MatrixGroup>;
+pub(crate) type Group = DirectProduct<MatrixGroup>;
 
 /// Steps of one size at `M` nodes.
 struct Collocated<'a, const M: usize> {

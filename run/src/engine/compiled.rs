@@ -16,11 +16,11 @@ use crate::error::RunError;
 pub(super) const MOST_OPERATIONS: usize = 60_000;
 
 /// The most iterations and the largest residual of the solves of steps, where they are known.
-pub type Solves = Option<(u32, f64)>;
+pub(crate) type Solves = Option<(u32, f64)>;
 
 /// A state as the programs have it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Numbers {
+pub(crate) struct Numbers {
     /// The group element.
     pub g: Vec<f64>,
     /// μ.
@@ -29,7 +29,7 @@ pub struct Numbers {
 
 /// The compiled programs of one integrator, for later runs: programs do not depend on the size of a step.
 #[derive(Default)]
-pub struct Kept {
+pub(crate) struct Kept {
     programs: OnceLock<Arc<Programs>>,
     codes: Mutex<Vec<(Backend, Trajectories, Arc<Code>)>>,
 }
@@ -79,7 +79,7 @@ impl Kept {
 
 /// What the programs of a step read for one size and one set of parameters.
 #[derive(Clone, Debug)]
-pub struct Folded {
+pub(crate) struct Folded {
     /// The size of a step.
     size: f64,
     /// The coefficients.
@@ -90,7 +90,7 @@ pub struct Folded {
 
 /// Steps as straight-line programs.
 #[derive(Clone)]
-pub struct Compiled {
+pub(crate) struct Compiled {
     programs: Arc<Programs>,
     folded: Folded,
     code: Arc<Running>,

@@ -21,7 +21,7 @@ type Damp<'a> =
 
 /// Damping by the double bracket.
 #[derive(Clone, Debug)]
-pub struct Damper {
+pub(crate) struct Damper {
     /// The diagonal of Γ.
     pub rates: Vec<f64>,
     /// The group.

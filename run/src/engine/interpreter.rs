@@ -2,32 +2,22 @@
 
 use std::marker::PhantomData;
 
-use coadjoint::generating::{MatrixOf, ScalarOf, VectorOf, hessian_by_differences};
-use coadjoint::groups::{Chart, Coordinates};
+use coadjoint::generating::hessian_by_differences;
+use coadjoint::groups::Chart;
 use coadjoint::plumbing;
 use coadjoint::solve::Solver;
-use coadjoint::{GeneratingFunction, LieGroup, Scalar, StepError};
+use coadjoint::{GeneratingFunction, Scalar, StepError};
 use coadjoint_codegen::cancel;
-use coadjoint_codegen::graph::{self, Arithmetic, Id, Program};
+use coadjoint_codegen::graph::Program;
 use coadjoint_codegen::integrator::{FoldTable, Integrator, Predictor};
 use coadjoint_codegen::problem::{self, Problem};
 use coadjoint_program::fold::FoldError;
+use nalgebra::{DMatrix, DVector};
+
+use super::space::Group;
 
 /// Above this ratio of terms a run says so; above twice this its steps are refused.
 pub const STEEP: f64 = 0.25;
-
-/// The results of a program.
-struct Outputs<'s, T> {
-    nodes: &'s [T],
-    ids: &'s [Id],
-}
-
-impl<T: Copy> Outputs<'_, T> {
-    #[inline(always)]
-    fn get(&self, i: usize) -> T {
-        self.nodes[self.ids[i].index()]
-    }
-}
 
 /// The values of the symbols of a problem for these values of its parameters.
 pub(super) fn symbols(problem: &Problem, parameters: &[f64]) -> Vec<f64> {
@@ -59,7 +49,7 @@ pub(crate) struct Interpreter<'a, G, C> {
     pub(super) chart: PhantomData<C>,
 }
 
-impl<'a, G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> Interpreter<'a, G, C> {
+impl<'a, G: Group, C: Chart<G>> Interpreter<'a, G, C> {
     /// Folds the coefficients for the step size and the values of the parameters that are kept.
     pub(crate) fn new(
         integrator: &'a Integrator,
@@ -81,11 +71,8 @@ impl<'a, G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> Interpreter<'a, G, C> {
 
     /// The ratio by which steps are judged where it may be above [`STEEP`]: of the last two terms of ∂S at p, or that which
     /// the rate at which motions part stands for; 0 where it is known to be at most [`STEEP`] and p need not be looked at.
-    pub(crate) fn ratio(&self, p: &G::Vector) -> f64
-    where
-        G: LieGroup<Scalar = f64>,
-    {
-        let quiet = p.pairing(p).sqrt() <= self.quiet;
+    pub(crate) fn ratio(&self, p: &DVector<f64>) -> f64 {
+        let quiet = p.norm() <= self.quiet;
         let of_terms = if quiet { 0.0 } else { self.series_ratio(p) };
         if self.largest_rate() >= f64::MAX {
             return of_terms;
@@ -98,54 +85,12 @@ impl<'a, G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> Interpreter<'a, G, C> {
         self.slots.get(FoldTable::radius_at(self.integrator)..).unwrap_or(&[])
     }
 
-    /// Evaluates a program and hands its outputs to `read`.
-    #[inline(always)]
-    fn run<R>(
-        &self,
-        program: &Program,
-        input: impl Fn(usize) -> G::Scalar,
-        read: impl FnOnce(Outputs<'_, G::Scalar>) -> R,
-    ) -> R {
-        let mut scratch = Vec::new();
-        graph::evaluate(program, input, |i| G::Scalar::of(self.slots[i]), &mut scratch);
-        read(Outputs { nodes: &scratch, ids: program.outputs() })
-    }
-
-    fn scalar(&self, program: &Program, p: &G::Vector) -> G::Scalar {
-        self.run(program, |i| p[i], |output| output.get(0))
-    }
-
-    #[inline(always)]
-    fn vector(&self, program: &Program, p: &G::Vector) -> G::Vector {
-        self.run(program, |i| p[i], |output| G::Vector::from_entries(p.dim(), |i| output.get(i)))
-    }
-
-    #[inline(always)]
-    fn gradient_and_matrix(
-        &self,
-        program: &Program,
-        p: &G::Vector,
-    ) -> (G::Vector, <G::Vector as Coordinates<G::Scalar>>::Matrix) {
-        let n = p.dim();
-        self.run(
-            program,
-            |i| p[i],
-            |output| {
-                let mut matrix = G::Vector::zero_matrix(n);
-                // The upper triangle, row by row.
-                let places = (0..n).flat_map(|i| (i..n).map(move |j| (i, j)));
-                for (number, (i, j)) in places.enumerate() {
-                    let value = output.get(n + number);
-                    matrix[(i, j)] = value;
-                    matrix[(j, i)] = value;
-                }
-                (G::Vector::from_entries(n, |i| output.get(i)), matrix)
-            },
-        )
+    fn vector(&self, program: &Program, p: &DVector<f64>) -> DVector<f64> {
+        DVector::from_vec(program.run(p.as_slice(), &self.slots))
     }
 }
 
-impl<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> GeneratingFunction for Interpreter<'_, G, C> {
+impl<G: Group, C: Chart<G>> GeneratingFunction for Interpreter<'_, G, C> {
     type Group = G;
     type Chart = C;
 
@@ -153,52 +98,57 @@ impl<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> GeneratingFunction for Interp
         &self.group
     }
 
-    fn value(&self, p: &VectorOf<Self>) -> ScalarOf<Self> {
-        self.scalar(&self.integrator.value, p)
+    fn value(&self, p: &DVector<f64>) -> f64 {
+        self.vector(&self.integrator.value, p)[0]
     }
 
-    fn gradient(&self, p: &VectorOf<Self>) -> VectorOf<Self> {
+    fn gradient(&self, p: &DVector<f64>) -> DVector<f64> {
         self.vector(&self.integrator.gradient, p)
     }
 
-    fn gradient_and_hessian(&self, p: &VectorOf<Self>) -> (VectorOf<Self>, MatrixOf<Self>) {
-        match &self.integrator.hessian {
-            Some(program) => self.gradient_and_matrix(program, p),
-            None => (self.gradient(p), hessian_by_differences(self, p)),
+    fn gradient_and_hessian(&self, p: &DVector<f64>) -> (DVector<f64>, DMatrix<f64>) {
+        let Some(program) = &self.integrator.hessian else {
+            return (self.gradient(p), hessian_by_differences(self, p));
+        };
+        let (n, outputs) = (p.len(), self.vector(program, p));
+        let mut matrix = DMatrix::zeros(n, n);
+        // The upper triangle, row by row.
+        let places = (0..n).flat_map(|i| (i..n).map(move |j| (i, j)));
+        for ((i, j), &value) in places.zip(outputs.iter().skip(n)) {
+            matrix[(i, j)] = value;
+            matrix[(j, i)] = value;
         }
+        (outputs.rows(0, n).into_owned(), matrix)
     }
 
-    #[inline(always)]
-    fn frame(&self, motion: usize, mu: &VectorOf<Self>) -> Option<VectorOf<Self>> {
+    fn frame(&self, motion: usize, mu: &DVector<f64>) -> Option<DVector<f64>> {
         self.integrator.frame.get(motion).map(|program| self.vector(program, mu))
     }
 
-    fn radius(&self) -> ScalarOf<Self> {
+    fn radius(&self) -> f64 {
         let square = self.of_series().first().copied().unwrap_or(f64::INFINITY);
-        Scalar::of(if square.is_finite() { square.sqrt() } else { f64::MAX })
+        if square.is_finite() { square.sqrt() } else { f64::MAX }
     }
 
     fn largest_rate(&self) -> f64 {
         self.integrator.largest_rate.unwrap_or(f64::MAX)
     }
 
-    fn series_ratio(&self, p: &VectorOf<Self>) -> ScalarOf<Self> {
+    fn series_ratio(&self, p: &DVector<f64>) -> f64 {
         let (coefficients, truncation) =
             (&self.integrator.coefficients, self.integrator.problem.truncation);
         let values = self.of_series().iter().skip(1);
         let terms =
             coefficients.last_orders(truncation).zip(values).map(|((order, base), &value)| {
-                (Scalar::of(value), order == truncation, coefficients.monomials()[base].as_slice())
+                (value, order == truncation, coefficients.monomials()[base].as_slice())
             });
         let factors = self.integrator.factors();
-        let mut sums = vec![[Scalar::of(0.0); 2]; factors.len()];
+        let mut sums = vec![[0.0; 2]; factors.len()];
         plumbing::ratio_of(factors, terms, &mut sums, |i| p[i])
     }
 }
 
-impl<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> coadjoint::solve::Integrator
-    for Interpreter<'_, G, C>
-{
+impl<G: Group, C: Chart<G>> coadjoint::solve::Integrator for Interpreter<'_, G, C> {
     fn solver(&self) -> Solver {
         match self.integrator.plan.solver {
             problem::Solver::Newton => Solver::Newton,
@@ -206,7 +156,7 @@ impl<G: LieGroup<Scalar: Arithmetic>, C: Chart<G>> coadjoint::solve::Integrator
         }
     }
 
-    fn predict(&self, mu: &VectorOf<Self>) -> VectorOf<Self> {
+    fn predict(&self, mu: &DVector<f64>) -> DVector<f64> {
         cancel::check();
         let guess = self.vector(&self.integrator.predictor, mu);
         match self.integrator.plan.predictor {

@@ -4,25 +4,15 @@ use coadjoint::groups::Chart;
 use coadjoint::steps::{Flows, advance};
 use coadjoint::{Phase, Scalar, StepError};
 use coadjoint_codegen::graph::Program;
-use coadjoint_codegen::integrator::{FoldTable, Integrator, Kick};
-use coadjoint_codegen::potential::{Force, Potential};
+use coadjoint_codegen::integrator::{FoldTable, Integrator, Kick, Kicks};
+use coadjoint_codegen::potential::Force;
 use coadjoint_codegen::problem::values;
-use coadjoint_codegen::system::Splitting;
 use nalgebra::{DMatrix, DVector};
 
 use super::compiled::Solves;
 use super::interpreter::{Interpreter, refusal};
 use super::space::{Group, entries_of};
 use crate::error::kept;
-
-/// The kicks of a potential.
-#[derive(Debug)]
-pub struct Forces {
-    /// Its torque.
-    pub kick: Kick,
-    /// How kicks and flows are composed.
-    pub splitting: Splitting,
-}
 
 /// Makes a step of a state from this time.
 pub(crate) type Map<'a, G> =
@@ -32,13 +22,12 @@ pub(crate) type Map<'a, G> =
 /// where a system has none.
 pub(crate) fn map<'a, G: Group + 'a, C: Chart<G> + Send + Sync + 'a>(
     integrator: &'a Integrator,
-    forces: Option<&'a Forces>,
     group: &G,
     size: f64,
     parameters: &[f64],
 ) -> Result<Map<'a, G>, StepError> {
-    if let Some(forces) = forces {
-        return forces.step::<G, C>(integrator, group, size);
+    if let Some(kicks) = &integrator.kicks {
+        return kicked::<G, C>(integrator, kicks, group, size);
     }
     let step = Interpreter::<G, C>::new(integrator, group.clone(), size, parameters)?;
     Ok(Box::new(move |phase, _| {
@@ -47,39 +36,31 @@ pub(crate) fn map<'a, G: Group + 'a, C: Chart<G> + Send + Sync + 'a>(
     }))
 }
 
-impl Forces {
-    /// Derives the torque.
-    pub(crate) fn new(potential: Potential, splitting: Splitting) -> Self {
-        Self { kick: Kick::build(potential), splitting }
-    }
+/// The longest flow of a step, as a share of it.
+pub(crate) fn longest_flow(kicks: &Kicks) -> f64 {
+    let longer = |longest: f64, part: f64| if part.abs() > longest.abs() { part } else { longest };
+    kicks.splitting.flows().fold(0.0, longer)
+}
 
-    /// The longest flow of a step, as a share of it.
-    pub(crate) fn longest_flow(&self) -> f64 {
-        let longer =
-            |longest: f64, part: f64| if part.abs() > longest.abs() { part } else { longest };
-        self.splitting.flows().fold(0.0, longer)
-    }
-
-    /// The step of flows and kicks.
-    pub(crate) fn step<'a, G: Group + 'a, C: Chart<G> + Send + Sync + 'a>(
-        &'a self,
-        integrator: &'a Integrator,
-        group: &G,
-        step: f64,
-    ) -> Result<Map<'a, G>, StepError> {
-        let torque = Torque::new(&self.kick, group.clone())?;
-        let flow = |part| Interpreter::<G, C>::new(integrator, group.clone(), part, &[]);
-        let flows = Flows::new(self.splitting, step, flow)?;
-        Ok(Box::new(move |phase, time| {
-            let kick = |state: &mut _, time, length| torque.kick(state, time, length);
-            flows.advance(phase, time, kick).map(|()| None)
-        }))
-    }
+/// The step of flows and kicks.
+pub(crate) fn kicked<'a, G: Group + 'a, C: Chart<G> + Send + Sync + 'a>(
+    integrator: &'a Integrator,
+    kicks: &'a Kicks,
+    group: &G,
+    step: f64,
+) -> Result<Map<'a, G>, StepError> {
+    let torque = Torque::new(&kicks.kick, group.clone())?;
+    let flow = |part| Interpreter::<G, C>::new(integrator, group.clone(), part, &[]);
+    let flows = Flows::new(kicks.splitting, step, flow)?;
+    Ok(Box::new(move |phase, time| {
+        let kick = |state: &mut _, time, length| torque.kick(state, time, length);
+        flows.advance(phase, time, kick).map(|()| None)
+    }))
 }
 
 /// The body torque −g⁻¹dV(g) of a potential, or one without, on a run-time group.
 #[derive(Debug)]
-pub struct Torque<'a, G> {
+pub(crate) struct Torque<'a, G> {
     kick: &'a Kick,
     group: G,
     slots: Vec<f64>,
@@ -87,7 +68,7 @@ pub struct Torque<'a, G> {
 
 impl<'a, G: Group> Torque<'a, G> {
     /// Folds the coefficients.
-    pub fn new(kick: &'a Kick, group: G) -> Result<Self, StepError> {
+    pub(crate) fn new(kick: &'a Kick, group: G) -> Result<Self, StepError> {
         let symbols = values(&kick.potential.symbols);
         // No coefficient holds the step size.
         let slots = FoldTable::of_kick(kick).fold(1.0, &symbols);
@@ -99,7 +80,7 @@ impl<'a, G: Group> Torque<'a, G> {
     ///
     /// # Errors
     /// Where an expression in it is not defined.
-    pub fn torque(
+    pub(crate) fn torque(
         &self,
         g: &G::Element,
         mu: &DVector<f64>,
@@ -124,7 +105,12 @@ impl<'a, G: Group> Torque<'a, G> {
     ///
     /// # Errors
     /// As [`Torque::torque`].
-    pub fn kick(&self, state: &mut Phase<G>, time: f64, length: f64) -> Result<(), StepError> {
+    pub(crate) fn kick(
+        &self,
+        state: &mut Phase<G>,
+        time: f64,
+        length: f64,
+    ) -> Result<(), StepError> {
         let Phase { group_element, momentum } = state;
         let kicked = |torque: &DVector<f64>, length| {
             torque.zip_map(momentum, |torque, mu| torque.times_plus(length, mu))

@@ -19,7 +19,7 @@ use super::compiled::Numbers;
 use super::space::Group;
 
 /// Steps whose derivatives are known.
-pub trait Differentiable {
+pub(crate) trait Differentiable {
     /// q, the number of parameters that derivatives are taken in.
     fn parameters(&self) -> usize;
 
@@ -32,7 +32,7 @@ pub trait Differentiable {
 
 /// The derivative of a step, or of several, in the state before it and in the parameters θ.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Linear {
+pub(crate) struct Linear {
     /// ∂(ξ″, ν″)/∂(ξ, ν), 2n×2n.
     pub state: DMatrix<f64>,
     /// ∂(ξ″, ν″)/∂θ, 2n×q.
@@ -53,13 +53,13 @@ pub(super) fn meeting(x: &DVector<f64>) -> StepError {
 
 impl Linear {
     /// That of no step at all.
-    pub fn identity(dim: usize, parameters: usize) -> Self {
+    pub(crate) fn identity(dim: usize, parameters: usize) -> Self {
         let state = DMatrix::identity(2 * dim, 2 * dim);
         Self { state, parameters: DMatrix::zeros(2 * dim, parameters) }
     }
 
     /// That of this step and the next one.
-    pub fn then(&self, next: &Self) -> Self {
+    pub(crate) fn then(&self, next: &Self) -> Self {
         let parameters = &next.state * &self.parameters + &next.parameters;
         Self { state: &next.state * &self.state, parameters }
     }

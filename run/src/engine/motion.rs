@@ -14,7 +14,7 @@ use nalgebra::DVector;
 
 use super::compiled::{Compiled, Folded, Numbers, Solves};
 use super::interpreter::Interpreter;
-use super::kick::{Forces, Map, map};
+use super::kick::{Map, longest_flow, map};
 use super::linear::{Differentiable, Linear};
 use super::space::{Elements, Restore, Space, cayley_group};
 use super::tangent::Tangent;
@@ -22,7 +22,7 @@ use crate::error::RunError;
 use crate::number::maximum;
 
 /// Moves states by steps of one size.
-pub trait Motion: Send + Sync {
+pub(crate) trait Motion: Send + Sync {
     /// The group that the states belong to.
     fn space(&self) -> &dyn Space;
 
@@ -75,7 +75,7 @@ pub trait Motion: Send + Sync {
 }
 
 /// A motion whose parameters may take other values.
-pub trait Varied: Motion {
+pub(crate) trait Varied: Motion {
     /// Takes these values, and what its programs read for them, where it has any.
     fn vary(&mut self, parameters: &[f64], folded: Option<Folded>);
 }
@@ -119,15 +119,20 @@ pub(crate) fn advise(error: StepError, h: f64, mut works: impl FnMut(f64) -> boo
     error
 }
 
-/// The equations of a motion: a flow, kicks where there are forces, and the values of the parameters that are kept.
+/// The equations of a motion: a flow, with kicks where it has some, and the values of the parameters that are kept.
 #[derive(Clone, Debug)]
 pub(crate) struct Equations<'a> {
     /// The flow.
     pub integrator: &'a Integrator,
-    /// The forces.
-    pub forces: Option<&'a Forces>,
     /// The values of the parameters.
     pub parameters: Vec<f64>,
+}
+
+impl Equations<'_> {
+    /// Whether steps depend on the time.
+    fn moves(&self) -> bool {
+        self.integrator.torque().is_some_and(|torque| torque.moves)
+    }
 }
 
 /// A group known at run time, with its chart.
@@ -217,8 +222,8 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Steps<'a, G, C> {
     }
 
     fn map(&self, size: f64) -> Result<Map<'a, G>, StepError> {
-        let Equations { integrator, forces, parameters } = &self.equations;
-        map::<G, C>(integrator, *forces, &self.elements.group, size, parameters)
+        let Equations { integrator, parameters } = &self.equations;
+        map::<G, C>(integrator, &self.elements.group, size, parameters)
     }
 
     /// The error of the next step of a state, with a step size that works there.
@@ -281,7 +286,7 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Motion for Steps<'a, G
     }
 
     fn one_at(&self, state: &mut Numbers, time: f64) -> Result<(), StepError> {
-        if self.equations.forces.is_some_and(|forces| forces.kick.potential.moves()) {
+        if self.equations.moves() {
             *state = self.beside(state, time, self.size)?;
             return Ok(());
         }
@@ -289,13 +294,13 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Motion for Steps<'a, G
     }
 
     fn ratio(&self, mu: &[f64]) -> f64 {
-        let Equations { integrator, forces, parameters } = &self.equations;
+        let Equations { integrator, parameters } = &self.equations;
         let quiet = self.elements.compiled.as_ref().is_some_and(|compiled| compiled.is_quiet(mu));
         if quiet && integrator.largest_rate.is_none() {
             return 0.0;
         }
         let flow = self.flow.get_or_init(|| {
-            let longest = self.size * forces.map_or(1.0, Forces::longest_flow);
+            let longest = self.size * integrator.kicks.as_ref().map_or(1.0, longest_flow);
             let group = (*self.elements.group).clone();
             Interpreter::new(integrator, group, longest, parameters).ok()
         });
@@ -305,13 +310,11 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Motion for Steps<'a, G
 
     /// Of torques without potential no derivatives are known.
     fn differentiable(&self) -> Option<&dyn Differentiable> {
-        let alone =
-            self.equations.forces.is_some_and(|forces| forces.kick.potential.alone().is_some());
-        (!alone).then_some(self)
+        self.equations.integrator.torque().is_none().then_some(self)
     }
 
     fn lanes(&self) -> Option<&Compiled> {
-        let moves = self.equations.forces.is_some_and(|forces| forces.kick.potential.moves());
+        let moves = self.equations.moves();
         self.elements.compiled.as_deref().filter(|_| !moves)
     }
 }
@@ -325,9 +328,9 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Differentiable for Ste
         let tangent = match self.tangent.get() {
             Some(tangent) => tangent,
             None => {
-                let Equations { integrator, forces, parameters } = &self.equations;
+                let Equations { integrator, parameters } = &self.equations;
                 let group: &G = &self.elements.group;
-                let made = Tangent::new(integrator, *forces, group, self.size, parameters)?;
+                let made = Tangent::new(integrator, group, self.size, parameters)?;
                 self.tangent.get_or_init(|| made)
             }
         };

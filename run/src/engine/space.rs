@@ -13,7 +13,7 @@ use super::compiled::{Compiled, Numbers};
 use crate::error::RunError;
 
 /// Groups known at run time.
-pub trait Group:
+pub(crate) trait Group:
     LieGroup<Scalar = f64, Vector = DVector<f64>, Element: Send + Sync> + Send + Sync
 {
 }
@@ -66,7 +66,7 @@ fn matrix_group(path: &Path, algebra: &LieAlgebra) -> Result<MatrixGroup, RunErr
 
 /// Groups whose elements can be put back as they were. Reading a matrix as a user's would straighten
 /// it: other bits.
-pub trait Restore: Group {
+pub(crate) trait Restore: Group {
     /// The element with these entries, all rows and columns; none are checked.
     fn restore(&self, entry: &dyn Fn(usize, usize) -> f64) -> Self::Element;
 }
@@ -97,7 +97,7 @@ pub(crate) fn phase_of<G: Restore>(group: &G, matrix: &[f64], mu: &[f64]) -> Pha
 }
 
 /// A group whose elements are lists of numbers: their matrices, row by row, or what programs make of these.
-pub trait Space {
+pub(crate) trait Space {
     /// The rows of the group's matrices.
     fn size(&self) -> usize;
 
@@ -121,12 +121,12 @@ pub trait Space {
 }
 
 /// The unit matrix with this number of rows, row by row.
-pub fn identity(size: usize) -> Vec<f64> {
+pub(crate) fn identity(size: usize) -> Vec<f64> {
     (0..size * size).map(|at| if at / size == at % size { 1.0 } else { 0.0 }).collect()
 }
 
 /// Elements as programs have them where there are any, else as matrices.
-pub struct Elements<G> {
+pub(crate) struct Elements<G> {
     /// The group.
     pub group: Arc<G>,
     /// The programs, where there are any.
@@ -135,12 +135,12 @@ pub struct Elements<G> {
 
 impl<G: Restore> Elements<G> {
     /// A state as the group has it.
-    pub fn phase(&self, state: &Numbers) -> Phase<G> {
+    pub(crate) fn phase(&self, state: &Numbers) -> Phase<G> {
         phase_of(&*self.group, &self.matrix(&state.g), &state.mu)
     }
 
     /// A state as numbers.
-    pub fn state(&self, phase: &Phase<G>) -> Numbers {
+    pub(crate) fn state(&self, phase: &Phase<G>) -> Numbers {
         let g = self.numbers(&entries_of(&*self.group, &phase.group_element));
         Numbers { g, mu: phase.momentum.as_slice().to_vec() }
     }

@@ -4,13 +4,13 @@ use coadjoint::groups::{Chart, Exponential};
 use coadjoint::solve::solve;
 use coadjoint::{GeneratingFunction, Phase, StepError};
 use coadjoint_codegen::graph::Program;
-use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::integrator::{self, Integrator};
 use coadjoint_program::Argument;
 use nalgebra::{DMatrix, DVector};
 use num_traits::ToPrimitive;
 
 use super::interpreter::{Interpreter, refusal, symbols};
-use super::kick::{Forces, Torque};
+use super::kick::Torque;
 use super::linear::{Linear, columns};
 use super::space::Group;
 
@@ -59,7 +59,6 @@ impl<'a, G: Group + 'a, C: Chart<G>> Tangent<'a, G, C> {
     /// Where a coefficient is not finite.
     pub(crate) fn new(
         integrator: &'a Integrator,
-        forces: Option<&'a Forces>,
         group: &G,
         size: f64,
         parameters: &[f64],
@@ -84,9 +83,10 @@ impl<'a, G: Group + 'a, C: Chart<G>> Tangent<'a, G, C> {
                 (0..parameters.len()).map(by_parameter).collect();
             Ok(Flow { function, by_parameters: by_parameters? })
         };
-        let parts = forces.map_or_else(|| vec![1.0], |forces| forces.splitting.flows().collect());
+        let own = integrator.kicks.as_ref();
+        let parts = own.map_or_else(|| vec![1.0], |kicks| kicks.splitting.flows().collect());
         let flows: Result<Vec<_>, StepError> = parts.into_iter().map(flow).collect();
-        let kicks = forces.map(|forces| Kicks::new(forces, group, size)).transpose()?;
+        let kicks = own.map(|own| Kicks::new(own, group, size)).transpose()?;
         let hessian = push_forward(&integrator.gradient);
         let frame = integrator.frame.iter().map(push_forward).collect();
         Ok(Self { flows: flows?, kicks, hessian, frame })
@@ -152,16 +152,16 @@ fn moved<G: Group, C: Chart<G>>(
 }
 
 impl<'a, G: Group> Kicks<'a, G> {
-    fn new(forces: &'a Forces, group: &G, size: f64) -> Result<Self, StepError> {
-        let torque = Torque::new(&forces.kick, group.clone())?;
+    fn new(own: &'a integrator::Kicks, group: &G, size: f64) -> Result<Self, StepError> {
+        let torque = Torque::new(&own.kick, group.clone())?;
         let generator = |matrix: &coadjoint_codegen::lie::RationalMatrix| {
             DMatrix::from_fn(matrix.rows(), matrix.columns(), |i, j| {
                 matrix.get(i, j).to_f64().unwrap_or(f64::NAN)
             })
         };
-        let generators = forces.kick.potential.algebra.matrices().iter().map(generator).collect();
-        let lengths = forces.splitting.kicks().map(|part| part * size).collect();
-        let slope = push_forward(&forces.kick.torque);
+        let generators = own.kick.potential.algebra.matrices().iter().map(generator).collect();
+        let lengths = own.splitting.kicks().map(|part| part * size).collect();
+        let slope = push_forward(&own.kick.torque);
         Ok(Self { torque, slope, generators, lengths })
     }
 

@@ -39,7 +39,7 @@ pub struct Shape {
 
 impl Shape {
     /// Of the group with this algebra, factor by factor.
-    pub fn of(algebra: &LieAlgebra) -> Self {
+    pub(crate) fn of(algebra: &LieAlgebra) -> Self {
         let matrix_size = algebra.factors().iter().map(LieAlgebra::matrix_size).sum();
         Self { dim: algebra.dim(), matrix_size, quaternions: algebra.name() == "SO3" }
     }

@@ -9,7 +9,7 @@ use coadjoint_codegen::system;
 use crate::engine::{Motion, Numbers, Space};
 
 /// The function of an event: of the time, the matrix of g row by row, and μ. It may say why it has no value.
-pub type Function = dyn Fn(f64, &[f64], &[f64]) -> Result<f64, String> + Send + Sync;
+type Function = dyn Fn(f64, &[f64], &[f64]) -> Result<f64, String> + Send + Sync;
 
 /// The changes of sign that count, in the direction of the run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -101,7 +101,7 @@ impl Lookout<'_> {
     ///
     /// # Errors
     /// The event without a finite value, and its time.
-    pub fn values(&self, time: f64, state: &Numbers) -> Result<Vec<f64>, String> {
+    pub(super) fn values(&self, time: f64, state: &Numbers) -> Result<Vec<f64>, String> {
         self.events.iter().map(|event| value(event, self.motion.space(), time, state)).collect()
     }
 
@@ -136,7 +136,7 @@ impl Lookout<'_> {
     ///
     /// # Errors
     /// Why there is none.
-    pub fn state(&self, start: &Numbers, share: f64) -> Result<Numbers, StepError> {
+    pub(super) fn state(&self, start: &Numbers, share: f64) -> Result<Numbers, StepError> {
         self.motion.beside(start, self.time, share * self.step)
     }
 

@@ -20,12 +20,12 @@ impl Orbit {
     pub(crate) const EVERY: u64 = 8192;
 
     /// The orbit of states with this spatial momentum.
-    pub fn new(algebra: &LieAlgebra, spatial: Vec<f64>) -> Self {
+    pub(super) fn new(algebra: &LieAlgebra, spatial: Vec<f64>) -> Self {
         Self { spatial, factors: algebra.factors().iter().map(LieAlgebra::dim).collect() }
     }
 
     /// Puts the momentum back, factor by factor, where that moves it by rounding.
-    pub fn restore(&self, space: &dyn Space, state: &mut Numbers) {
+    pub(super) fn restore(&self, space: &dyn Space, state: &mut Numbers) {
         let widest = self.factors.iter().copied().max().unwrap_or(0);
         let columns: Vec<Vec<f64>> = (0..widest).map(|k| self.column(space, state, k)).collect();
         let now = space.spatial_momentum(state);

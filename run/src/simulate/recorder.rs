@@ -59,7 +59,7 @@ pub struct Outcome {
 
 /// The quantities that are watched in a run.
 #[derive(Clone, Copy)]
-pub struct Watched<'a> {
+pub(crate) struct Watched<'a> {
     /// The algebra.
     pub algebra: &'a LieAlgebra,
     /// Names of the momentum's coordinates.
@@ -92,7 +92,7 @@ impl Watched<'_> {
 }
 
 /// Watches a run.
-pub struct Recorder<'a> {
+pub(crate) struct Recorder<'a> {
     watched: Watched<'a>,
     blocks: Vec<Block>,
     start: Start,
@@ -103,7 +103,7 @@ pub struct Recorder<'a> {
 
 impl<'a> Recorder<'a> {
     /// Measures drifts against a state, which is the start.
-    pub fn new(watched: Watched<'a>, space: &dyn Space, start: &Numbers) -> Self {
+    pub(crate) fn new(watched: Watched<'a>, space: &dyn Space, start: &Numbers) -> Self {
         let spatial = space.spatial_momentum(start);
         let mut start = watched.invariants.start(&start.mu, &spatial, || space.matrix(&start.g));
         let mut blocks = blocks(watched.algebra, space.size());
@@ -146,7 +146,7 @@ impl<'a> Recorder<'a> {
 
     /// Takes note of the ratio of the last terms of the series in the step from this time. Returns a warning the first time
     /// that it is large.
-    pub fn steep(&mut self, step: u64, time: f64, ratio: f64) -> Option<Warning> {
+    pub(crate) fn steep(&mut self, step: u64, time: f64, ratio: f64) -> Option<Warning> {
         if self.tally.steep.is_some() || ratio <= STEEP {
             return None;
         }
@@ -158,7 +158,7 @@ impl<'a> Recorder<'a> {
     ///
     /// # Errors
     /// The name of a number that is not finite.
-    pub fn visit(
+    pub(crate) fn visit(
         &mut self,
         time: f64,
         space: &dyn Space,
@@ -179,7 +179,7 @@ impl<'a> Recorder<'a> {
     ///
     /// # Errors
     /// The name of a number that is not finite.
-    pub fn measure(&self, space: &dyn Space, state: &Numbers) -> Result<Moment, String> {
+    pub(crate) fn measure(&self, space: &dyn Space, state: &Numbers) -> Result<Moment, String> {
         for (name, value) in self.watched.coordinates.iter().zip(&state.mu) {
             finite(&format_args!("the momentum {name}"), *value)?;
         }
@@ -205,7 +205,7 @@ impl<'a> Recorder<'a> {
     }
 
     /// The entries of the blocks of g, row by row.
-    pub fn entries(&self, space: &dyn Space, state: &Numbers) -> Vec<f64> {
+    pub(crate) fn entries(&self, space: &dyn Space, state: &Numbers) -> Vec<f64> {
         if self.blocks.is_empty() {
             return Vec::new();
         }
@@ -215,7 +215,7 @@ impl<'a> Recorder<'a> {
     }
 
     /// The outcome of the run, which ended at `state`.
-    pub fn finish(
+    pub(crate) fn finish(
         self,
         (steps, time): (u64, f64),
         space: &dyn Space,

@@ -60,7 +60,7 @@ pub fn run(system: &Derived, setup: &Setup, sink: &mut dyn Sink) -> Result<Outco
 
 impl Derived {
     /// The quantities watched in a run.
-    pub fn watched(&self) -> Watched<'_> {
+    pub(crate) fn watched(&self) -> Watched<'_> {
         let Facts { algebra, coordinates, .. } = self.facts();
         Watched { algebra, coordinates, invariants: &self.invariants, attitude: true }
     }

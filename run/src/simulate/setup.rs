@@ -240,7 +240,7 @@ impl Setup {
     ///
     /// # Errors
     /// Where the matrix given is no element of the group.
-    pub fn start(&self, file: &Path, space: &dyn Space) -> Result<Numbers, RunError> {
+    pub(crate) fn start(&self, file: &Path, space: &dyn Space) -> Result<Numbers, RunError> {
         let size = space.size();
         let matrix = match &self.group_element {
             None => identity(size),

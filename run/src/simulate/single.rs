@@ -63,6 +63,11 @@ impl<S: AsRef<Derived>> Single<S> {
         Ok(if far { found } else { matrix.to_vec() })
     }
 
+    /// The ratio of the last two terms of the series at a momentum, where it may be worth a warning; else 0.
+    pub fn ratio(&self, mu: &[f64]) -> f64 {
+        self.motion().map_or(0.0, |motion| motion.ratio(mu))
+    }
+
     /// Makes `steps` steps of the state with this matrix, row by row, and this momentum, in place. The matrix is not
     /// checked.
     ///

@@ -87,7 +87,7 @@ pub struct Resume {
     /// How many of the times asked for are recorded.
     pub times: usize,
     /// The maxima so far.
-    pub tally: Tally,
+    pub(crate) tally: Tally,
 }
 
 /// The receiver of a run's records, asked now and then whether to go on. Methods that it does not need do nothing.

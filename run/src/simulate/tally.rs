@@ -36,7 +36,7 @@ pub struct DriftFields {
 
 /// The maxima and sums so far. Numbers in files are decimals that read back as the same numbers.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
-pub struct Tally {
+pub(crate) struct Tally {
     /// The largest drifts.
     #[serde(with = "DriftFields")]
     pub drift: Drift,

@@ -59,7 +59,7 @@ impl Found {
     }
 
     /// In a few words.
-    pub fn verdict(&self) -> &'static str {
+    pub(crate) fn verdict(&self) -> &'static str {
         match (&self.wrong, self.not_judged) {
             (Some(_), _) => "wrong",
             (None, 0) if self.not_sampled.is_some() => "no row of the sample is wrong",

@@ -147,13 +147,9 @@ impl FoldTable {
     }
 
     /// How many coefficients there are.
+    #[allow(clippy::len_without_is_empty)]
     pub fn len(&self) -> usize {
         self.len
-    }
-
-    /// Whether there is no coefficient.
-    pub fn is_empty(&self) -> bool {
-        self.len == 0
     }
 
     /// The derivatives of the coefficients along a change of the symbols; those of the bound and of the radius, which are

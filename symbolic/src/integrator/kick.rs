@@ -9,7 +9,7 @@ use super::coefficients::{Coefficients, Contribution};
 use super::lower::{collect, value_program, vector_program};
 use crate::graph::Program;
 use crate::number::Rational;
-use crate::potential::{Force, Potential};
+use crate::potential::{Force, Potential, Programs};
 
 /// Everything a back end needs to write or run kicks.
 ///
@@ -73,6 +73,11 @@ pub struct Kicks {
 }
 
 impl Integrator {
+    /// The torque of its kicks, where these have no potential.
+    pub fn torque(&self) -> Option<&Programs> {
+        self.kicks.as_ref()?.kick.potential.alone()
+    }
+
     /// The same with kicks between flows; `None` where the potential has other parameters than the Hamiltonian.
     #[must_use]
     pub fn with_kicks(mut self, kick: Kick, splitting: Splitting) -> Option<Self> {

@@ -52,7 +52,7 @@ fn two_product(a: f64, b: f64) -> (f64, f64) {
 
 impl DoubleDouble {
     /// The number `hi + lo`.
-    pub fn new(hi: f64, lo: f64) -> Self {
+    pub(super) fn new(hi: f64, lo: f64) -> Self {
         let (hi, lo) = two_sum(hi, lo);
         Self { hi, lo }
     }
@@ -63,7 +63,7 @@ impl DoubleDouble {
     }
 
     /// Whether it is neither infinite nor NaN.
-    pub fn is_finite(self) -> bool {
+    pub(super) fn is_finite(self) -> bool {
         self.hi.is_finite() && self.lo.is_finite()
     }
 

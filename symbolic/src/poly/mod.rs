@@ -5,5 +5,5 @@ mod polynomial;
 mod product;
 
 pub(crate) use polynomial::Factors;
-pub use polynomial::{Monomial, Numeric, Polynomial, product as monomial_product, split_at};
+pub use polynomial::{Numeric, Polynomial, product as monomial_product, split_at};
 pub(crate) use product::{Product, SumError, sum_of_products};

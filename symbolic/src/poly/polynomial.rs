@@ -178,13 +178,9 @@ impl Polynomial {
     }
 
     /// The number of terms.
+    #[allow(clippy::len_without_is_empty)]
     pub fn len(&self) -> usize {
         self.keys.len()
-    }
-
-    /// Whether there are no terms; the same as [`is_zero`](Self::is_zero).
-    pub fn is_empty(&self) -> bool {
-        self.is_zero()
     }
 
     /// The number of 64-bit words of the largest numerator; one for machine integers.
@@ -462,7 +458,7 @@ impl Key for Factors {
 }
 
 /// Factors (variable, exponent), ascending by variable.
-pub type Monomial = [(u32, u32)];
+type Monomial = [(u32, u32)];
 
 /// The product of two monomials.
 pub fn product(a: &Monomial, b: &Monomial) -> Vec<(u32, u32)> {

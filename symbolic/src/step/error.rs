@@ -3,7 +3,7 @@
 use coadjoint_program::ProgramError;
 
 /// Groups by tables whose step would have more operations than this have no programs.
-pub const MOST_OF_TABLES: usize = 1_000_000;
+pub(crate) const MOST_OF_TABLES: usize = 1_000_000;
 
 /// Why a step is not made of straight-line programs.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

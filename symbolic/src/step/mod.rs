@@ -38,7 +38,8 @@ use motion::{Motion, Plane};
 use product::{Memory, Part, Product, Translations};
 
 pub use drift::{Conserved, Drift, Energy, Invariants, PotentialEnergy, Scales, Start, nudge};
-pub use error::{MOST_OF_TABLES, StepError};
+pub(crate) use error::MOST_OF_TABLES;
+pub use error::StepError;
 #[cfg(feature = "spatial")]
 pub use spatial::Spatial;
 
@@ -159,8 +160,7 @@ impl Step {
         let fold = FoldTable::placed(integrator, |at| (at <= radius_at).then_some(at));
         let symbols = integrator.problem.symbols.iter().map(|symbol| symbol.expr.clone()).collect();
         let splitting = integrator.kicks.as_ref().map(|kicks| kicks.splitting);
-        let moving = integrator.kicks.as_ref().map(|kicks| &kicks.kick.potential);
-        let moving = moving.and_then(|potential| potential.alone()).filter(|torque| torque.moves);
+        let moving = integrator.torque().filter(|torque| torque.moves);
         let moving = moving.map(|torque| Moving {
             first: radius_at + 2,
             times: Vec::new(),
