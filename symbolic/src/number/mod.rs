@@ -3,7 +3,7 @@
 mod coefficients;
 mod field;
 
-pub(crate) use coefficients::{Coefficients, Sum, Words, bits, lcm};
+pub(crate) use coefficients::{Coefficients, bits, lcm};
 pub(crate) use field::{Field, Residue, reconstruct};
 
 /// An exact rational number, always in lowest terms with a positive denominator.

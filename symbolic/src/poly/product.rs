@@ -5,7 +5,7 @@ use num_integer::Integer;
 use num_traits::{One, ToPrimitive, Zero};
 
 use crate::cancel;
-use crate::number::{Coefficients, Rational, Sum, Words, bits, lcm};
+use crate::number::{Coefficients, Rational, bits, lcm};
 use crate::poly::polynomial::{Factors, Key, Keys, Polynomial};
 
 /// Why a sum was not computed.
@@ -76,76 +76,40 @@ fn run<K: Key>(
         return Ok((keys, Coefficients::small(values, plan.denominator)));
     }
     let plan = LargePlan::new(products);
-    let (keys, values) = match plan.bits {
-        0..=255 => wide::<K, 4>(products, &plan, keys, limit)?,
-        256..=383 => wide::<K, 6>(products, &plan, keys, limit)?,
-        384..=511 => wide::<K, 8>(products, &plan, keys, limit)?,
-        512..=1023 => wide::<K, 16>(products, &plan, keys, limit)?,
-        _ => {
-            let operands: Vec<(Vec<BigInt>, Vec<BigInt>)> = products
-                .iter()
-                .map(|p| (p.left.values.numerators(), p.right.values.numerators()))
-                .collect();
-            let lists: Vec<(BigInt, &[BigInt], &[BigInt])> = operands
-                .iter()
-                .zip(&plan.factors)
-                .map(|((a, b), factor)| (factor.clone(), a.as_slice(), b.as_slice()))
-                .collect();
-            accumulate::<K, BigInt>(keys, &lists, limit)?
-        }
-    };
-    Ok((keys, Coefficients::big(values, plan.denominator)))
-}
-
-/// The sum in integers of N words, which the plan says suffice.
-fn wide<K: Key, const N: usize>(
-    products: &[&Product<'_>],
-    plan: &LargePlan,
-    keys: &[(&[K], &[K])],
-    limit: usize,
-) -> Result<(Vec<K>, Vec<BigInt>), usize> {
-    let words = |values: &Coefficients| -> Vec<Words<N>> {
-        match values {
-            Coefficients::Small { numerators, .. } => {
-                numerators.iter().map(|&n| Words::from_small(n)).collect()
-            }
-            Coefficients::Big { numerators, .. } => numerators.iter().map(Words::new).collect(),
-        }
-    };
-    let operands: Vec<(Vec<Words<N>>, Vec<Words<N>>)> =
-        products.iter().map(|p| (words(&p.left.values), words(&p.right.values))).collect();
-    let lists: Vec<(Words<N>, &[Words<N>], &[Words<N>])> = operands
+    let operands: Vec<(Vec<BigInt>, Vec<BigInt>)> = products
+        .iter()
+        .map(|p| (p.left.values.numerators(), p.right.values.numerators()))
+        .collect();
+    let lists: Vec<(BigInt, &[BigInt], &[BigInt])> = operands
         .iter()
         .zip(&plan.factors)
-        .map(|((a, b), factor)| (Words::new(factor), a.as_slice(), b.as_slice()))
+        .map(|((a, b), factor)| (factor.clone(), a.as_slice(), b.as_slice()))
         .collect();
-    let (keys, sums) = accumulate::<K, Words<N>>(keys, &lists, limit)?;
-    Ok((keys, sums.into_iter().map(Sum::to_integer).collect()))
+    let (keys, values) = accumulate::<K, BigInt>(keys, &lists, limit)?;
+    Ok((keys, Coefficients::big(values, plan.denominator)))
 }
 
 /// The arithmetic of one kind of integer.
 pub(super) trait Number: Sized {
-    type Sum;
     fn times(&self, other: &Self) -> Self;
-    fn add_product(sum: &mut Self::Sum, left: &Self, right: &Self);
-    fn vanishes(sum: &Self::Sum) -> bool;
-    fn nothing() -> Self::Sum;
+    fn add_product(&mut self, left: &Self, right: &Self);
+    fn vanishes(&self) -> bool;
+    fn nothing() -> Self;
 }
 
 impl Number for i128 {
-    type Sum = Self;
     // The plan bounds every sum, so wrapping operations never wrap.
     #[inline(always)]
     fn times(&self, other: &Self) -> Self {
         self.wrapping_mul(*other)
     }
     #[inline(always)]
-    fn add_product(sum: &mut Self, left: &Self, right: &Self) {
-        *sum = sum.wrapping_add(left.wrapping_mul(*right));
+    fn add_product(&mut self, left: &Self, right: &Self) {
+        *self = self.wrapping_add(left.wrapping_mul(*right));
     }
     #[inline(always)]
-    fn vanishes(sum: &Self) -> bool {
-        *sum == 0
+    fn vanishes(&self) -> bool {
+        *self == 0
     }
     #[inline(always)]
     fn nothing() -> Self {
@@ -153,33 +117,15 @@ impl Number for i128 {
     }
 }
 
-impl<const N: usize> Number for Words<N> {
-    type Sum = Sum<N>;
-    fn times(&self, other: &Self) -> Self {
-        self.times(other)
-    }
-    #[inline(always)]
-    fn add_product(sum: &mut Sum<N>, left: &Self, right: &Self) {
-        sum.add_product(left, right);
-    }
-    fn vanishes(sum: &Sum<N>) -> bool {
-        sum.vanishes()
-    }
-    fn nothing() -> Sum<N> {
-        Sum::nothing()
-    }
-}
-
 impl Number for BigInt {
-    type Sum = Self;
     fn times(&self, other: &Self) -> Self {
         self * other
     }
-    fn add_product(sum: &mut Self, left: &Self, right: &Self) {
-        *sum += left * right;
+    fn add_product(&mut self, left: &Self, right: &Self) {
+        *self += left * right;
     }
-    fn vanishes(sum: &Self) -> bool {
-        sum.is_zero()
+    fn vanishes(&self) -> bool {
+        self.is_zero()
     }
     fn nothing() -> Self {
         Self::zero()
@@ -192,10 +138,10 @@ pub(super) fn accumulate<K: Key, N: Number>(
     keys: &[(&[K], &[K])],
     numbers: &[(N, &[N], &[N])],
     limit: usize,
-) -> Result<(Vec<K>, Vec<N::Sum>), usize> {
+) -> Result<(Vec<K>, Vec<N>), usize> {
     let expected = keys.iter().map(|(a, b)| a.len() + b.len()).max().unwrap_or(0);
     let mut table = Table::new(expected);
-    let mut sums: Vec<N::Sum> = Vec::with_capacity(expected);
+    let mut sums: Vec<N> = Vec::with_capacity(expected);
     let mut index = 0;
     while index < keys.len() {
         let (left_keys, right_keys) = keys[index];
@@ -210,7 +156,7 @@ pub(super) fn accumulate<K: Key, N: Number>(
                 if place == sums.len() {
                     sums.push(N::nothing());
                 }
-                N::add_product(&mut sums.as_mut_slice()[place], &scaled, &right[j]);
+                sums.as_mut_slice()[place].add_product(&scaled, &right[j]);
                 j += 1;
             }
             // Checked once a row: cancellation may still bring the count down, but memory is
@@ -226,10 +172,10 @@ pub(super) fn accumulate<K: Key, N: Number>(
 }
 
 /// Drops zeros and sorts keys descending.
-fn sort<K: Key, N: Number>(keys: Vec<K>, sums: Vec<N::Sum>) -> (Vec<K>, Vec<N::Sum>) {
-    let mut terms: Vec<(K, N::Sum)> = Vec::with_capacity(keys.len());
+fn sort<K: Key, N: Number>(keys: Vec<K>, sums: Vec<N>) -> (Vec<K>, Vec<N>) {
+    let mut terms: Vec<(K, N)> = Vec::with_capacity(keys.len());
     for (key, sum) in keys.into_iter().zip(sums) {
-        if !N::vanishes(&sum) {
+        if !sum.vanishes() {
             terms.push((key, sum));
         }
     }
@@ -288,15 +234,14 @@ impl SmallPlan {
     }
 }
 
-/// As [`SmallPlan`], with big integers, and the bits of the largest possible sum.
-pub(super) struct LargePlan {
-    pub(super) denominator: BigInt,
-    pub(super) factors: Vec<BigInt>,
-    pub(super) bits: u64,
+/// As [`SmallPlan`], with big integers.
+struct LargePlan {
+    denominator: BigInt,
+    factors: Vec<BigInt>,
 }
 
 impl LargePlan {
-    pub(super) fn new(products: &[&Product<'_>]) -> Self {
+    fn new(products: &[&Product<'_>]) -> Self {
         let mut denominator = BigInt::one();
         let mut parts = Vec::with_capacity(products.len());
         for product in products {
@@ -308,17 +253,11 @@ impl LargePlan {
             }
             parts.push(part);
         }
-        let mut factors = Vec::with_capacity(products.len());
-        let (mut bits, mut contributions) = (0, 0);
-        for (product, part) in products.iter().zip(parts) {
-            let factor = product.factor.numer() * (&denominator / part);
-            let size = factor.bits() + product.left.values.bits() + product.right.values.bits();
-            bits = size.max(bits);
-            contributions += product.left.len().min(product.right.len()) as u64;
-            factors.push(factor);
-        }
-        bits += u64::from(u64::BITS - contributions.leading_zeros());
-        Self { denominator, factors, bits }
+        let factor = |(product, part): (&&Product<'_>, BigInt)| {
+            product.factor.numer() * (&denominator / part)
+        };
+        let factors = products.iter().zip(parts).map(factor).collect();
+        Self { denominator, factors }
     }
 }
 
