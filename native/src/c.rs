@@ -158,23 +158,58 @@ impl Compiler {
         command
     }
 
+    /// Runs a command until it ends, the time limit passes or it is to stop. Neither it nor its children outlive this
+    /// process. Its outputs go through files in `folder`: a pipe would stay open as long as anything that the command
+    /// started.
     fn run(&self, mut command: Command, limit: Duration, folder: &Path) -> Result<(), NativeError> {
-        let compiler = self.name();
-        let finished =
-            run(&mut command, limit, &self.stop, folder).map_err(|fault| match fault {
-                Fault::Start(source) => NativeError::Start { compiler: compiler.clone(), source },
-                Fault::Output(source) => NativeError::Write { path: folder.to_owned(), source },
-                Fault::Stopped => NativeError::Stopped { compiler: compiler.clone() },
-                Fault::TimedOut => NativeError::TimedOut {
-                    compiler: compiler.clone(),
-                    seconds: limit.as_secs_f64(),
-                },
-            })?;
-        if finished.status.success() {
+        let started = |source| NativeError::Start { compiler: self.name(), source };
+        let kept = |source| NativeError::Write { path: folder.to_owned(), source };
+        let (output, errors) = (folder.join("output"), folder.join("errors"));
+        let create = |path: &Path| File::create(path).map_err(kept);
+        command.stdin(Stdio::null()).stdout(create(&output)?).stderr(create(&errors)?);
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        let mut child = command.spawn().map_err(started)?;
+        let watcher = Watcher::new(child.id());
+        let status = self.wait(&mut child, limit);
+        drop(watcher);
+        let status = status?;
+        if status.success() {
             return Ok(());
         }
-        let message = first_errors(&format!("{}\n{}", finished.errors, finished.output));
-        Err(NativeError::Failed { compiler, status: finished.status.to_string(), message })
+        let mut log = String::new();
+        for path in [errors, output] {
+            let bytes = std::fs::read(path).map_err(kept)?;
+            log += &String::from_utf8_lossy(&bytes);
+            log.push('\n');
+        }
+        let (status, message) = (status.to_string(), first_errors(&log));
+        Err(NativeError::Failed { compiler: self.name(), status, message })
+    }
+
+    /// How a command ended; where it passes the time limit or is to stop, it is ended with the processes it started.
+    fn wait(&self, child: &mut Child, limit: Duration) -> Result<ExitStatus, NativeError> {
+        let compiler = self.name();
+        let start = Instant::now();
+        let mut pause = Duration::from_micros(500);
+        loop {
+            match child.try_wait() {
+                Ok(Some(status)) => return Ok(status),
+                Ok(None) => {}
+                Err(source) => return Err(NativeError::Start { compiler, source }),
+            }
+            let left = limit.saturating_sub(start.elapsed());
+            if self.stop.load(Ordering::Relaxed) {
+                end(child);
+                return Err(NativeError::Stopped { compiler });
+            }
+            if left.is_zero() {
+                end(child);
+                return Err(NativeError::TimedOut { compiler, seconds: limit.as_secs_f64() });
+            }
+            std::thread::sleep(pause.min(left));
+            pause = (pause * 3 / 2).min(Duration::from_millis(5));
+        }
     }
 }
 
@@ -186,52 +221,6 @@ fn split(command: &OsStr) -> (OsString, Vec<OsString>) {
         Some(program) => (program, words.collect()),
         None => (command.to_owned(), Vec::new()),
     }
-}
-
-/// Why a command has no result.
-#[derive(Debug)]
-enum Fault {
-    /// It could not be started.
-    Start(std::io::Error),
-    /// Its output cannot be kept.
-    Output(std::io::Error),
-    /// It exceeded its time limit; it and the processes it had started were ended.
-    TimedOut,
-    /// It was stopped on request, with the processes it had started.
-    Stopped,
-}
-
-/// How a command ended, and what it wrote to its outputs, the error output last.
-struct Finished {
-    pub status: ExitStatus,
-    pub output: String,
-    pub errors: String,
-}
-
-/// Runs a command until it ends, the time limit passes or `stop` is set. Neither it nor its children outlive this process.
-/// Its outputs go through files in `folder`: a pipe would stay open as long
-/// as anything that the command started.
-fn run(
-    command: &mut Command,
-    limit: Duration,
-    stop: &AtomicBool,
-    folder: &Path,
-) -> Result<Finished, Fault> {
-    let (output, errors) = (folder.join("output"), folder.join("errors"));
-    let create = |path: &Path| File::create(path).map_err(Fault::Output);
-    command.stdin(Stdio::null()).stdout(create(&output)?).stderr(create(&errors)?);
-    #[cfg(unix)]
-    std::os::unix::process::CommandExt::process_group(command, 0);
-    let mut child = command.spawn().map_err(Fault::Start)?;
-    let watcher = Watcher::new(child.id());
-    let status = wait(&mut child, limit, stop);
-    drop(watcher);
-    let status = status?;
-    let read = |path: &Path| {
-        let bytes = std::fs::read(path).map_err(Fault::Output)?;
-        Ok(String::from_utf8_lossy(&bytes).into_owned())
-    };
-    Ok(Finished { status, output: read(&output)?, errors: read(&errors)? })
 }
 
 /// A shell that ends a group of processes when this process ends, in whatever way: its input is closed then.
@@ -257,24 +246,6 @@ impl Drop for Watcher {
     fn drop(&mut self) {
         let _ = self.0.kill();
         let _ = self.0.wait();
-    }
-}
-
-fn wait(child: &mut Child, limit: Duration, stop: &AtomicBool) -> Result<ExitStatus, Fault> {
-    let start = Instant::now();
-    let mut pause = Duration::from_micros(500);
-    loop {
-        if let Some(status) = child.try_wait().map_err(Fault::Start)? {
-            return Ok(status);
-        }
-        let left = limit.saturating_sub(start.elapsed());
-        let stopped = stop.load(Ordering::Relaxed);
-        if left.is_zero() || stopped {
-            end(child);
-            return Err(if stopped { Fault::Stopped } else { Fault::TimedOut });
-        }
-        std::thread::sleep(pause.min(left));
-        pause = (pause * 3 / 2).min(Duration::from_millis(5));
     }
 }
 

@@ -11,12 +11,12 @@ use coadjoint_program::{Kernel, Outcome, Stepper, WIDTH};
 
 /// Up to `steps` steps of one trajectory: (slots, g, μ, steps, report) ↦ steps made. The report is two numbers: the largest
 /// number of corrections and the largest residual.
-pub type AdvanceFunction =
+pub(crate) type AdvanceFunction =
     unsafe extern "C" fn(*const f64, *mut f64, *mut f64, u64, *mut f64) -> u64;
 
 /// The same for [`WIDTH`] trajectories side by side: (slots, g, μ, steps, live, steps made). Number i of trajectory r is
 /// at `i * WIDTH + r`; `live` holds a byte for each lane, 0 for those that stay.
-pub type LanesFunction =
+pub(crate) type LanesFunction =
     unsafe extern "C" fn(*const f64, *mut f64, *mut f64, u64, *const u8, *mut u64);
 
 /// A compiled step, ready to be called from any thread. What was not compiled of it is interpreted.

@@ -12,5 +12,5 @@ pub mod jit;
 mod library;
 
 pub use c::{COptions, Native};
-pub use entry::{AdvanceFunction, Entry, LanesFunction};
+pub use entry::Entry;
 pub use error::NativeError;

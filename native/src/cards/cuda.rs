@@ -15,7 +15,7 @@ use cudarc::driver::{
 };
 use cudarc::nvrtc::Ptx;
 
-use super::machine::{Array, Call, Fault, Machine, Opened, Room};
+use super::machine::{Array, Arrays, Call, Fault, Machine, Opened, Room};
 use super::nvrtc;
 use super::{Device, DeviceError};
 
@@ -62,7 +62,7 @@ pub(crate) fn open(device: Device, kernel: &Kernel, slots: &[f64]) -> Result<Ope
     let module = call.done("loaded the kernel", module)?;
     let function = call.done("looked for the kernel", module.load_function(KERNEL_NAME))?;
     let stream = context.default_stream();
-    let machine = Cuda { call, stream, function, arrays: None };
+    let machine = Cuda { call, stream, function, arrays: Arrays::default() };
     // Not all of the free memory is ours.
     let memory = (memory / 10 * 9, u64::MAX);
     Ok(Opened { machine: Box::new(machine), name, processor: false, memory })
@@ -79,42 +79,34 @@ struct Cuda {
     call: Call,
     stream: Arc<CudaStream>,
     function: CudaFunction,
-    arrays: Option<([CudaSlice<u8>; 4], [usize; 4])>,
+    arrays: Arrays<CudaSlice<u8>>,
 }
 
 impl Machine for Cuda {
     fn reserve(&mut self, bytes: [usize; 4]) -> Result<(), Room> {
-        if self.arrays.as_ref().is_some_and(|(_, now)| *now == bytes) {
-            return Ok(());
-        }
-        self.arrays = None;
-        let make = |bytes: usize| self.call.room("made room", self.stream.alloc_zeros::<u8>(bytes));
-        let [a, b, c, d] = bytes;
-        self.arrays = Some(([make(a)?, make(b)?, make(c)?, make(d)?], bytes));
+        let (call, stream) = (self.call, &self.stream);
+        self.arrays
+            .reserve(bytes, |bytes| call.room("made room", stream.alloc_zeros::<u8>(bytes)))?;
         self.call.room("made room", self.stream.synchronize())
     }
 
     fn write(&mut self, array: Array, bytes: &[u8]) -> Result<(), Room> {
-        let Some((arrays, lengths)) = &mut self.arrays else { return Err(Room::Short) };
-        let bytes = &bytes[..bytes.len().min(lengths[array as usize])];
-        let written = self.stream.memcpy_htod(bytes, &mut arrays[array as usize]);
+        let Some((to, length)) = self.arrays.get(array) else { return Err(Room::Short) };
+        let written = self.stream.memcpy_htod(&bytes[..bytes.len().min(length)], to);
         self.call.room("took numbers", written)?;
         self.call.room("took numbers", self.stream.synchronize())
     }
 
     fn read(&mut self, array: Array, bytes: &mut [u8]) -> Result<(), DeviceError> {
-        let Some((arrays, lengths)) = &self.arrays else { return Ok(()) };
-        let length = bytes.len().min(lengths[array as usize]);
-        let from = arrays[array as usize].slice(..length);
-        let read = self.stream.memcpy_dtoh(&from, &mut bytes[..length]);
+        let Some((from, length)) = self.arrays.get(array) else { return Ok(()) };
+        let length = bytes.len().min(length);
+        let read = self.stream.memcpy_dtoh(&from.slice(..length), &mut bytes[..length]);
         self.call.done("gave numbers", read)?;
         self.call.done("gave numbers", self.stream.synchronize())
     }
 
     fn launch(&mut self, rows: u64, target: u64) -> Result<(), Room> {
-        let Some(([element, momentum, done, status], _)) = &mut self.arrays else {
-            return Err(Room::Short);
-        };
+        let [element, momentum, done, status] = self.arrays.all()?;
         let blocks = u32::try_from(rows.div_ceil(u64::from(BLOCK))).unwrap_or(u32::MAX);
         let shape = LaunchConfig {
             grid_dim: (blocks, 1, 1),

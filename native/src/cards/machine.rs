@@ -2,7 +2,7 @@
 
 use crate::cards::DeviceError;
 #[cfg(any(feature = "opencl", feature = "cuda"))]
-pub(crate) use calls::{Call, Fault};
+pub(crate) use calls::{Arrays, Call, Fault};
 
 /// The arrays of a piece of rows on a device, in the order of the kernel's arguments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,13 +39,49 @@ impl From<DeviceError> for Room {
 /// The errors of a toolkit's calls as those of a device.
 #[cfg(any(feature = "opencl", feature = "cuda"))]
 mod calls {
-    use super::{DeviceError, Room};
+    use super::{Array, DeviceError, Room};
     use crate::cards::Device;
 
     /// An error of a toolkit.
     pub(crate) trait Fault: std::fmt::Display {
         /// Whether memory was short.
         fn is_short(&self) -> bool;
+    }
+
+    /// The arrays in a device's memory, and their lengths in bytes.
+    pub(crate) struct Arrays<B>(Option<([B; 4], [usize; 4])>);
+
+    impl<B> Default for Arrays<B> {
+        fn default() -> Self {
+            Self(None)
+        }
+    }
+
+    impl<B> Arrays<B> {
+        /// Replaces the arrays, unless they have these lengths already.
+        pub(crate) fn reserve(
+            &mut self,
+            bytes: [usize; 4],
+            make: impl Fn(usize) -> Result<B, Room>,
+        ) -> Result<(), Room> {
+            if self.0.as_ref().is_none_or(|(_, now)| *now != bytes) {
+                self.0 = None;
+                let [a, b, c, d] = bytes;
+                self.0 = Some(([make(a)?, make(b)?, make(c)?, make(d)?], bytes));
+            }
+            Ok(())
+        }
+
+        /// An array, and its length.
+        pub(crate) fn get(&mut self, array: Array) -> Option<(&mut B, usize)> {
+            let (arrays, lengths) = self.0.as_mut()?;
+            Some((&mut arrays[array as usize], lengths[array as usize]))
+        }
+
+        /// All of them, in the order of the kernel's arguments.
+        pub(crate) fn all(&mut self) -> Result<&mut [B; 4], Room> {
+            self.0.as_mut().map(|(arrays, _)| arrays).ok_or(Room::Short)
+        }
     }
 
     /// Calls to this device.

@@ -22,7 +22,7 @@ use std::str::FromStr;
 pub use card::Card;
 #[cfg(feature = "cuda")]
 pub use nvrtc::{Compiled, compile};
-pub use piece::{Advanced, Redo, Refused, Row, Status};
+pub use piece::{Advanced, Refused, Row, Status};
 
 /// How a device is reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

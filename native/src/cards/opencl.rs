@@ -27,7 +27,7 @@ use opencl3::platform::get_platforms;
 use opencl3::program::Program;
 use opencl3::types::{CL_BLOCKING, cl_mem};
 
-use super::machine::{Array, Call, Fault, Machine, Opened, Room};
+use super::machine::{Array, Arrays, Call, Fault, Machine, Opened, Room};
 use crate::cards::{Device, DeviceError};
 use crate::error::first_errors;
 
@@ -61,7 +61,8 @@ pub(crate) fn open(device: Device, kernel: &Kernel, slots: &[f64]) -> Result<Ope
     // A driver that does not know leaves it to the allocations.
     let memory = [memory.0, memory.1].map(|bytes| if bytes == 0 { u64::MAX } else { bytes });
     let processor = found.dev_type().is_ok_and(|it| it & CL_DEVICE_TYPE_GPU == 0);
-    let machine = OpenCl { call, queue, compiled, arrays: None, context, _program: program };
+    let arrays = Arrays::default();
+    let machine = OpenCl { call, queue, compiled, arrays, context, _program: program };
     // Not all of the memory is ours.
     let memory = (memory[0] / 4 * 3, memory[1]);
     Ok(Opened { machine: Box::new(machine), name, processor, memory })
@@ -135,62 +136,44 @@ struct OpenCl {
     call: Call,
     queue: CommandQueue,
     compiled: Compiled,
-    arrays: Option<([Buffer<u8>; 4], [usize; 4])>,
+    arrays: Arrays<Buffer<u8>>,
     context: Context,
     _program: Program,
 }
 
-impl OpenCl {
-    fn array(&mut self, array: Array) -> Option<(&mut Buffer<u8>, usize)> {
-        let (arrays, bytes) = self.arrays.as_mut()?;
-        Some((&mut arrays[array as usize], bytes[array as usize]))
-    }
-}
-
 impl Machine for OpenCl {
     fn reserve(&mut self, bytes: [usize; 4]) -> Result<(), Room> {
-        if self.arrays.as_ref().is_some_and(|(_, now)| *now == bytes) {
-            return Ok(());
-        }
-        self.arrays = None;
-        let make = |bytes: usize| {
+        let (call, context) = (self.call, &self.context);
+        self.arrays.reserve(bytes, |bytes| {
             // SAFETY: no memory of ours is handed over.
-            let buffer = unsafe {
-                Buffer::<u8>::create(&self.context, CL_MEM_READ_WRITE, bytes, ptr::null_mut())
-            };
-            self.call.room("made room", buffer)
-        };
-        let [a, b, c, d] = bytes;
-        self.arrays = Some(([make(a)?, make(b)?, make(c)?, make(d)?], bytes));
-        Ok(())
+            let buffer =
+                unsafe { Buffer::<u8>::create(context, CL_MEM_READ_WRITE, bytes, ptr::null_mut()) };
+            call.room("made room", buffer)
+        })
     }
 
     fn write(&mut self, array: Array, bytes: &[u8]) -> Result<(), Room> {
-        let call = self.call;
-        let Some((buffer, length)) = self.array(array) else { return Err(Room::Short) };
+        let Some((to, length)) = self.arrays.get(array) else { return Err(Room::Short) };
         let bytes = &bytes[..bytes.len().min(length)];
-        let buffer: *mut Buffer<u8> = buffer;
-        // SAFETY: the array is as long as the bytes, and the call waits until they are read. The pointer is to the
-        // array of this very machine, which nothing else touches here.
-        let written =
-            unsafe { self.queue.enqueue_write_buffer(&mut *buffer, CL_BLOCKING, 0, bytes, &[]) };
-        call.room("took numbers", written).map(|_| ())
+        // SAFETY: the array is as long as the bytes, and the call waits until they are read.
+        let written = unsafe { self.queue.enqueue_write_buffer(to, CL_BLOCKING, 0, bytes, &[]) };
+        self.call.room("took numbers", written).map(|_| ())
     }
 
     fn read(&mut self, array: Array, bytes: &mut [u8]) -> Result<(), DeviceError> {
-        let Some((arrays, lengths)) = &self.arrays else { return Ok(()) };
-        let length = bytes.len().min(lengths[array as usize]);
-        let (buffer, bytes) = (&arrays[array as usize], &mut bytes[..length]);
+        let Some((from, length)) = self.arrays.get(array) else { return Ok(()) };
+        let length = bytes.len().min(length);
+        let bytes = &mut bytes[..length];
         // SAFETY: the array is as long as the bytes, and the call waits until they are written.
-        let read = unsafe { self.queue.enqueue_read_buffer(buffer, CL_BLOCKING, 0, bytes, &[]) };
+        let read = unsafe { self.queue.enqueue_read_buffer(from, CL_BLOCKING, 0, bytes, &[]) };
         self.call.done("gave numbers", read).map(|_| ())
     }
 
     fn launch(&mut self, rows: u64, target: u64) -> Result<(), Room> {
-        let Some((arrays, _)) = &self.arrays else { return Err(Room::Short) };
+        let arrays = self.arrays.all()?;
         let kernel = &self.compiled;
         let set = || -> Result<(), ClError> {
-            for (place, buffer) in (0_u32..).zip(arrays) {
+            for (place, buffer) in (0_u32..).zip(arrays.iter()) {
                 let memory: cl_mem = buffer.get();
                 // SAFETY: the kernel's first four arguments are arrays.
                 unsafe { kernel.set_arg(place, &memory) }?;

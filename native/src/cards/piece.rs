@@ -274,7 +274,7 @@ pub struct Refused<'a> {
 
 /// Makes the steps that threads have refused: it is given the rows, and the step that it has to move them to, or end
 /// them.
-pub type Redo<'a> = dyn FnMut(&mut [Refused<'_>], u64) + 'a;
+type Redo<'a> = dyn FnMut(&mut [Refused<'_>], u64) + 'a;
 
 /// The outcome of `Card::advance`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
