@@ -43,7 +43,7 @@ pub fn lookup(text: &str) -> Result<LieAlgebra, CatalogueError> {
     let algebra = parser.product()?;
     match parser.next() {
         None => Ok(algebra),
-        Some(token) => Err(parser.syntax("`*`, `^`, `|x` or the end", Some(&token))),
+        Some(_) => Err(parser.syntax("`*`, `^`, `|x` or the end")),
     }
 }
 
@@ -313,84 +313,58 @@ impl CatalogueError {
 /// The most dimensions of a product.
 const LARGEST_DIMENSION: usize = 8192;
 
-#[derive(Clone, Debug, PartialEq)]
-enum Token {
-    Name(String),
-    Count(usize),
-    Times,
-    Semidirect,
-    Power,
-    Open,
-    Close,
-}
-
-fn tokens(text: &str) -> Result<Vec<Token>, CatalogueError> {
-    let characters: Vec<char> = text.chars().collect();
+/// The tokens of a text; `×` as `*`, and `⋉` as `|x`.
+fn tokens(text: &str) -> Result<Vec<&str>, CatalogueError> {
+    let length =
+        |rest: &str, inside: fn(char) -> bool| rest.find(|c| !inside(c)).unwrap_or(rest.len());
     let mut tokens = Vec::new();
-    let mut at = 0;
-    while at < characters.len() {
-        let c = characters[at];
-        let token = match c {
-            c if c.is_whitespace() => {
-                at += 1;
-                continue;
-            }
-            '*' | '×' => Token::Times,
-            '^' => Token::Power,
-            '⋉' => Token::Semidirect,
+    let mut rest = text.trim_start();
+    while let Some(first) = rest.chars().next() {
+        let (token, end) = match first {
+            '*' | '^' | '(' | ')' => (&rest[..1], 1),
+            '×' => ("*", '×'.len_utf8()),
+            '⋉' => ("|x", '⋉'.len_utf8()),
             // Rust tokens written out may have a space between: `| x`.
-            '|' => match end_of(&characters, at + 1, char::is_whitespace) {
-                x if characters.get(x) == Some(&'x') => {
-                    at = x;
-                    Token::Semidirect
-                }
-                _ => return Err(stray(text, c)),
-            },
-            '(' => Token::Open,
-            ')' => Token::Close,
-            c if c.is_ascii_digit() => {
-                let end = end_of(&characters, at, |c| c.is_ascii_digit());
-                let digits: String = characters[at..end].iter().collect();
-                at = end - 1;
-                match digits.parse() {
-                    Ok(count) if count <= LARGEST_DIMENSION => Token::Count(count),
-                    _ => return Err(too_large(text)),
+            '|' if rest[1..].trim_start().starts_with('x') => {
+                ("|x", rest.len() - rest[1..].trim_start().len() + 1)
+            }
+            _ if first.is_ascii_digit() => {
+                let end = length(rest, |c| c.is_ascii_digit());
+                if rest[..end].parse().is_ok_and(|count: usize| count <= LARGEST_DIMENSION) {
+                    (&rest[..end], end)
+                } else {
+                    return Err(too_large(text));
                 }
             }
-            c if c.is_alphanumeric() || c == '_' => {
-                let mut end = end_of(&characters, at, |c| c.is_alphanumeric() || c == '_');
+            _ if in_name(first) => {
+                let name = length(rest, in_name);
                 // `SO(3)` and `SL(2,R)`: the parenthesis belongs to the name.
-                if characters.get(end) == Some(&'(')
-                    && characters.get(end + 1).is_some_and(char::is_ascii_digit)
-                    && let Some(length) = characters[end..].iter().position(|&c| c == ')')
-                {
-                    end += length + 1;
-                }
-                let name = characters[at..end].iter().collect();
-                at = end - 1;
-                Token::Name(name)
+                let argument = rest[name..].strip_prefix('(');
+                let argument =
+                    argument.filter(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
+                let end = argument.and_then(|rest| rest.find(')')).map_or(name, |at| name + at + 2);
+                (&rest[..end], end)
             }
-            other => return Err(stray(text, other)),
+            other => {
+                return Err(CatalogueError::Syntax {
+                    text: text.into(),
+                    expected: "a group, `*`, `^`, `|x` or parentheses",
+                    found: format!("`{other}`"),
+                });
+            }
         };
         tokens.push(token);
-        at += 1;
+        rest = rest[end..].trim_start();
     }
     Ok(tokens)
 }
 
-fn stray(text: &str, found: char) -> CatalogueError {
-    CatalogueError::Syntax {
-        text: text.into(),
-        expected: "a group, `*`, `^`, `|x` or parentheses",
-        found: format!("`{found}`"),
-    }
+fn in_name(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
 }
 
-fn end_of(characters: &[char], from: usize, inside: impl Fn(char) -> bool) -> usize {
-    characters[from..]
-        .iter()
-        .position(|&c| !inside(c))
-        .map_or(characters.len(), |length| from + length)
+fn is_name(token: &str) -> bool {
+    token.starts_with(|c: char| in_name(c) && !c.is_ascii_digit())
 }
 
 fn too_large(name: &str) -> CatalogueError {
@@ -399,7 +373,7 @@ fn too_large(name: &str) -> CatalogueError {
 
 struct Parser<'a> {
     text: &'a str,
-    tokens: Vec<Token>,
+    tokens: Vec<&'a str>,
     at: usize,
     depth: usize,
 }
@@ -407,36 +381,28 @@ struct Parser<'a> {
 // product = semidirect { ("*" | "×") semidirect }
 // semidirect = power { ("|x" | "⋉") space [ "^" count ] }
 // power = ( name | "(" product ")" ) [ "^" count ]
-impl Parser<'_> {
-    fn next(&mut self) -> Option<Token> {
-        let token = self.tokens.get(self.at).cloned();
+impl<'a> Parser<'a> {
+    fn next(&mut self) -> Option<&'a str> {
         self.at += 1;
-        token
+        self.tokens.get(self.at - 1).copied()
     }
 
-    fn take(&mut self, token: &Token) -> bool {
-        let found = self.tokens.get(self.at) == Some(token);
+    fn take(&mut self, token: &str) -> bool {
+        let found = self.tokens.get(self.at) == Some(&token);
         self.at += usize::from(found);
         found
     }
 
-    fn syntax(&self, expected: &'static str, found: Option<&Token>) -> CatalogueError {
-        let found = match found {
-            None => "the end".to_owned(),
-            Some(Token::Name(name)) => format!("`{name}`"),
-            Some(Token::Count(count)) => format!("`{count}`"),
-            Some(Token::Times) => "`*`".to_owned(),
-            Some(Token::Semidirect) => "`|x`".to_owned(),
-            Some(Token::Power) => "`^`".to_owned(),
-            Some(Token::Open) => "`(`".to_owned(),
-            Some(Token::Close) => "`)`".to_owned(),
-        };
+    /// The token that was taken last is another one than was expected.
+    fn syntax(&self, expected: &'static str) -> CatalogueError {
+        let found = self.tokens.get(self.at - 1);
+        let found = found.map_or("the end".to_owned(), |token| format!("`{token}`"));
         CatalogueError::Syntax { text: self.text.into(), expected, found }
     }
 
     fn product(&mut self) -> Result<LieAlgebra, CatalogueError> {
         let mut factors = vec![self.semidirect()?];
-        while self.take(&Token::Times) {
+        while self.take("*") {
             factors.push(self.semidirect()?);
         }
         if factors.iter().map(LieAlgebra::dim).sum::<usize>() > LARGEST_DIMENSION {
@@ -450,13 +416,12 @@ impl Parser<'_> {
 
     fn semidirect(&mut self) -> Result<LieAlgebra, CatalogueError> {
         let mut algebra = self.power()?;
-        while self.take(&Token::Semidirect) {
-            let space = match self.next() {
-                Some(Token::Name(name)) => name,
-                other => return Err(self.syntax("a space such as R3 or Sym3", other.as_ref())),
+        while self.take("|x") {
+            let Some(space) = self.next().filter(|token| is_name(token)) else {
+                return Err(self.syntax("a space such as R3 or Sym3"));
             };
             let copies = self.exponent()?.unwrap_or(1);
-            algebra = self.extend(&algebra, &space, copies)?;
+            algebra = self.extend(&algebra, space, copies)?;
         }
         Ok(algebra)
     }
@@ -498,17 +463,17 @@ impl Parser<'_> {
 
     fn power(&mut self) -> Result<LieAlgebra, CatalogueError> {
         let base = match self.next() {
-            Some(Token::Name(name)) => group(&name)?,
-            Some(Token::Open) if self.depth < 32 => {
+            Some(name) if is_name(name) => group(name)?,
+            Some("(") if self.depth < 32 => {
                 self.depth += 1;
                 let inner = self.product()?;
                 self.depth -= 1;
-                match self.next() {
-                    Some(Token::Close) => inner,
-                    other => return Err(self.syntax("`)`", other.as_ref())),
+                if self.next() != Some(")") {
+                    return Err(self.syntax("`)`"));
                 }
+                inner
             }
-            other => return Err(self.syntax("a group such as SO3", other.as_ref())),
+            _ => return Err(self.syntax("a group such as SO3")),
         };
         match self.exponent()? {
             None => Ok(base),
@@ -520,12 +485,12 @@ impl Parser<'_> {
     }
 
     fn exponent(&mut self) -> Result<Option<usize>, CatalogueError> {
-        if !self.take(&Token::Power) {
+        if !self.take("^") {
             return Ok(None);
         }
-        match self.next() {
-            Some(Token::Count(count)) if count > 0 => Ok(Some(count)),
-            other => Err(self.syntax("a positive whole number", other.as_ref())),
+        match self.next().map(str::parse) {
+            Some(Ok(count)) if count > 0 => Ok(Some(count)),
+            _ => Err(self.syntax("a positive whole number")),
         }
     }
 }
