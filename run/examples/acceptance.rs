@@ -9,8 +9,9 @@ use std::sync::Arc;
 
 use coadjoint_codegen::lie::catalogue;
 use coadjoint_codegen::step::Energy;
+use coadjoint_codegen::system::Options;
 use coadjoint_run::simulate::Single;
-use coadjoint_run::{Backend, Derived, STEEP, read};
+use coadjoint_run::{Backend, Derived, STEEP, read_varying};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -212,7 +213,8 @@ fn rows(name: &str, compact: bool, truncation: usize, rows: usize, seed: u64) ->
     let text = format!(
         "group = \"{name}\"\nhamiltonian = \"{energy}\"\n[integrator]\ntruncation = {truncation}\n"
     );
-    let system = read(name, &text).map_err(|error| said(&error))?;
+    let system = read_varying(name, &text, Options::default(), &[]);
+    let system = system.map_err(|error| said(&error))?;
     let energy_of = Energy::new(&system.problem);
     let derived = Arc::new(Derived::of(system).map_err(|error| said(&error))?);
     let (structure, factors) = (algebra.constants(), algebra.factor_of_coordinates());

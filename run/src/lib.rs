@@ -24,7 +24,7 @@ pub use engine::STEEP;
 pub use error::RunError;
 pub use inputs::{inputs_files, inputs_hash};
 pub use load::{
-    Derived, Expansion, System, learned, polynomial, read, read_given, read_group, read_varying,
+    Derived, Expansion, System, learned, polynomial, read_given, read_group, read_varying,
 };
 
 /// The SHA-256 of a text in hexadecimal digits.

@@ -27,15 +27,7 @@ use crate::inputs;
 /// A system as its file has it, its Hamiltonian a polynomial or another smooth function.
 pub type System = system::System<Hamiltonian>;
 
-/// Reads the text of a system file as it stands; `name` is what mistakes call it.
-///
-/// # Errors
-/// All mistakes, rendered.
-pub fn read(name: &str, text: &str) -> Result<System, RunError> {
-    read_varying(name, text, Options::default(), &[])
-}
-
-/// Reads the text of a system file where the parameters with these names vary.
+/// Reads the text of a system file where the parameters with these names vary; `name` is what mistakes call it.
 ///
 /// # Errors
 /// All mistakes, rendered.

@@ -15,7 +15,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use crate::hamilton_jacobi::{TermLimit, derive};
-use crate::lie::{Chart, Echelon, LieAlgebra, casimirs};
+use crate::lie::{Chart, LieAlgebra, casimirs, null_space};
 use crate::number::Rational;
 use crate::poly::{Polynomial, split_at};
 
@@ -237,9 +237,6 @@ fn coefficient(hamiltonian: &Polynomial, momenta: &[(u32, u32)], dim: usize) -> 
     Polynomial::from_factors(hamiltonian.variables(), terms.collect::<Vec<_>>())
 }
 
-/// The maximum number of multiplications in an elimination.
-const OPERATIONS: u64 = 10_000_000;
-
 /// Coordinates of an element of the algebra.
 pub(super) type Element = Vec<Rational>;
 
@@ -260,20 +257,7 @@ pub(super) fn linear_integrals(algebra: &LieAlgebra, hamiltonian: &Polynomial) -
     let mut rows: Vec<_> = equations.into_values().collect();
     // Short equations first keep the others short.
     rows.sort_by_key(BTreeMap::len);
-    let mut echelon = Echelon::new(OPERATIONS);
-    let mut rank = 0;
-    for row in rows {
-        rank += usize::from(echelon.insert(row).is_some());
-        if rank == dim || echelon.within_limit().is_err() {
-            return Vec::new();
-        }
-    }
-    let dense = |vector: BTreeMap<u32, Rational>| {
-        let entry = |i| vector.get(&(i as u32)).cloned().unwrap_or_else(Rational::zero);
-        (0..dim).map(entry).collect()
-    };
-    let kernel = echelon.kernel(dim as u32).unwrap_or_default();
-    kernel.into_iter().map(dense).collect()
+    null_space(rows, dim)
 }
 
 /// ⟨μ, η⟩ in this many variables.

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use coadjoint_program::{Argument, Graph, Id, Program};
 use num_traits::{ToPrimitive, Zero};
 
-use crate::lie::{Echelon, LieAlgebra, RationalMatrix};
+use crate::lie::{LieAlgebra, RationalMatrix, null_space};
 use crate::number::{Rational, integer};
 use crate::poly::{Numeric, Polynomial};
 use crate::problem::{Parameter, Symbol, values};
@@ -194,8 +194,8 @@ impl Potential {
     }
 }
 
-/// The maximum number of multiplications in an elimination.
-const OPERATIONS: u64 = 10_000_000;
+/// Multiplications in making elements at most.
+const OPERATIONS: usize = 100_000_000;
 /// The size of rounding in sums that vanish, relative to their terms.
 const ROUNDING: f64 = 1e-10;
 /// Terms of an exponential.
@@ -240,20 +240,7 @@ impl Potential {
                 rows.entry(exponents).or_default().insert(k as u32, value);
             }
         }
-        let mut echelon = Echelon::new(OPERATIONS);
-        for row in rows.into_values() {
-            echelon.insert(row);
-        }
-        if echelon.within_limit().is_err() {
-            return Vec::new();
-        }
-        let dense = |vector: BTreeMap<u32, Rational>| {
-            let entry = |k: usize| vector.get(&(k as u32)).cloned().unwrap_or_else(Rational::zero);
-            (0..slopes.len()).map(entry).collect()
-        };
-        echelon
-            .kernel(slopes.len() as u32)
-            .map_or_else(|_| Vec::new(), |kernel| kernel.into_iter().map(dense).collect())
+        null_space(rows.into_values(), slopes.len())
     }
 
     /// Whether kicks conserve this function C of the momentum: Σ_k ∂C/∂μ_k τ_k = 0 for all μ and g, τ the body torque; where
@@ -332,7 +319,7 @@ impl Potential {
     /// Random elements of the group, row by row; none where they would take long.
     fn elements(&self, generators: &[Vec<f64>], count: usize) -> Vec<Vec<f64>> {
         let size = self.size();
-        if (count * TERMS * size.pow(3)) as u64 > 10 * OPERATIONS {
+        if count * TERMS * size.pow(3) > OPERATIONS {
             return Vec::new();
         }
         let mut random = random();

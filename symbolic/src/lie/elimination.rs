@@ -99,6 +99,30 @@ impl<F: Field> Echelon<F> {
     }
 }
 
+/// Multiplications in a search for vectors at most.
+const OPERATIONS: u64 = 10_000_000;
+
+/// A basis of the vectors in `dim` coordinates that all rows take to zero, in reduced echelon form; empty where that is too
+/// much work to find.
+pub(crate) fn null_space(
+    rows: impl IntoIterator<Item = BTreeMap<u32, Rational>>,
+    dim: usize,
+) -> Vec<Vec<Rational>> {
+    let mut echelon = Echelon::new(OPERATIONS);
+    let mut rank = 0;
+    for row in rows {
+        rank += usize::from(echelon.insert(row).is_some());
+        if rank == dim || echelon.within_limit().is_err() {
+            return Vec::new();
+        }
+    }
+    let dense = |vector: BTreeMap<u32, Rational>| {
+        let entry = |i: usize| vector.get(&(i as u32)).cloned().unwrap_or_else(|| integer(0));
+        (0..dim).map(entry).collect()
+    };
+    echelon.kernel(dim as u32).unwrap_or_default().into_iter().map(dense).collect()
+}
+
 fn subtract<F: Field>(row: &mut BTreeMap<u32, F>, other: &BTreeMap<u32, F>, factor: &F) {
     for (column, value) in other {
         let slot = row.entry(*column).or_insert_with(F::zero);

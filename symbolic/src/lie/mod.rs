@@ -14,5 +14,5 @@ pub use chart::{Chart, ChartError};
 pub use matrix::RationalMatrix;
 
 pub(crate) use chart::{CubicEntry, cubic};
-pub(crate) use elimination::{Echelon, Span};
+pub(crate) use elimination::{Echelon, Span, null_space};
 pub(crate) use factors::symmetric_square;

@@ -54,16 +54,13 @@ pub enum Energy {
 }
 
 impl Energy {
-    /// A polynomial without parameters.
-    pub fn of_polynomial(problem: &Problem) -> Self {
-        let Problem { hamiltonian, algebra, symbols, .. } = problem;
-        Self::Polynomial(Numeric::new(hamiltonian, algebra.dim(), &values(symbols)))
-    }
-
     /// A Hamiltonian; a smooth one with the values that its input gives the parameters.
     pub fn new(hamiltonian: &Hamiltonian) -> Self {
         match hamiltonian {
-            Hamiltonian::Polynomial(problem) => Self::of_polynomial(problem),
+            Hamiltonian::Polynomial(problem) => {
+                let Problem { hamiltonian, algebra, symbols, .. } = &**problem;
+                Self::Polynomial(Numeric::new(hamiltonian, algebra.dim(), &values(symbols)))
+            }
             Hamiltonian::Smooth(smooth) => {
                 Self::Smooth(smooth.clone(), smooth.symbols_at(&smooth.facts().defaults()))
             }
@@ -87,7 +84,7 @@ impl Energy {
     }
 
     /// ∂H/∂μ in `dim` coordinates; at time 0 where it moves in time.
-    pub fn gradient(&self, dim: usize) -> Gradient<'_> {
+    pub fn gradient(&self, dim: usize) -> Box<dyn Fn(&[f64]) -> Vec<f64> + '_> {
         match self {
             Self::Polynomial(polynomial) => {
                 let slopes = polynomial.gradient(dim);
@@ -97,9 +94,6 @@ impl Energy {
         }
     }
 }
-
-/// The gradient of a function of the momentum.
-pub type Gradient<'a> = Box<dyn Fn(&[f64]) -> Vec<f64> + 'a>;
 
 /// The quantities that a motion conserves, as functions of its states.
 #[derive(Clone, Debug, Default)]
@@ -127,7 +121,7 @@ pub enum PotentialEnergy {
 
 impl PotentialEnergy {
     /// V(g).
-    pub fn value(&self, g: &[f64]) -> f64 {
+    fn value(&self, g: &[f64]) -> f64 {
         match self {
             Self::Polynomial(polynomial) => polynomial.value(g),
             Self::Smooth(program, slots) => {
@@ -137,7 +131,7 @@ impl PotentialEnergy {
     }
 
     /// The sum of the absolute values of a polynomial's terms; of other functions the absolute value.
-    pub fn magnitude(&self, g: &[f64]) -> f64 {
+    fn magnitude(&self, g: &[f64]) -> f64 {
         match self {
             Self::Polynomial(polynomial) => polynomial.magnitude(g),
             Self::Smooth(..) => self.value(g).abs(),

@@ -47,11 +47,11 @@ fn alternating(k: usize, n: usize) -> f64 {
     if k.is_multiple_of(2) { 1.0 / factorial } else { -1.0 / factorial }
 }
 
-/// For what a step conserves and solves.
-const ROUNDING: f64 = 1e-17;
+/// The truncation allowed in the equation of a step and in what it conserves, relative to the first term.
+pub(crate) const ROUNDING: f64 = 1e-17;
 
-/// For derivatives, which only Newton's method uses.
-const NEWTON: f64 = 1e-10;
+/// The same for derivatives, which only Newton's method uses.
+pub(crate) const NEWTON: f64 = 1e-10;
 
 /// The functions of θ² = t that rotations need, for angles up to a limit.
 #[derive(Clone, Copy, Debug)]
@@ -83,16 +83,16 @@ impl Angle {
         self.exact(graph, |k| alternating(k, 2 * k + 3))
     }
 
-    /// 2 db/dt, by which b changes with θ²/2, to what `accuracy` asks for.
-    pub(crate) fn b_slope(self, graph: &Graph, accuracy: Accuracy) -> Id {
+    /// 2 db/dt, by which b changes with θ²/2, up to `accuracy`.
+    pub(crate) fn b_slope(self, graph: &Graph, accuracy: f64) -> Id {
         let coefficient = |k: usize| (2 * (k + 1)) as f64 * alternating(k + 1, 2 * k + 4);
-        series(graph, self.t, self.reach, accuracy.left_out(), coefficient)
+        series(graph, self.t, self.reach, accuracy, coefficient)
     }
 
-    /// 2 dc/dt, to what `accuracy` asks for.
-    pub(crate) fn c_slope(self, graph: &Graph, accuracy: Accuracy) -> Id {
+    /// 2 dc/dt, up to `accuracy`.
+    pub(crate) fn c_slope(self, graph: &Graph, accuracy: f64) -> Id {
         let coefficient = |k: usize| (2 * (k + 1)) as f64 * alternating(k + 1, 2 * k + 5);
-        series(graph, self.t, self.reach, accuracy.left_out(), coefficient)
+        series(graph, self.t, self.reach, accuracy, coefficient)
     }
 
     /// 4 d²b/dt², for Newton's method.
@@ -109,25 +109,6 @@ impl Angle {
 
     fn exact(self, graph: &Graph, coefficient: impl Fn(usize) -> f64) -> Id {
         series(graph, self.t, self.reach, ROUNDING, coefficient)
-    }
-}
-
-/// The use of a function.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Accuracy {
-    /// The equation of a step, or what it conserves.
-    Rounding,
-    /// A derivative for Newton's method.
-    Newton,
-}
-
-impl Accuracy {
-    /// The truncation error allowed, relative to the first term.
-    pub(crate) fn left_out(self) -> f64 {
-        match self {
-            Self::Rounding => ROUNDING,
-            Self::Newton => NEWTON,
-        }
     }
 }
 

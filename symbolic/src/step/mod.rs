@@ -74,7 +74,13 @@ impl<'a> Origin<'a> {
     /// [`StepError`] where it has none.
     pub fn step(self, precision: Precision) -> Result<Step, StepError> {
         match self {
-            Self::Series(integrator) => Step::build_in(integrator, precision),
+            Self::Series(integrator) => {
+                if precision == Precision::Single && !integrator.frame.is_empty() {
+                    return Err(StepError::SingleFrame);
+                }
+                let step = Step::build(integrator)?;
+                Ok(Step { kernel: step.kernel.in_precision(precision), ..step })
+            }
             Self::Collocation(smooth) => Step::by_collocation(smooth, precision),
         }
     }
@@ -121,18 +127,6 @@ impl Step {
     /// [`StepError`] where the step has no straight-line programs.
     pub fn build(integrator: &Integrator) -> Result<Self, StepError> {
         Self::on(integrator, &integrator.problem.algebra.factors())
-    }
-
-    /// The same in numbers of this precision, whose rounding says what is solved, accepted and sound.
-    ///
-    /// # Errors
-    /// [`StepError`] where the step has no straight-line programs in this precision.
-    pub fn build_in(integrator: &Integrator, precision: Precision) -> Result<Self, StepError> {
-        if precision == Precision::Single && !integrator.frame.is_empty() {
-            return Err(StepError::SingleFrame);
-        }
-        let step = Self::build(integrator)?;
-        Ok(Self { kernel: step.kernel.in_precision(precision), ..step })
     }
 
     /// The same where group elements are matrices in the representation of the basis, also those of a product.

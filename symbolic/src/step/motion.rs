@@ -2,7 +2,7 @@
 
 use crate::graph::{Graph, Id};
 use crate::lie::Chart;
-use crate::step::entire::{Accuracy, Angle, WideAngle};
+use crate::step::entire::{Angle, ROUNDING, WideAngle};
 use crate::step::product::{Moved, Part};
 use crate::step::rotation::{
     Dexp, QUARTER_TURN, Rotation, bernoulli, compose, dexp_transpose, dexp_with_derivative,
@@ -180,7 +180,7 @@ impl Part for Motion {
         let (omega, v, pi, gamma) = (three(x, 0), three(x, 3), three(mu, 0), three(mu, 3));
         let angle = Self::angle(&omega, graph);
         // The derivative of Γ's part enters p itself: to rounding.
-        let k = Dexp::new(graph, angle, Accuracy::Rounding);
+        let k = Dexp::new(graph, angle, ROUNDING);
         let angular = dexp_transpose(graph, k.b, k.c, &omega, &pi);
         let (linear, slope) = dexp_with_derivative(graph, &k, &omega, &gamma);
         join(&sum(graph, &angular, &three(&slope.apply(graph, &v), 0)), &linear)
@@ -196,7 +196,7 @@ impl Part for Motion {
         }
         let (omega, v, pi, gamma) = (three(x, 0), three(x, 3), three(mu, 0), three(mu, 3));
         let angle = Self::angle(&omega, graph);
-        let k = Dexp::new(graph, angle, Accuracy::Rounding);
+        let k = Dexp::new(graph, angle, ROUNDING);
         let curvature = (angle.b_curvature(graph), angle.c_curvature(graph));
         let (angular, angular_slope) = dexp_with_derivative(graph, &k, &omega, &pi);
         let (linear, slope) = dexp_with_derivative(graph, &k, &omega, &gamma);

@@ -4,7 +4,7 @@ use coadjoint_program::collocation::BETA;
 
 use crate::graph::{Graph, Id};
 use crate::lie::Chart;
-use crate::step::entire::{Accuracy, Angle, WideAngle, series};
+use crate::step::entire::{Angle, NEWTON, WideAngle, series};
 use crate::step::product::{ESTIMATED, Moved, Part};
 use crate::step::vector::{Matrix, V3, cross, dot, minus, plus, scaled, three};
 
@@ -30,7 +30,7 @@ pub(crate) struct Dexp {
 
 impl Dexp {
     /// The four functions.
-    pub(crate) fn new(graph: &Graph, angle: Angle, slopes: Accuracy) -> Self {
+    pub(crate) fn new(graph: &Graph, angle: Angle, slopes: f64) -> Self {
         Self {
             b: angle.b(graph),
             c: angle.c(graph),
@@ -201,7 +201,7 @@ impl Part for Rotation {
         let (half, quarter, one) = (graph.constant(0.5), graph.constant(0.25), graph.constant(1.0));
         match self.chart {
             Chart::Exponential => {
-                let k = Dexp::new(graph, self.angle(graph, &x), Accuracy::Newton);
+                let k = Dexp::new(graph, self.angle(graph, &x), NEWTON);
                 let (value, derivative) = dexp_with_derivative(graph, &k, &x, &mu);
                 (value.to_vec(), derivative)
             }

@@ -6,7 +6,7 @@
 
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::step::{Step, StepError};
+use coadjoint_codegen::step::{Origin, Step, StepError};
 use coadjoint_codegen::system::{Options, read};
 use coadjoint_native::cards::{
     Advanced, Api, Card, Device, DeviceError, Refused, Row, Status, compile,
@@ -55,7 +55,7 @@ fn momentum(n: usize, size: f64, seed: usize) -> Vec<f64> {
 
 fn ready(text: &str, truncation: usize, h: f64, precision: Precision) -> Ready {
     let integrator = integrator(text, truncation);
-    let step = Step::build_in(&integrator, precision).unwrap();
+    let step = Origin::Series(&integrator).step(precision).unwrap();
     let slots = unlimited(&step, h);
     Ready { name: format!("{}, {precision}", integrator.problem.name), step, slots }
 }
@@ -388,7 +388,7 @@ fn single_precision_keeps_the_laws_to_its_rounding() {
 #[test]
 fn a_comoving_frame_in_single_precision_is_refused() {
     let integrator = integrator(FRAMED, 7);
-    let refused = Step::build_in(&integrator, Precision::Single).unwrap_err();
+    let refused = Origin::Series(&integrator).step(Precision::Single).unwrap_err();
     assert_eq!(refused, StepError::SingleFrame);
 }
 
