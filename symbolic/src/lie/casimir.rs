@@ -2,11 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use num_traits::Zero;
+
 use crate::cancel;
 use crate::lie::LieAlgebra;
-use crate::lie::elimination::{Echelon, Exceeded};
-use crate::number::{Field, Rational, Residue, integer, reconstruct};
-use crate::poly::{Polynomial, Product, sum_of_products};
+use crate::lie::elimination::{Echelon, Exceeded, Row};
+use crate::number::{Rational, integer};
+use crate::poly::Polynomial;
 
 /// Generators of the polynomial Casimirs of degree at most `degree`: every Casimir up to that
 /// degree is a polynomial in them, and none is a polynomial in the others.
@@ -111,7 +113,7 @@ fn numbering<'a>(polynomials: impl Iterator<Item = &'a Polynomial>) -> BTreeMap<
     monomials
 }
 
-fn row(monomials: &BTreeMap<Monomial, u32>, polynomial: &Polynomial) -> BTreeMap<u32, Rational> {
+fn row(monomials: &BTreeMap<Monomial, u32>, polynomial: &Polynomial) -> Row {
     let terms = polynomial.factors();
     terms.filter_map(|(f, value)| Some((*monomials.get(&Monomial(f))?, value))).collect()
 }
@@ -143,38 +145,16 @@ fn products(variables: usize, generators: &[Polynomial], degree: u32) -> Vec<Pol
 }
 
 /// A basis in reduced echelon form by leading monomials.
-///
-/// The linear system is solved modulo a prime, the solutions are lifted to rationals and checked
-/// exactly. As many solutions modulo a prime as checked solutions means that none is missing,
-/// because a rank can only fall modulo a prime. Should the lifting fail, the system is solved over
-/// the rationals.
 pub(super) fn of_degree(
     algebra: &LieAlgebra,
     degree: u32,
 ) -> Result<Vec<Polynomial>, CasimirError> {
     let monomials = monomials(algebra.dim(), degree);
-    let fail = |Exceeded| CasimirError::TooMuchWork {
+    let kernel = kernel(algebra, &monomials).map_err(|Exceeded| CasimirError::TooMuchWork {
         algebra: algebra.name().into(),
         degree,
         limit: OPERATIONS,
-    };
-    if let Some(kernel) = kernel::<Residue>(algebra, &monomials) {
-        let kernel = kernel.map_err(fail)?;
-        let lifted: Option<Vec<Polynomial>> = kernel
-            .iter()
-            .map(|vector| {
-                let lifted: Option<BTreeMap<u32, Rational>> =
-                    vector.iter().map(|(c, value)| Some((*c, reconstruct(*value)?))).collect();
-                let candidate = polynomial(algebra, &monomials, &lifted?);
-                is_casimir(algebra, &candidate).then_some(candidate)
-            })
-            .collect();
-        if let Some(lifted) = lifted {
-            return Ok(lifted);
-        }
-    }
-    let kernel = kernel::<Rational>(algebra, &monomials).unwrap_or_else(|| Ok(Vec::new()));
-    let kernel = kernel.map_err(fail)?;
+    })?;
     Ok(kernel.iter().map(|vector| polynomial(algebra, &monomials, vector)).collect())
 }
 
@@ -253,23 +233,17 @@ fn generating_subset(algebra: &LieAlgebra) -> BTreeSet<usize> {
     chosen
 }
 
-/// The kernel of C ↦ ({C, μ_j})_j; None if a structure constant has no image in the field.
-#[allow(clippy::type_complexity)]
-fn kernel<F: Field>(
-    algebra: &LieAlgebra,
-    monomials: &[Vec<u32>],
-) -> Option<Result<Vec<BTreeMap<u32, F>>, Exceeded>> {
+/// The kernel of C ↦ ({C, μ_j})_j.
+fn kernel(algebra: &LieAlgebra, monomials: &[Vec<u32>]) -> Result<Vec<Row>, Exceeded> {
     // {C, ·} is a derivation of the bracket, so it vanishes on what generates the algebra or not at
     // all, and fewer equations do.
     let generating = generating_subset(algebra);
-    let mut structure: BTreeMap<u32, Vec<(u32, u32, F)>> = BTreeMap::new();
+    let mut structure: BTreeMap<u32, Vec<(u32, u32, &Rational)>> = BTreeMap::new();
     for c in algebra.structure().iter().filter(|c| generating.contains(&c.j)) {
-        let value = F::from_rational(&c.value)?;
-        structure.entry(c.i as u32).or_default().push((c.j as u32, c.k as u32, value));
+        structure.entry(c.i as u32).or_default().push((c.j as u32, c.k as u32, &c.value));
     }
     // One equation for each j and each monomial of {C, μ_j} = −Σ_i,l ∂_iC c_ij^l μ_l.
-    let mut equations: BTreeMap<(u32, Vec<u32>), BTreeMap<u32, F>> = BTreeMap::new();
-    let minus = F::one().negated();
+    let mut equations: BTreeMap<(u32, Vec<u32>), Row> = BTreeMap::new();
     for (column, monomial) in monomials.iter().enumerate() {
         cancel::check();
         for place in 0..monomial.len() {
@@ -279,56 +253,33 @@ fn kernel<F: Field>(
                 image[place] = *l;
                 image.sort_unstable();
                 let equation = equations.entry((*j, image)).or_default();
-                let slot = equation.entry(column as u32).or_insert_with(F::zero);
-                slot.minus_product(&minus, value);
+                let slot = equation.entry(column as u32).or_insert_with(Rational::zero);
+                *slot += *value;
                 if slot.is_zero() {
                     equation.remove(&(column as u32));
                 }
             }
         }
     }
-    let mut rows: Vec<BTreeMap<u32, F>> = equations.into_values().collect();
+    let mut rows: Vec<Row> = equations.into_values().collect();
     // Short equations first keep the others short.
     rows.sort_by_key(BTreeMap::len);
     let mut echelon = Echelon::new(OPERATIONS);
     for row in rows {
         echelon.insert(row);
-        if let Err(exceeded) = echelon.within_limit() {
-            return Some(Err(exceeded));
-        }
+        echelon.within_limit()?;
     }
-    Some(echelon.kernel(monomials.len() as u32).map(|mut kernel| {
-        kernel.reverse();
-        kernel
-    }))
+    let mut kernel = echelon.kernel(monomials.len() as u32)?;
+    kernel.reverse();
+    Ok(kernel)
 }
 
-fn polynomial(
-    algebra: &LieAlgebra,
-    monomials: &[Vec<u32>],
-    vector: &BTreeMap<u32, Rational>,
-) -> Polynomial {
+fn polynomial(algebra: &LieAlgebra, monomials: &[Vec<u32>], vector: &Row) -> Polynomial {
     let terms = vector.iter().map(|(column, value)| {
         let factors = monomials[*column as usize].iter().map(|&variable| (variable, 1));
         (factors.collect(), value.clone())
     });
     Polynomial::from_factors(algebra.dim(), terms)
-}
-
-/// Whether {C, μ_j} = 0 for all j, exactly.
-fn is_casimir(algebra: &LieAlgebra, candidate: &Polynomial) -> bool {
-    let n = algebra.dim();
-    let gradient = candidate.gradient(n);
-    let momenta: Vec<Polynomial> = (0..n).map(|i| Polynomial::variable(n, i)).collect();
-    let mut brackets: Vec<Vec<Product<'_>>> = (0..n).map(|_| Vec::new()).collect();
-    for c in algebra.structure() {
-        brackets[c.j].push(Product {
-            factor: c.value.clone(),
-            left: &gradient[c.i],
-            right: &momenta[c.k],
-        });
-    }
-    brackets.iter().all(|b| sum_of_products(n, b, usize::MAX).is_ok_and(|sum| sum.is_zero()))
 }
 
 /// Monomials of one degree that are looked through at most.

@@ -2,13 +2,18 @@
 
 use std::collections::BTreeMap;
 
+use num_traits::{One, Zero};
+
 use crate::cancel;
 use crate::lie::RationalMatrix;
-use crate::number::{Field, Rational, integer};
+use crate::number::{Rational, integer};
+
+/// A row: its entries that are not zero, by column.
+pub(crate) type Row = BTreeMap<u32, Rational>;
 
 /// Rows by pivot. The pivot of a row is its first column; its entry there is one.
-pub(crate) struct Echelon<F> {
-    rows: BTreeMap<u32, BTreeMap<u32, F>>,
+pub(crate) struct Echelon {
+    rows: BTreeMap<u32, Row>,
     operations: u64,
     limit: u64,
 }
@@ -16,14 +21,14 @@ pub(crate) struct Echelon<F> {
 /// More multiplications than allowed.
 pub(crate) struct Exceeded;
 
-impl<F: Field> Echelon<F> {
+impl Echelon {
     pub(crate) fn new(limit: u64) -> Self {
         Self { rows: BTreeMap::new(), operations: 0, limit }
     }
 
     /// The remainder of a row without multiples of those in the echelon, and the multiplications that took; the row is not
     /// finished where the work exceeds the limit.
-    pub(crate) fn reduced(&self, mut row: BTreeMap<u32, F>) -> (BTreeMap<u32, F>, u64) {
+    pub(crate) fn reduced(&self, mut row: Row) -> (Row, u64) {
         let mut operations = 0;
         let mut at = row.keys().next().copied();
         while let Some(column) = at {
@@ -44,16 +49,16 @@ impl<F: Field> Echelon<F> {
     /// Adds a row. Returns what is left of it after reduction, scaled to a leading one, or nothing
     /// if it depends on the rows before (or the work exceeds the limit; see
     /// [`within_limit`](Self::within_limit)).
-    pub(crate) fn insert(&mut self, row: BTreeMap<u32, F>) -> Option<BTreeMap<u32, F>> {
+    pub(crate) fn insert(&mut self, row: Row) -> Option<Row> {
         let (mut row, operations) = self.reduced(row);
         self.operations += operations;
         if self.operations > self.limit {
             return None;
         }
         let (&lead, value) = row.first_key_value()?;
-        let inverse = value.inverse();
+        let inverse = value.recip();
         for value in row.values_mut() {
-            *value = value.times(&inverse);
+            *value *= &inverse;
         }
         self.rows.insert(lead, row.clone());
         Some(row)
@@ -65,7 +70,7 @@ impl<F: Field> Echelon<F> {
 
     /// Vectors spanning what all rows annihilate, in columns 0..`columns`: one for each column
     /// without pivot, being one there and zero at the others without pivot.
-    pub(crate) fn kernel(mut self, columns: u32) -> Result<Vec<BTreeMap<u32, F>>, Exceeded> {
+    pub(crate) fn kernel(mut self, columns: u32) -> Result<Vec<Row>, Exceeded> {
         // From the last pivot to the first, every row is freed of other pivots.
         let pivots: Vec<u32> = self.rows.keys().rev().copied().collect();
         for pivot in pivots {
@@ -82,16 +87,16 @@ impl<F: Field> Echelon<F> {
             self.rows.insert(pivot, row);
             self.within_limit()?;
         }
-        let mut kernel: BTreeMap<u32, BTreeMap<u32, F>> = BTreeMap::new();
+        let mut kernel: BTreeMap<u32, Row> = BTreeMap::new();
         for column in 0..columns {
             if !self.rows.contains_key(&column) {
-                kernel.insert(column, BTreeMap::from([(column, F::one())]));
+                kernel.insert(column, BTreeMap::from([(column, Rational::one())]));
             }
         }
         for (pivot, row) in &self.rows {
             for (column, value) in row {
                 if let Some(vector) = kernel.get_mut(column) {
-                    vector.insert(*pivot, value.negated());
+                    vector.insert(*pivot, -value);
                 }
             }
         }
@@ -104,10 +109,7 @@ const OPERATIONS: u64 = 10_000_000;
 
 /// A basis of the vectors in `dim` coordinates that all rows take to zero, in reduced echelon form; empty where that is too
 /// much work to find.
-pub(crate) fn null_space(
-    rows: impl IntoIterator<Item = BTreeMap<u32, Rational>>,
-    dim: usize,
-) -> Vec<Vec<Rational>> {
+pub(crate) fn null_space(rows: impl IntoIterator<Item = Row>, dim: usize) -> Vec<Vec<Rational>> {
     let mut echelon = Echelon::new(OPERATIONS);
     let mut rank = 0;
     for row in rows {
@@ -116,17 +118,17 @@ pub(crate) fn null_space(
             return Vec::new();
         }
     }
-    let dense = |vector: BTreeMap<u32, Rational>| {
+    let dense = |vector: Row| {
         let entry = |i: usize| vector.get(&(i as u32)).cloned().unwrap_or_else(|| integer(0));
         (0..dim).map(entry).collect()
     };
     echelon.kernel(dim as u32).unwrap_or_default().into_iter().map(dense).collect()
 }
 
-fn subtract<F: Field>(row: &mut BTreeMap<u32, F>, other: &BTreeMap<u32, F>, factor: &F) {
+fn subtract(row: &mut Row, other: &Row, factor: &Rational) {
     for (column, value) in other {
-        let slot = row.entry(*column).or_insert_with(F::zero);
-        slot.minus_product(factor, value);
+        let slot = row.entry(*column).or_insert_with(Rational::zero);
+        *slot -= factor * value;
         if slot.is_zero() {
             row.remove(column);
         }
@@ -138,7 +140,7 @@ fn subtract<F: Field>(row: &mut BTreeMap<u32, F>, other: &BTreeMap<u32, F>, fact
 /// Rows of the echelon are the entries of matrices, and behind them in a column for each of the given matrices how
 /// they are made of these.
 pub(crate) struct Span {
-    echelon: Echelon<Rational>,
+    echelon: Echelon,
     entries: u32,
     columns: usize,
 }
@@ -169,7 +171,7 @@ impl Span {
         rest.into_iter().map(coordinate).collect()
     }
 
-    fn row(&self, matrix: &RationalMatrix) -> BTreeMap<u32, Rational> {
+    fn row(&self, matrix: &RationalMatrix) -> Row {
         let entries = matrix.entries();
         entries.map(|(i, j, value)| ((i * self.columns + j) as u32, value.clone())).collect()
     }
@@ -198,9 +200,9 @@ impl RationalMatrix {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::number::{Rational, integer, ratio};
+    use crate::number::{integer, ratio};
 
-    fn row(values: &[i64]) -> BTreeMap<u32, Rational> {
+    fn row(values: &[i64]) -> Row {
         let entries = values.iter().enumerate().filter(|(_, v)| **v != 0);
         entries.map(|(column, v)| (column as u32, integer(*v))).collect()
     }

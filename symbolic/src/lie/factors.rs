@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use num_traits::Zero;
 
+use crate::lie::elimination::Row;
 use crate::lie::{Echelon, LieAlgebra, LieAlgebraError, RationalMatrix, StructureConstant};
 use crate::number::{Rational, integer};
 
@@ -107,8 +108,6 @@ struct Block {
     row: usize,
     last_row: usize,
 }
-
-type Row = BTreeMap<u32, Rational>;
 
 impl LieAlgebra {
     /// Whether the lower central series 𝔤, \[𝔤, 𝔤\], \[𝔤, \[𝔤, 𝔤\]\], … ends at zero. Every ad_x is then

@@ -1,10 +1,8 @@
 //! Exact numbers: the rational scalar users see, and the integers the series are computed with.
 
 mod coefficients;
-mod field;
 
 pub(crate) use coefficients::{Coefficients, bits, lcm};
-pub(crate) use field::{Field, Residue, reconstruct};
 
 /// An exact rational number, always in lowest terms with a positive denominator.
 pub type Rational = num_rational::BigRational;

@@ -1,5 +1,6 @@
 //! The equation of a step as programs: a first guess, and a correction of it.
 
+use super::entire::NEWTON;
 use super::tables::structure_of;
 use super::vector::{Eliminated, Matrix, dot, finite, largest};
 use crate::graph::{Graph, Id, Program};
@@ -32,8 +33,7 @@ const EVALUATIONS: u32 = 60;
 const ROUNDINGS_EACH: f64 = 4.0;
 const MOST_ROUNDINGS: f64 = 32.0;
 
-/// The truncation allowed in a chart's derivative for Newton's method, and where chords correct it.
-const NEWTON: f64 = 1e-10;
+/// The truncation allowed in a chart's derivative where chords correct it.
 const CHORD: f64 = 1e-3;
 
 /// How the equation p = (d^R τ_x)ᵀ μ, x = ∂S/∂p is solved.
@@ -182,8 +182,7 @@ fn linearised(
     };
     let hessian = Matrix::new(n, n, |i, j| triangle[place(i, j)]);
     let (pulled, derivative) = group.pull_back_with_derivative(graph, x, mu);
-    let (zero, one) = (graph.zero(), graph.constant(1.0));
-    let unit = Matrix::new(n, n, |i, j| if i == j { one } else { zero });
+    let unit = Matrix::identity(graph, n);
     let back = Matrix::new(n, n, |i, j| graph.neg(derivative.at(i, j)));
     let matrix = back.times_plus(graph, &hessian, &unit);
     let residual = p.iter().zip(&pulled).map(|(&a, &b)| graph.sub(a, b)).collect();

@@ -165,7 +165,7 @@ impl Tables {
     fn exponential(&self, graph: &Graph, x: &Matrix) -> Matrix {
         let degree = terms(REACH, ROUNDING) + 1;
         let stride = (degree as f64).sqrt().round() as usize;
-        let mut powers = vec![self.identity(graph)];
+        let mut powers = vec![Matrix::identity(graph, self.size)];
         while powers.len() <= stride {
             let next = match powers.len() {
                 1 => x.clone(),
@@ -187,7 +187,7 @@ impl Tables {
             }
             sum = Some(total);
         }
-        sum.unwrap_or_else(|| self.identity(graph))
+        sum.unwrap_or_else(|| Matrix::identity(graph, self.size))
     }
 
     /// exp X − 1 for X of any norm up to [`FARTHEST`], by scaling and squaring (N. Higham, *Functions of Matrices*, SIAM
@@ -244,15 +244,10 @@ impl Tables {
         })
     }
 
-    fn identity(&self, graph: &Graph) -> Matrix {
-        let (zero, one) = (graph.zero(), graph.constant(1.0));
-        Matrix::new(self.size, self.size, |i, j| if i == j { one } else { zero })
-    }
-
     /// (1 + s·X/2)⁻¹, s = ±1.
     fn resolvent(&self, graph: &Graph, x: &Matrix, s: f64) -> Matrix {
         let half = graph.constant(0.5 * s);
-        let identity = self.identity(graph);
+        let identity = Matrix::identity(graph, self.size);
         let matrix = identity.plus(graph, half, x);
         let columns: Vec<Vec<Id>> = (0..self.size)
             .map(|j| {
@@ -419,7 +414,7 @@ impl Part for Tables {
                 let x = self.represent(graph, x);
                 let half = graph.constant(0.5);
                 let minus = graph.constant(-0.5);
-                let identity = self.identity(graph);
+                let identity = Matrix::identity(graph, self.size);
                 let (left, right) =
                     (self.resolvent(graph, &x, -1.0), self.resolvent(graph, &x, 1.0));
                 let forward = identity.plus(graph, half, &x);
@@ -440,7 +435,7 @@ impl Part for Tables {
         let own = self.square(g);
         let y = self.represent(graph, y);
         let (identity, one, minus) =
-            (self.identity(graph), graph.constant(1.0), graph.constant(-1.0));
+            (Matrix::identity(graph, self.size), graph.constant(1.0), graph.constant(-1.0));
         let change = self.exponential_less_one(graph, &y);
         let increment = self.pulled_back(graph, identity.plus(graph, one, &change));
         let transposed = increment.transposed();

@@ -79,6 +79,12 @@ impl Matrix {
         Self { columns, entries: vec![zero; rows * columns] }
     }
 
+    /// The identity of this many rows.
+    pub(crate) fn identity(graph: &Graph, rows: usize) -> Self {
+        let (zero, one) = (graph.zero(), graph.constant(1.0));
+        Self::new(rows, rows, |i, j| if i == j { one } else { zero })
+    }
+
     /// The entry (row, column).
     pub(crate) fn at(&self, row: usize, column: usize) -> Id {
         self.entries[row * self.columns + column]
