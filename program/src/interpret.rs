@@ -145,6 +145,7 @@ impl<'k, T: Packed<L>, const L: usize> Walk<'k, T, L> {
 
     fn statement(&mut self, statement: &Statement, within: &Block, mask: [bool; L]) {
         match statement {
+            Statement::Clock => {}
             Statement::Call(part) => self.call(*part, within, mask),
             Statement::Lengthen => {
                 let sum = self.number(Variable::Distance).add(self.number(Variable::Moved));

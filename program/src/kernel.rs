@@ -27,6 +27,7 @@
 //! A refused step leaves the state as it was; whoever drives the kernel may then follow the solution by other means or
 //! say why there is none.
 
+use alloc::vec::Vec;
 use core::fmt;
 use core::ops::Deref;
 
@@ -86,6 +87,7 @@ pub struct Kernel {
     slots: usize,
     precision: Precision,
     kicks: Option<Kicks>,
+    clock: Option<Clock>,
     schedule: Block,
 }
 
@@ -95,6 +97,17 @@ impl Deref for Kernel {
     fn deref(&self) -> &KernelParts {
         &self.parts
     }
+}
+
+/// The times at which the programs of a step that depends on time ask for it: coefficients after those that are folded.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Clock {
+    /// The place of the size of a step among the coefficients.
+    pub size: usize,
+    /// The place of the first time, after which the others are.
+    pub first: usize,
+    /// The times, from the beginning of a step on, in its lengths.
+    pub times: Vec<f64>,
 }
 
 /// Kicks between the flows of a step.
@@ -141,7 +154,8 @@ impl Kernel {
             return Err(ProgramError::Limits);
         }
         let schedule = schedule(corrections, programs.frame.is_some(), None);
-        Ok(Self { parts, constants, slots, precision: Precision::Double, kicks: None, schedule })
+        let (precision, kicks, clock) = (Precision::Double, None, None);
+        Ok(Self { parts, constants, slots, precision, kicks, clock, schedule })
     }
 
     /// The same with kicks between the flows of a step, of which there are this many: `kick` is g (m), μ (n) ↦ the
@@ -158,6 +172,12 @@ impl Kernel {
         let slots = self.slots.max(kick.slots());
         let schedule = schedule(self.corrections, self.programs.frame.is_some(), Some(flows));
         Ok(Self { slots, kicks: Some(Kicks { kick, flows }), schedule, ..self })
+    }
+
+    /// The same where the programs read these times, and nothing else that changes from step to step.
+    #[must_use]
+    pub fn with_clock(self, clock: Clock) -> Self {
+        Self { clock: Some(clock), ..self }
     }
 
     /// The same step in numbers of this length, whose rounding the tolerance follows.
@@ -201,6 +221,12 @@ impl Kernel {
     /// The program of a kick.
     pub fn kick(&self) -> Option<&Program> {
         self.kicks.as_ref().map(|kicks| &kicks.kick)
+    }
+
+    /// The times that the programs read.
+    #[must_use]
+    pub fn clock(&self) -> Option<&Clock> {
+        self.clock.as_ref()
     }
 
     /// The loop that calls the programs.

@@ -53,7 +53,8 @@ pub use graph::{Cost, Function, Graph, Id, Node, Program};
 pub use interpret::Attempt;
 #[cfg(feature = "programs")]
 pub use kernel::{
-    Kernel, KernelParts, Outcome, Precision, ProgramError, Programs, Stepper, Trajectories, WIDTH,
+    Clock, Kernel, KernelParts, Outcome, Precision, ProgramError, Programs, Stepper, Trajectories,
+    WIDTH,
 };
 #[cfg(feature = "programs")]
 pub use schedule::BLOCK;

@@ -140,12 +140,6 @@ pub fn kernel(
     };
     let derived = written(path, system)?;
     let origin = derived.origin().ok_or_else(|| of_function(path))?;
-    if !derived.alike() {
-        return Err(RunError::Option(format!(
-            "{}: no kernel is written of steps that depend on the time: `simulate` and `emit --language rust` make them",
-            path.display()
-        )));
-    }
     let facts = derived.facts();
     let method = match derived.series() {
         Some(series) => {

@@ -175,7 +175,7 @@ pub(crate) fn wrapped(paragraph: &str, width: usize) -> Vec<String> {
 
 /// Paragraphs about the system and a step of it; `quoted` makes a text fit for a comment.
 pub(crate) fn system(origin: Origin<'_>, quoted: fn(&str) -> String) -> Vec<String> {
-    let (source, method, error) = match origin {
+    let (source, method, error, moves) = match origin {
         Origin::Series(integrator) => {
             let Problem { source, chart, truncation, .. } = &integrator.problem;
             let chart = match chart {
@@ -185,7 +185,7 @@ pub(crate) fn system(origin: Origin<'_>, quoted: fn(&str) -> String) -> Vec<Stri
             let order = integrator.order();
             let method =
                 format!("Chart: {chart}. Truncation K = {truncation}, order of accuracy {order}.");
-            (source, method, "K+2".to_owned())
+            (source, method, "K+2".to_owned(), false)
         }
         Origin::Collocation(smooth) => {
             let nodes = smooth.nodes();
@@ -193,7 +193,7 @@ pub(crate) fn system(origin: Origin<'_>, quoted: fn(&str) -> String) -> Vec<Stri
                 "Collocation at {nodes} nodes in the exponential chart about the middle of a step, order of accuracy {}.",
                 2 * nodes
             );
-            (&smooth.source, method, (2 * nodes + 1).to_string())
+            (&smooth.source, method, (2 * nodes + 1).to_string(), smooth.depends_on_time())
         }
     };
     let mut list = vec![
@@ -201,6 +201,7 @@ pub(crate) fn system(origin: Origin<'_>, quoted: fn(&str) -> String) -> Vec<Stri
         format!("Group: {}. {method}", quoted(origin.facts().algebra.name())),
     ];
     let mut map = MAP.replace("K+2", &error);
+    map.push_str(if moves { "." } else { NEAR });
     if let Some(Kicks { kick, splitting, .. }) = origin.kicks() {
         list.push(format!("Potential: {}", quoted(&kick.potential.source)));
         let (name, flows, order) = (splitting.name(), splitting.flows().len(), splitting.order());
@@ -217,7 +218,10 @@ pub(crate) fn system(origin: Origin<'_>, quoted: fn(&str) -> String) -> Vec<Stri
 const MAP: &str = "The map. With the body momentum mu and the group element g, the equations of motion are dmu/dt = \
          ad*_(dH/dmu) mu and dg/dt = g dH/dmu (left trivialisation: g takes body coordinates to space). A step of size h \
          is a symplectic map near their flow; it makes an error of order h^(K+2). The spatial momentum Ad*_g mu and every \
-         Casimir are conserved to rounding, step after step, and the energy stays near its first value for all times.";
+         Casimir are conserved to rounding, step after step";
+
+/// The end of its sentence where the Hamiltonian does not depend on time.
+const NEAR: &str = ", and the energy stays near its first value for all times.";
 
 /// The same where kicks are between flows.
 const KICKED: &str = " This describes the flows. Between them the torque -g^-1 dV(g) of the potential kicks mu; of the spatial \

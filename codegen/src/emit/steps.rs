@@ -111,6 +111,7 @@ impl Writer<'_> {
         ]
         .map(|variable| self.name(variable));
         match statement {
+            Statement::Clock => TokenStream::new(),
             Statement::Call(part) => self.call(*part, within, masked),
             Statement::Lengthen => {
                 let sum = self.chosen(Variable::Distance, masked, &quote!(#distance + #moved));

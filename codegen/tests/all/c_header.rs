@@ -16,6 +16,9 @@ use systems::Built;
 /// Steps of a run: more than a block.
 const STEPS: u64 = 300;
 
+/// The time at which a run begins, where the Hamiltonian depends on it.
+const TIME: f64 = 0.3;
+
 #[test]
 fn headers_are_the_committed_ones() {
     for built in systems::all().iter().filter(|built| !built.system.large) {
@@ -46,7 +49,7 @@ fn compare(built: &Built, output: &str) {
     let parameters = built.parameters.iter();
     let values = parameters.flat_map(|parameter| parameter.default.clone().unwrap());
     let values: Vec<f64> = values.map(|value| value.to_f64().unwrap()).collect();
-    let slots = step.fold(built.step, &values).unwrap();
+    let mut slots = step.fold(built.step, &values).unwrap();
     // Every coefficient is one of the interpreter's; the last is the square of the radius.
     let known = bits(&slots);
     let coefficients = numbers(output, "coefficients", 0);
@@ -60,14 +63,20 @@ fn compare(built: &Built, output: &str) {
     }
     let mut g = numbers(output, "identity", 0);
     let mut mu = built.momentum.clone();
-    let watch = |g: &[f64], mu: &[f64]| kernel.watch(&slots, g, mu);
-    let watched = watch(&g, &mu);
+    step.set_time(&mut slots, built.step, TIME);
+    let watched = kernel.watch(&slots, &g, &mu);
     assert_eq!(bits(&numbers(output, "energy", 0)), bits(&watched[..1]), "{name}");
     if watched.len() > 1 {
         assert_eq!(bits(&numbers(output, "casimirs", 0)), bits(&watched[1..]), "{name}");
     }
-    let outcome = kernel.advance(&slots, &mut g, &mut mu, STEPS);
-    assert_eq!(outcome.steps, STEPS, "{name}: refused");
+    let (pieces, each) = if step.moves() { (STEPS, 1) } else { (1, STEPS) };
+    for piece in 0..pieces {
+        step.set_time(&mut slots, built.step, TIME + piece as f64 * built.step);
+        let outcome = kernel.advance(&slots, &mut g, &mut mu, each);
+        assert_eq!(outcome.steps, each, "{name}: refused");
+    }
+    step.set_time(&mut slots, built.step, TIME);
+    let watch = |g: &[f64], mu: &[f64]| kernel.watch(&slots, g, mu);
     assert!(output.contains(&format!("\nadvance 0 {STEPS}\n")), "{name}:\n{output}");
     assert_eq!(bits(&numbers(output, "g", 0)), bits(&g), "{name}: g");
     assert_eq!(bits(&numbers(output, "mu", 0)), bits(&mu), "{name}: mu");
@@ -109,6 +118,10 @@ fn refusals(built: &Built, output: &str) {
     // The many flows of a step with kicks pull an element back onto the group before the state is checked.
     if built.programs.kernel().flows().is_none() {
         assert_eq!(line("group"), element, "{name}");
+    }
+    if built.programs.moves() {
+        let expected = "time 3 1 a number of the state, or the time, is not finite";
+        assert_eq!(line("time"), expected, "{name}");
     }
     assert_eq!(line("zero"), "zero 1 1 1", "{name}");
     assert_eq!(line("nan"), "nan 1 1", "{name}");
@@ -178,7 +191,7 @@ const DEVIATIONS: [&str; 2] = ["misra-c2012-2.5", "uninitvar"];
 #[test]
 fn headers_follow_misra() {
     let Some(cppcheck) = Tool::find("cppcheck") else { return };
-    for name in ["rigid_body", "cayley_body", "three_wave"] {
+    for name in ["rigid_body", "cayley_body", "three_wave", "driven"] {
         let built = systems::all().iter().find(|built| built.system.name == name).unwrap();
         let folder = scratch(&format!("misra-{name}"));
         built.write_main(&folder);

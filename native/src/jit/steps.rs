@@ -137,7 +137,7 @@ impl<'f, 'k> Loop<'f, 'k> {
                 self.set(Variable::Done, done);
             }
             Statement::Note if self.coder.form == Form::Number => self.note(),
-            Statement::Note => {}
+            Statement::Clock | Statement::Note => {}
             Statement::RefuseStep | Statement::RefuseState => {
                 let live = self.coder.builder.use_var(self.live);
                 let refused = mask.unwrap_or(live);

@@ -7,7 +7,7 @@ use alloc::string::{String, ToString};
 use super::c::{C, Dialect};
 use super::function::function;
 use crate::graph::{Id, Node};
-use crate::kernel::{Kernel, Precision};
+use crate::kernel::{Clock, Kernel, Precision};
 use crate::print::c::signatures;
 use crate::print::steps::{LoopStyle, steps};
 use crate::quoting::c_comment;
@@ -53,7 +53,7 @@ const LONGEST: usize = 1000;
 /// `target`, or to the step before the one that is refused; `done[r]` is then how far it came, and `status[r]` is 0, or
 /// 1 (the equation is not solved), 2 (its solution is far from the first guess), 3 (the step is not in the domain where
 /// it is accepted at once) or 4 (the state is not finite or not on the group). Blocks are counted from `done[r]`: where
-/// targets are multiples of [`BLOCK`], cutting a run there changes no bit.
+/// targets are multiples of [`BLOCK`], cutting a run there changes no bit. Where the kernel has a [`Clock`], step 0 begins at time 0.
 ///
 /// `slots` are the folded coefficients, which stand in the text; those that the programs do not read are left out.
 /// Numbers have the kernel's [precision](Kernel::precision). No operation is contracted: in 64 bits the results have the
@@ -82,15 +82,20 @@ pub fn device_unit(
     let style = LoopStyle {
         prefix: PREFIX.into(),
         count: "COUNT".into(),
-        slots: "coadjoint_slots".into(),
+        slots: if device.clock.is_some() { "times" } else { "coadjoint_slots" }.into(),
         slots_of_flow: device.places.len().to_string(),
         copy: "coadjoint_copy".into(),
         live: "why == 0u".into(),
         right: "right == ONE".into(),
         refuse: [REFUSED_STEP, "why = 4u;"].map(String::from),
+        clock: device.times_of_step(slots),
         ..LoopStyle::default()
     };
-    text + &FUNCTION.replace("/*STEPS*/", &steps(kernel, &device, &style, 4))
+    let times =
+        device.clock.as_ref().map(|clock| format!("    NUMBER times[{}];\n", clock.times.len()));
+    text + &FUNCTION
+        .replace("/*TIMES*/", &times.unwrap_or_default())
+        .replace("/*STEPS*/", &steps(kernel, &device, &style, 4))
 }
 
 fn comment(kernel: &Kernel, about: &str) -> String {
@@ -102,6 +107,10 @@ fn comment(kernel: &Kernel, about: &str) -> String {
     let of = |list: &[&crate::Program]| list.iter().map(|one| one.cost().total()).sum::<usize>();
     let fixed = of(&[&programs.guess, &programs.accept, &programs.transport]);
     let (n, m, correction) = (kernel.dim, kernel.element, of(&[&programs.correct]));
+    let time = match kernel.clock() {
+        Some(_) => " * Steps depend on time: step i of a trajectory begins at time i h.\n",
+        None => "",
+    };
     text.push_str(&format!(
         " *\n\
          \x20* coadjoint_steps(g, mu, done, status, rows, target): a thread a trajectory, numbers of {} precision.\n\
@@ -112,7 +121,7 @@ fn comment(kernel: &Kernel, about: &str) -> String {
          \x20* Let targets be multiples of {BLOCK}, or one.\n\
          \x20*\n\
          \x20* A step takes {fixed} operations and {correction} for each correction, most often one.\n\
-         \x20*/\n",
+         {time}\x20*/\n",
         kernel.precision(),
     ));
     text
@@ -127,6 +136,8 @@ struct Device {
     longest: usize,
     /// The place of a folded coefficient in the array.
     places: BTreeMap<usize, usize>,
+    /// The times, which are in an array of the thread.
+    clock: Option<Clock>,
 }
 
 impl Device {
@@ -141,15 +152,23 @@ impl Device {
         let c = C {
             head: if inlined { INLINE } else { CALLED }.into(),
             number: number.into(),
-            slots: if kernel.flows().is_some() { "COEFFICIENTS".into() } else { String::new() },
+            slots: match (kernel.flows(), kernel.clock()) {
+                (Some(_), _) => "COEFFICIENTS".into(),
+                (None, Some(_)) => "const NUMBER *RESTRICT".into(),
+                (None, None) => String::new(),
+            },
             pointer: "*RESTRICT ".into(),
             suffix: suffix.into(),
             ..C::default()
         };
+        let clock = kernel.clock().cloned();
+        let folded = clock.as_ref().map_or(usize::MAX, |clock| clock.first);
         let mut places = BTreeMap::new();
         for signature in signatures(kernel, PREFIX) {
             for node in signature.program.nodes() {
-                if let Node::Slot(index) = *node {
+                if let Node::Slot(index) = *node
+                    && (index as usize) < folded
+                {
                     places.insert(index as usize, 0);
                 }
             }
@@ -158,7 +177,7 @@ impl Device {
             *value = place;
         }
         let longest = if inlined { usize::MAX } else { LONGEST };
-        Self { c, language, precision, longest, places }
+        Self { c, language, precision, longest, places, clock }
     }
 
     fn literal(&self, value: f64) -> String {
@@ -182,6 +201,20 @@ impl Device {
             literal(kernel.tolerance),
             literal(kernel.near),
         )
+    }
+
+    /// The times of the step that begins, where the steps of a trajectory depend on them: the first begins at time 0.
+    fn times_of_step(&self, slots: &[f64]) -> String {
+        let Some(clock) = &self.clock else { return String::new() };
+        let (at, size) = (Id(0), self.literal(slots.get(clock.size).copied().unwrap_or(0.0)));
+        let operation = |node, operands: &[&str]| self.operation(node, operands);
+        let now = operation(Node::Mul(at, at), &["(NUMBER)(done_state[row] + done)", &size]);
+        let mut text = format!("const NUMBER now = {now};\n");
+        for (place, &part) in clock.times.iter().enumerate() {
+            let time = operation(Node::TimesPlus(at, at, at), &[&self.literal(part), &size, "now"]);
+            text.push_str(&format!("times[{place}] = {time};\n"));
+        }
+        text
     }
 
     /// The functions a·2ᵏ and the exponent of a, by their bits, where a program has them.
@@ -259,8 +292,11 @@ impl Dialect for Device {
     }
 
     fn slot(&self, index: usize) -> String {
+        if let Some(clock) = self.clock.as_ref().filter(|clock| index >= clock.first) {
+            return format!("c[{}]", index - clock.first);
+        }
         let place = self.places.get(&index).map_or_else(|| index.to_string(), usize::to_string);
-        match self.c.slots.is_empty() {
+        match self.c.slots.is_empty() || self.clock.is_some() {
             true => format!("coadjoint_slots[{place}]"),
             false => format!("c[{place}]"),
         }
@@ -341,7 +377,7 @@ KERNEL void coadjoint_steps(GLOBAL NUMBER *RESTRICT g_state, GLOBAL NUMBER *REST
     NUMBER g[ELEMENT_ARRAY], mu[DIM_ARRAY];
     COUNT steps;
     unsigned int why = 0u;
-    if (row >= rows || done_state[row] >= target) {
+/*TIMES*/    if (row >= rows || done_state[row] >= target) {
         return;
     }
     steps = target - done_state[row];

@@ -34,6 +34,8 @@ pub struct LoopStyle {
     pub refuse: [String; 2],
     /// Statements that report the corrections and the residual bound of the step made.
     pub note: String,
+    /// Statements that set the times of the step that begins.
+    pub clock: String,
 }
 
 /// That of a unit of C: a function around it declares `bool live`.
@@ -51,6 +53,7 @@ impl Default for LoopStyle {
             right: "right == 1.0".into(),
             refuse: ["live = false;", "live = false;"].map(String::from),
             note: String::new(),
+            clock: String::new(),
         }
     }
 }
@@ -184,6 +187,7 @@ impl<D: Dialect> Writer<'_, D> {
                 text
             }
             Statement::Note => self.style.note.clone(),
+            Statement::Clock => self.style.clock.clone(),
             Statement::RefuseStep => refused(0),
             Statement::RefuseState => refused(1),
         };

@@ -144,6 +144,9 @@ impl Block {
 /// A statement.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Statement {
+    /// Sets the times of the step that begins among the coefficients, where a target counts them; else whoever drives the loop
+    /// sets them, and makes one step at a time.
+    Clock,
     /// Evaluates a program and assigns its results.
     Call(Part),
     /// Adds the length of a correction to the distance.
@@ -170,7 +173,7 @@ pub enum Statement {
 /// those between the kicks of a step.
 pub(crate) fn schedule(corrections: u32, framed: bool, flows: Option<u32>) -> Block {
     use Statement::{
-        Call, If, Keep, Lengthen, Next, Note, RefuseState, RefuseStep, Restore, While,
+        Call, Clock, If, Keep, Lengthen, Next, Note, RefuseState, RefuseStep, Restore, While,
     };
     use Test::{Below, Live, Open, Remaining, Right as IsRight};
     use Variable::*;
@@ -191,9 +194,12 @@ pub(crate) fn schedule(corrections: u32, framed: bool, flows: Option<u32>) -> Bl
         If(vec![(false, IsRight)], block(&[], refused)),
         If(vec![(true, IsRight)], block(&[], moved)),
     ];
-    if flows.is_some() {
-        flow.insert(0, Call(Part::Kick));
-        flow.push(Next(Flow));
+    match flows {
+        Some(_) => {
+            flow.insert(0, Call(Part::Kick));
+            flow.push(Next(Flow));
+        }
+        None => flow.insert(0, Clock),
     }
     let numbers =
         [(ResidualBound, Some(1)), (Distance, Some(0)), (Right, Some(0)), (Tried, Some(0))];

@@ -17,6 +17,11 @@ fn programs(
 ) -> Result<(Step, Vec<f64>), RunError> {
     let failed = |why: &dyn std::fmt::Display| RunError::Option(format!("{option}: {why}"));
     let step = origin.step(precision).map_err(|error| failed(&error))?;
+    if step.moves() && step.kernel().clock().is_none() {
+        return Err(failed(
+            &"steps that depend on inputs, or on torques that move in time, are not made on devices",
+        ));
+    }
     let programs = &step.kernel().programs;
     let operations = programs.correct.nodes().len() + programs.transport.nodes().len();
     if operations > MOST_OPERATIONS {

@@ -34,6 +34,9 @@ pub enum StepError {
         "a comoving frame has no programs in single precision; use double precision, or `frame = \"fixed\"`"
     )]
     SingleFrame,
+    /// Steps that depend on time in numbers of 32 bits: soon they cannot tell the times within a step apart.
+    #[error("steps that depend on time have no programs in single precision; use double precision")]
+    SingleTime,
     /// The matrices of the basis are linearly dependent.
     #[error("the matrices of {group} are linearly dependent")]
     Dependent {

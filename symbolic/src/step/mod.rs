@@ -22,7 +22,7 @@ mod vector;
 
 use coadjoint_program::fold::{FoldError, Values};
 use coadjoint_program::splitting::Splitting;
-use coadjoint_program::{Kernel, Precision};
+use coadjoint_program::{Clock, Kernel, Precision};
 
 use crate::expr::ParameterExpr;
 use crate::graph::{Graph, Id, Program};
@@ -179,9 +179,12 @@ impl Step {
                 rows: smooth.algebra.matrix_size(),
             });
         }
+        if precision == Precision::Single && smooth.depends_on_time() {
+            return Err(StepError::SingleTime);
+        }
         let memory = collocation::memory(smooth);
         group.0.push(Box::new(Memory { numbers: memory }));
-        let kernel = collocation::kernel(smooth, &group)?.in_precision(precision);
+        let mut kernel = collocation::kernel(smooth, &group)?.in_precision(precision);
         let symbols = smooth.symbols.iter().map(|symbol| symbol.expr.clone()).collect();
         let radius_at = smooth.symbols.len() + 1;
         let moving = smooth.depends_on_time().then(|| Moving {
@@ -189,6 +192,12 @@ impl Step {
             times: collocation::times(smooth.nodes()),
             signals: smooth.signals.clone(),
         });
+        if let Some(Moving { first, times, .. }) =
+            moving.as_ref().filter(|own| own.signals.is_empty())
+        {
+            let (size, first, times) = (radius_at - 1, *first, times.clone());
+            kernel = kernel.with_clock(Clock { size, first, times });
+        }
         let fold = FoldTable::of_symbols(smooth.symbols.len());
         let splitting = None;
         Ok(Self { kernel, group, fold, symbols, radius_at, splitting, moving, memory })

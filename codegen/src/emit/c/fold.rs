@@ -25,6 +25,8 @@ pub(super) struct Folding {
     pub table: FoldTable,
     /// The place of the length of a kick, where there are kicks.
     kick_at: Option<usize>,
+    /// How many of them are times, which steps set.
+    times: usize,
 }
 
 /// The numbers of the slots that programs read.
@@ -49,6 +51,7 @@ impl Folding {
         list.extend(programs.frame.iter().chain(step.kernel().kick()));
         let kick_of = |radius_at: usize| step.kernel().flows().map(|_| radius_at + 1);
         let read = read(&list);
+        let times = step.kernel().clock().map_or(0, |clock| clock.times.len());
         let (places, table, kick) = match origin {
             Origin::Series(integrator) => {
                 let slots = integrator.coefficients.slots();
@@ -69,10 +72,10 @@ impl Folding {
                 let table = FoldTable::placed(integrator, |at| places.get(&at).copied());
                 (places, table, kick)
             }
-            // The symbols, the step size, and the radius, which is infinite.
+            // The symbols, the step size, and the radius, which is infinite; after them the times.
             Origin::Collocation(smooth) => {
                 let count = smooth.symbols.len();
-                let places = (0..=count + 1).map(|at| (at, at)).collect();
+                let places = (0..count + 2 + times).map(|at| (at, at)).collect();
                 (places, FoldTable::of_symbols(count), None)
             }
         };
@@ -81,12 +84,12 @@ impl Folding {
             return Err(HeaderError::Degree { degree: highest + 1, limit: DEGREES as u32 });
         }
         let kick_at = kick.and_then(|at| places.get(&at).copied());
-        Ok(Self { places, table, kick_at })
+        Ok(Self { places, table, kick_at, times })
     }
 
-    /// How many coefficients there are.
+    /// How many coefficients are folded.
     pub(super) fn len(&self) -> usize {
-        self.places.len()
+        self.places.len() - self.times
     }
 
     /// The function that folds.

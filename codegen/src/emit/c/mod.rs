@@ -25,7 +25,7 @@ pub use names::{HeaderError, HeaderOptions, Language, MOST_OPERATIONS, prefix};
 /// [`HeaderError`] where there is no such header.
 pub fn header(origin: Origin<'_>, options: &HeaderOptions) -> Result<String, HeaderError> {
     let step = origin.step(Precision::Double)?;
-    if step.moves() {
+    if step.moves() && step.kernel().clock().is_none() {
         return Err(HeaderError::Moves);
     }
     let programs = &step.kernel().programs;

@@ -161,9 +161,10 @@ pub enum HeaderError {
         /// [`MOST_OPERATIONS`].
         limit: usize,
     },
-    /// Steps depend on the time, which a header does not know.
+    /// Steps depend on inputs, or on torques that move in time.
     #[error(
-        "cannot be written as C: its steps depend on the time; `simulate` and `emit --language rust` make them"
+        "cannot be written as C: its steps depend on inputs, or on torques that move in time; `simulate`, `ensemble` and \
+         Python make them"
     )]
     Moves,
     /// Nothing moves.

@@ -7,7 +7,7 @@ use coadjoint_program::{Graph, Program};
 use crate::emit::c::dialect::{Portable, decimal};
 use crate::emit::c::fold::Folding;
 use crate::emit::c::names::Names;
-use crate::emit::c::template::INVERT;
+use crate::emit::c::template::{CLOCK_OF_STEP, INVERT, timed};
 use crate::step::Step;
 
 /// Operations of a function at most: compilers allot registers in a time that grows faster than its length.
@@ -108,11 +108,12 @@ pub(super) fn drive(step: &Step, fold: &Folding, names: &Names) -> String {
         right: "right > 0.5".into(),
         slots_of_flow: "@P@_COEFFICIENTS".into(),
         refuse: [refused_step, REFUSED_STATE.into()],
+        clock: kernel.clock().map_or("", |_| CLOCK_OF_STEP).into(),
         ..LoopStyle::default()
     };
     let dialect = Portable::new(names, fold.places.clone());
-    let text = DRIVE
-        .replace("/*STEPS*/", &steps(kernel, &dialect, &style, 4))
+    let drive = DRIVE.replace("/*STEPS*/", &steps(kernel, &dialect, &style, 4));
+    let text = timed(&drive, step)
         .replace("/*TOLERANCE*/", &decimal(kernel.tolerance))
         .replace("/*NEAR*/", &decimal(kernel.near));
     names.fill(&text)
@@ -136,7 +137,7 @@ static inline void @p@_internal_copy(double *to, const double *from, uint32_t le
     }
 }
 
-/* Internal: whether an equation is corrected again: not solved, and near the first guess. */
+/*CLOCK*//* Internal: whether an equation is corrected again: not solved, and near the first guess. */
 static inline bool @p@_internal_open(double residual_bound, double distance)
 {
     return (!(residual_bound <= /*TOLERANCE*/)) && (distance <= /*NEAR*/);
@@ -166,21 +167,21 @@ static inline @p@_status @p@_internal_reason(const double *c, const double *mu,
 
 /**
  * Makes `steps` steps of the size that the map was made for, and tells in `made` how many it has made.
- *
+/*ABOUT_TIME*/ *
  * Returns @P@_OK where that is all of them. Else the state is that after the last step made, finite and as good
  * as any other, and the status says why the next step was refused: see @p@_status.
  * The state is looked at every @P@_BLOCK steps and at the end; where it is found broken, it is that of the last look.
  */
-static inline @p@_status @p@_advance(const @p@_map *map, @p@_state *state, uint32_t steps,
+static inline @p@_status @p@_advance(const @p@_map *map, @p@_state *state/*TIME*/, uint32_t steps,
     uint32_t *made)
 {
     /* A step solves its equation by corrections: p from the first guess on, x, a bound on the residual, and the
      * distance from the guess, both relative to the largest coordinate of the momentum. */
-    const double *c = map->c;
+    /*COEFFICIENTS*/;
     double g[@P@_ELEMENT];
     double mu[@P@_DIMENSION];
     @p@_status status = map->status;
-    @p@_internal_copy(g, state->g, @P@_ELEMENT);
+/*BEGIN*/    @p@_internal_copy(g, state->g, @P@_ELEMENT);
     @p@_internal_copy(mu, state->mu, @P@_DIMENSION);
 /*STEPS*/    @p@_internal_copy(state->g, g, @P@_ELEMENT);
     @p@_internal_copy(state->mu, mu, @P@_DIMENSION);
@@ -189,11 +190,11 @@ static inline @p@_status @p@_advance(const @p@_map *map, @p@_state *state, uint3
 }
 
 /**
- * Makes one step. Where it is refused, the state stays as it was, and the status says why: see @p@_status.
+ * Makes one step/*FROM*/. Where it is refused, the state stays as it was, and the status says why: see @p@_status.
  */
-static inline @p@_status @p@_step(const @p@_map *map, @p@_state *state)
+static inline @p@_status @p@_step(const @p@_map *map, @p@_state *state/*TIME*/)
 {
     uint32_t made = 0u;
-    return @p@_advance(map, state, 1u, &made);
+    return @p@_advance(map, state/*NOW*/, 1u, &made);
 }
 ";

@@ -10,7 +10,7 @@ use crate::emit::c::dialect::decimal;
 use crate::emit::c::fold::Folding;
 use crate::emit::c::names::Names;
 use crate::emit::c::programs::casimirs;
-use crate::emit::c::template::{CASIMIRS, STATE, TEXT};
+use crate::emit::c::template::{CASIMIRS, STATE, TEXT, timed};
 use crate::emit::c::{HeaderOptions, Language, parameter};
 use crate::emit::header;
 use crate::step::{Origin, Step};
@@ -48,6 +48,9 @@ pub(crate) fn types(
         None => "Folded coefficients.",
     };
     size("COEFFICIENTS", fold.len(), about);
+    if let Some(clock) = kernel.clock() {
+        size("TIMES", clock.times.len(), "Times at which a step asks for the Hamiltonian.");
+    }
     size("BLOCK", BLOCK as usize, "Steps after which the state is looked at.");
     if let Some(largest) = step.inverted().iter().map(|&(_, rows)| rows).max() {
         size("LARGEST_BLOCK", largest, "Rows of the largest matrix in a group element.");
@@ -60,7 +63,9 @@ pub(crate) fn types(
         Origin::Series(_) => "",
         Origin::Collocation(_) => ", or its nodes do not resolve it",
     };
-    text.push_str(&STATUS.replace("/*ONLY*/", only).replace("/*UNRESOLVED*/", unresolved));
+    text.push_str(
+        &timed(STATUS, step).replace("/*ONLY*/", only).replace("/*UNRESOLVED*/", unresolved),
+    );
     if !facts.parameters.is_empty() {
         text.push_str("\n/** Parameters of the Hamiltonian. */\ntypedef struct @p@_parameters {\n");
         for (parameter, name) in facts.parameters.iter().zip(&names.parameters) {
@@ -118,7 +123,7 @@ pub(crate) fn functions(origin: Origin<'_>, step: &Step, names: &Names) -> Strin
         true => "",
         false => " It is not finite\n * where the matrix has no inverse.",
     };
-    let mut text = STATE
+    let mut text = timed(STATE, step)
         .replace("/*IDENTITY*/", &numbers)
         .replace("/*BACK*/", &back)
         .replace("/*ARGUMENT*/", if inverted.is_empty() { "none" } else { "back" })
@@ -129,7 +134,7 @@ pub(crate) fn functions(origin: Origin<'_>, step: &Step, names: &Names) -> Strin
         text.push_str(CASIMIRS);
     }
     text.push_str(
-        &TEXT.replace(
+        &timed(TEXT, step).replace(
             "/*BAD_STEP*/",
             "the step size is zero, not finite, or not one that was learned",
         ),
@@ -177,7 +182,7 @@ typedef enum @p@_status {
     @P@_BAD_STEP = 1,
     /** A coefficient is not finite: a parameter is not, or one that is divided by is zero. */
     @P@_BAD_PARAMETER = 2,
-    /** A number of the state is not finite, or became so: the state given was broken, or the motion escapes. */
+    /** A number of the state/*OR_TIME*/ is not finite, or became so: the state given was broken, or the motion escapes. */
     @P@_NOT_FINITE = 3,
     /** The group element is none of the group (a quaternion that is not a unit one): normalise it. */
     @P@_OFF_GROUP = 4,
@@ -203,7 +208,7 @@ typedef struct @p@_map {
 /// The class, for compilers of C++ alone.
 pub(crate) fn class(origin: Origin<'_>, step: &Step, names: &Names) -> String {
     let with = !origin.facts().parameters.is_empty();
-    let text = CLASS
+    let text = timed(CLASS, step)
         .replace("/*PARAMETERS*/", if with { PARAMETERS } else { "" })
         .replace("/*ARGUMENT*/", if with { ", const Parameters &parameters" } else { "" })
         .replace("/*PASSED*/", if with { ", &parameters" } else { "" })
@@ -242,16 +247,16 @@ public:
     }
 
     /** As @p@_step. */
-    Status step(State &state) const noexcept { return @p@_step(&map_, &state); }
+    Status step(State &state/*TIME*/) const noexcept { return @p@_step(&map_, &state/*NOW*/); }
 
     /** As @p@_advance. */
-    Status advance(State &state, uint32_t steps, uint32_t &made) const noexcept
+    Status advance(State &state/*TIME*/, uint32_t steps, uint32_t &made) const noexcept
     {
-        return @p@_advance(&map_, &state, steps, &made);
+        return @p@_advance(&map_, &state/*NOW*/, steps, &made);
     }
 
     /** As @p@_energy. */
-    double energy(const State &state) const noexcept { return @p@_energy(&map_, &state); }
+    double energy(const State &state/*TIME*/) const noexcept { return @p@_energy(&map_, &state/*NOW*/); }
 /*CASIMIRS*/
     /** As @p@_spatial_momentum. */
     static void spatial_momentum(const State &state, double (&spatial)[@P@_DIMENSION]) noexcept
@@ -321,6 +326,7 @@ fn paragraphs(
     let time =
         options.time.as_ref().map_or(String::new(), |unit| format!(" in {}", c_comment(unit)));
     let parameters = if facts.parameters.is_empty() { "" } else { ", &parameters" };
+    let now = kernel.clock().map_or("", |_| ", time");
     let lower = &names.lower;
     let mut list = vec![
         format!("{}: steps of the system \"{}\".", names.file(), c_comment(facts.name)),
@@ -341,7 +347,7 @@ fn paragraphs(
         format!("     {lower}_state state;"),
         format!("     {lower}_status status = {lower}_init(&map, h{parameters});"),
         format!("     {lower}_at_identity(&state, mu);"),
-        format!("     status = {lower}_step(&map, &state);"),
+        format!("     status = {lower}_step(&map, &state{now});"),
         format!(
             "All memory is the caller's. There are no globals and no allocations, a map may be read by several threads \
              at once, and pointers must not be null. The step size h is a time{time}; every status other than {}_OK says \
@@ -377,6 +383,13 @@ fn paragraphs(
             "The motion is generated in a comoving frame, which moves on every {0}_BLOCK steps and at the end of each call \
              of {lower}_advance: the rounding of many steps depends on how they are cut into calls.",
             names.upper
+        ));
+    }
+    if kernel.clock().is_some() {
+        list.push(String::new());
+        list.push(format!(
+            "The Hamiltonian depends on time. A step is given the time at which it begins, {lower}_advance that of its first \
+             step. The state does not hold it: count steps, and give t0 + i h, so that no rounding gathers."
         ));
     }
     if let Some(step) = options.only_step {

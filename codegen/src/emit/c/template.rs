@@ -1,5 +1,8 @@
 //! Text of a header that is the same for all systems, or filled in.
 
+use crate::emit::c::dialect::decimal;
+use crate::step::Step;
+
 /// a^n, where parameters have powers: the operations of the interpreter.
 pub(super) const POWER: &str = "
 /* Internal: a^n by repeated squaring. */
@@ -305,11 +308,11 @@ static inline void @p@_spatial_momentum(const @p@_state *state, double *spatial)
 /*BACK*/    @p@_internal_spatial(none, state->g, /*ARGUMENT*/, state->mu, spatial);
 }
 
-/** The energy: the Hamiltonian at the body momentum/*POTENTIAL*/. Steps keep it near its first value for all times. */
-static inline double @p@_energy(const @p@_map *map, const @p@_state *state)
+/** The energy: the Hamiltonian at the body momentum/*POTENTIAL*/. /*KEPT*/. */
+static inline double @p@_energy(const @p@_map *map, const @p@_state *state/*TIME*/)
 {
-    double energy = 0.0;
-    @p@_internal_energy(map->c, /*OF*/state->mu, &energy);
+/*LOCAL*/    double energy = 0.0;
+/*SET*/    @p@_internal_energy(/*OWN*/, /*OF*/state->mu, &energy);
     return energy;
 }
 ";
@@ -341,7 +344,7 @@ static inline const char *@p@_status_text(@p@_status status)
         text = \"a coefficient is not finite: a parameter is not, or one that is divided by is zero\";
         break;
     case @P@_NOT_FINITE:
-        text = \"a number of the state is not finite\";
+        text = \"a number of the state/*OR_TIME*/ is not finite\";
         break;
     case @P@_OFF_GROUP:
         text = \"the group element is none of the group: normalise it, or start from the identity\";
@@ -361,4 +364,60 @@ static inline const char *@p@_status_text(@p@_status status)
     }
     return text;
 }
+";
+
+/// The texts of templates in the places for the time: where steps depend on it, and where they do not.
+const TIMED: [(&str, &str, &str); 12] = [
+    ("/*TIME*/", ", double time", ""),
+    ("/*NOW*/", ", time", ""),
+    ("/*FROM*/", " from this time", ""),
+    ("/*COEFFICIENTS*/", "double c[@P@_COEFFICIENTS + @P@_TIMES]", "const double *c = map->c"),
+    ("/*LOCAL*/", "    double c[@P@_COEFFICIENTS + @P@_TIMES];\n", ""),
+    ("/*OWN*/", "c", "map->c"),
+    ("/*OR_TIME*/", ", or the time,", ""),
+    ("/*SET*/", "    @p@_internal_clock(map, c, time);\n", ""),
+    ("/*BEGIN*/", BEGIN_AT, ""),
+    ("/*KEPT*/", "It changes with time", "Steps keep it near its first value for all times"),
+    ("/*ABOUT_TIME*/", ABOUT_TIME, ""),
+    ("/*CLOCK*/", CLOCK, ""),
+];
+
+/// A template with what it says of time.
+pub(super) fn timed(template: &str, step: &Step) -> String {
+    let clock = step.kernel().clock();
+    let fill = |text: String, (place, moving, fixed): (&str, &str, &str)| {
+        text.replace(place, if clock.is_some() { moving } else { fixed })
+    };
+    let text = TIMED.into_iter().fold(template.to_owned(), fill);
+    let Some(clock) = clock else { return text };
+    let parts: Vec<String> = clock.times.iter().map(|&time| decimal(time)).collect();
+    text.replace("/*PARTS*/", &parts.join(", ")).replace("/*SIZE*/", &format!("{}u", clock.size))
+}
+
+/// The statement that sets the times of a step.
+pub(super) const CLOCK_OF_STEP: &str =
+    "@p@_internal_clock(map, c, time + ((double)done * map->c[/*SIZE*/]));";
+
+const CLOCK: &str = "/* Internal: the coefficients of a step that begins at this time. */
+static inline void @p@_internal_clock(const @p@_map *map, double *c, double time)
+{
+    /* The times of a step, from its beginning on and in its lengths. */
+    static const double parts[@P@_TIMES] = {/*PARTS*/};
+    uint32_t i;
+    @p@_internal_copy(c, map->c, @P@_COEFFICIENTS);
+    for (i = 0u; i < @P@_TIMES; i++) {
+        c[@P@_COEFFICIENTS + i] = @P@_FMA(parts[i], c[/*SIZE*/], time);
+    }
+}
+
+";
+
+const BEGIN_AT: &str = "    if ((status == @P@_OK) && (!(fabs(time) <= DBL_MAX))) {
+        status = @P@_NOT_FINITE;
+    }
+";
+
+const ABOUT_TIME: &str = " *
+ * The first step begins at `time`, that of the state, and step i after it at time + i h, so that no rounding gathers.
+ * Between calls count the steps: step i from the time t0 on begins at t0 + i h.
 ";

@@ -12,7 +12,7 @@ int main()
     const @C@ map(@step@@by_value@);
     @C@::State state = @C@::at_identity(momentum);
     uint32_t made = 0u;
-    const @C@::Status status = map.advance(state, @steps@u, made);
+    const @C@::Status status = map.advance(state@time@, @steps@u, made);
     double spatial[@P@_DIMENSION];
     double matrix[@P@_ROWS * @P@_ROWS];
     @C@::spatial_momentum(state, spatial);
@@ -24,6 +24,6 @@ int main()
         std::memcpy(&bits, &state.mu[i], sizeof bits);
         std::printf(" %016" PRIx64, bits);
     }
-    std::printf("\n%d %d\n", static_cast<int>(map.status()), static_cast<int>(map.step(state)));
-    return map.energy(state) < 1.0e300 ? 0 : 1;
+    std::printf("\n%d %d\n", static_cast<int>(map.status()), static_cast<int>(map.step(state@time@)));
+    return map.energy(state@time@) < 1.0e300 ? 0 : 1;
 }

@@ -42,7 +42,7 @@ int main(void)
     print("coefficients", map.c, @P@_COEFFICIENTS);
     @p@_at_identity(&state, momentum);
     print("identity", state.g, @P@_ELEMENT);
-    energy = @p@_energy(&map, &state);
+    energy = @p@_energy(&map, &state@time@);
     print("energy", &energy, 1u);
 #ifdef @P@_CASIMIRS
     {
@@ -54,11 +54,11 @@ int main(void)
     @p@_spatial_momentum(&state, spatial);
     print("spatial", spatial, @P@_DIMENSION);
 
-    status = @p@_advance(&map, &state, @steps@u, &made);
+    status = @p@_advance(&map, &state@time@, @steps@u, &made);
     printf("advance %d %lu\n", (int)status, (unsigned long)made);
     print("g", state.g, @P@_ELEMENT);
     print("mu", state.mu, @P@_DIMENSION);
-    energy = @p@_energy(&map, &state);
+    energy = @p@_energy(&map, &state@time@);
     print("energy", &energy, 1u);
     @p@_spatial_momentum(&state, spatial);
     print("spatial", spatial, @P@_DIMENSION);
@@ -67,9 +67,9 @@ int main(void)
 
     /* One step, and nothing at all. */
     before = state;
-    status = @p@_advance(&map, &state, 0u, &made);
+    status = @p@_advance(&map, &state@time@, 0u, &made);
     printf("none %d %lu %d\n", (int)status, (unsigned long)made, same(&before, &state));
-    status = @p@_step(&map, &state);
+    status = @p@_step(&map, &state@time@);
     printf("step %d %d\n", (int)status, same(&before, &state));
 
     /* What is refused leaves the state as it was. */
@@ -77,31 +77,38 @@ int main(void)
         state.mu[i] = 1.0e9 * momentum[i];
     }
     before = state;
-    status = @p@_advance(&map, &state, 10u, &made);
+    status = @p@_advance(&map, &state@time@, 10u, &made);
     printf("large %d %lu %d\n", (int)status, (unsigned long)made, same(&before, &state));
     state.mu[0] = (double)NAN;
     before = state;
-    status = @p@_step(&map, &state);
+    status = @p@_step(&map, &state@time@);
     printf("momentum %d %d\n", (int)status, same(&before, &state));
     @p@_at_identity(&state, momentum);
     state.g[0] = (double)INFINITY;
     before = state;
-    status = @p@_advance(&map, &state, 3u, &made);
+    status = @p@_advance(&map, &state@time@, 3u, &made);
     printf("element %d %lu %d\n", (int)status, (unsigned long)made, same(&before, &state));
     @p@_at_identity(&state, momentum);
     state.g[0] = 1.5;
     before = state;
-    status = @p@_advance(&map, &state, 3u, &made);
+    status = @p@_advance(&map, &state@time@, 3u, &made);
     printf("group %d %lu %d\n", (int)status, (unsigned long)made, same(&before, &state));
+
+#ifdef @P@_TIMES
+    @p@_at_identity(&state, momentum);
+    before = state;
+    status = @p@_step(&map, &state, (double)INFINITY);
+    printf("time %d %d %s\n", (int)status, same(&before, &state), @p@_status_text(status));
+#endif
 
     /* Maps that cannot be made. */
     @p@_at_identity(&state, momentum);
     before = state;
     status = @p@_init(&broken, zero@passed@);
-    printf("zero %d %d", (int)status, (int)@p@_step(&broken, &state));
+    printf("zero %d %d", (int)status, (int)@p@_step(&broken, &state@time@));
     printf(" %d\n", same(&before, &state));
     status = @p@_init(&broken, (double)NAN@passed@);
-    printf("nan %d %d\n", (int)status, (int)@p@_step(&broken, &state));
+    printf("nan %d %d\n", (int)status, (int)@p@_step(&broken, &state@time@));
 @broken@
     return 0;
 }

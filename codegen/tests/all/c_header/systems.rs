@@ -80,6 +80,14 @@ const SIX: &str = "name = \"six\"\ngroup = \"SE3\"\ncoordinates = [\"a\", \"b\",
     hamiltonian = \"sqrt(1 + a^2 + b^2/2 + c^2/3) + exp(u/5) + v^2/3 + 1/(2 + w^2)\"\n\
     [integrator]\nstep = 0.1\n[initial]\nmomentum = [0.4, 0.3, 0.9, 0.2, 0.5, -0.3]\n";
 
+/// A root in a field that turns, and the same with an exponential on a group of motions.
+const DRIVEN: &str = "name = \"driven\"\ngroup = \"SO3\"\ncoordinates = [\"x\", \"y\", \"z\"]\n\
+    hamiltonian = \"sqrt(1 + x^2/I1 + y^2/2 + z^2/3) + z^2/9 + B*(cos(1.3*t)*x + sin(1.3*t)*y)\"\n\
+    [parameters]\nI1 = 1.5\nB = 0.2\n[integrator]\nstep = 0.1\n[initial]\nmomentum = [0.5, -1.4, 0.8]\n";
+const DRIVEN_SIX: &str = "name = \"driven six\"\ngroup = \"SE3\"\ncoordinates = [\"a\", \"b\", \"c\", \"u\", \"v\", \"w\"]\n\
+    hamiltonian = \"(a^2 + b^2/2 + c^2/3)/2 + exp(u*sin(t)/5) + v^2/3 + w^2/(2 + cos(t))\"\n\
+    [integrator]\nstep = 0.1\n[initial]\nmomentum = [0.4, 0.3, 0.9, 0.2, 0.5, -0.3]\n";
+
 impl System {
     /// Written as C with its parameters substituted, in the exponential chart, and compared with no committed header.
     const fn new(name: &'static str, text: &'static str, truncation: usize) -> Self {
@@ -124,6 +132,8 @@ const SYSTEMS: &[System] = &[
     System::new("brackets", BRACKETS, 3),
     System::new("relativistic_body", "examples/relativistic_body.toml", 5).kept(),
     System::new("six_variables", SIX, 3).cpp(),
+    System::new("driven", DRIVEN, 5).kept(),
+    System::new("driven_six", DRIVEN_SIX, 3).cpp(),
 ];
 
 /// All systems, built once.
@@ -217,15 +227,18 @@ impl Built {
         let declared = "    @p@_parameters parameters;\n    @p@_default_parameters(&parameters);";
         let broken = "    parameters.@first@ = (double)NAN;\n    \
             status = @p@_init(&broken, @step@, &parameters);\n    \
-            printf(\"parameter %d %d\\n\", (int)status, (int)@p@_step(&broken, &state));";
+            printf(\"parameter %d %d\\n\", (int)status, (int)@p@_step(&broken, &state@time@));";
         let first = parameters.first().map_or("", |parameter| match parameter.name.as_str() {
             "double" => "double_",
             name => name,
         });
+        let moves = self.programs.moves();
+        let time = if moves { format!(", {:?}", super::TIME) } else { String::new() };
         template
             .replace("@parameters@", if with { declared } else { "" })
             .replace("@broken@", if with { broken } else { "" })
             .replace("@first@", first)
+            .replace("@time@", &time)
             .replace("@passed@", if with { ", &parameters" } else { "" })
             .replace("@by_value@", if with { ", parameters" } else { "" })
             .replace("@file@", &self.file)
