@@ -268,15 +268,10 @@ impl Derived {
         self.series()?.integrator.kicks.as_ref()
     }
 
-    /// Whether states move by programs alone and alike at all times, so that many may move side by side.
+    /// Whether states move by programs alone, so that many may move side by side.
     pub(crate) fn alike(&self) -> bool {
-        if self.damping.is_some() {
-            return false;
-        }
-        match &self.flow {
-            Flow::Series(series) => !series.integrator.torque().is_some_and(|torque| torque.moves),
-            Flow::Collocation(smooth, ..) => smooth.given.is_none() && !smooth.depends_on_time(),
-        }
+        let calls = matches!(&self.flow, Flow::Collocation(smooth, ..) if smooth.given.is_some());
+        self.damping.is_none() && !calls
     }
 
     /// The group that the equations are on.

@@ -72,13 +72,35 @@ fn refusals_name_expression_argument_and_time() {
     let folder = Folder::with(FAST_BODY);
     let expected = ["there is no series", "collocation", "`check` tries the laws"];
     folder.run("derive system.toml").fails(2, &expected);
-    let driven = Folder::with(&FAST_BODY.replace("sqrt(1 + ", "sqrt(1 + sin(t)^2 + "));
-    for (language, expected) in [
-        ("c", "cannot be written as C: its steps depend on the time"),
-        ("cuda", "no kernel is written of steps that depend on the time"),
-    ] {
-        driven.run(&format!("emit --language {language} system.toml")).fails(2, &[expected]);
+    let driven = Folder::with(&breathing());
+    let single = "emit system.toml --language cuda --precision single";
+    driven.run(single).fails(2, &["depend on time", "use double precision"]);
+}
+
+/// The body whose mass moves in time.
+fn breathing() -> String {
+    FAST_BODY.replace("sqrt(1 + ", "sqrt(1 + sin(t)^2 + ")
+}
+
+/// Rows of an ensemble have their own times, and side by side the bits of runs of their own.
+#[test]
+fn rows_that_depend_on_time_are_runs() {
+    let rows: Vec<[f64; 3]> = (0..11).map(|row| [2.0, 0.5 - 0.1 * f64::from(row), 1.0]).collect();
+    let line = |[x, y, z]: &[f64; 3]| format!("{x},{y},{z}\n");
+    let folder = Folder::with(&breathing());
+    folder
+        .write("in.csv", format!("mu_1,mu_2,mu_3\n{}", rows.iter().map(line).collect::<String>()));
+    folder.run("ensemble system.toml --initial in.csv --out out.csv --time 20").ok();
+    for (found, start) in folder.text("out.csv").lines().skip(1).zip(rows) {
+        let found: Vec<f64> = found.split(',').take(3).map(|cell| cell.parse().unwrap()).collect();
+        let system = breathing().replace("[2.0, 0.5, 1.0]", &format!("{start:?}"));
+        let alone = numbers(&report_of(&Folder::with(&system), "--time 20")["momentum"]);
+        assert_eq!(found, alone, "{start:?}");
     }
+    let text = folder.run("emit --language opencl system.toml").ok().out;
+    assert!(text.contains("times[0] = fma(0.0, "), "{text}");
+    let header = folder.run("emit --language c system.toml").ok().out;
+    assert!(header.contains("_step(&map, &state, time);"), "{header}");
 }
 
 /// The programs of a step are those of all targets: with the same bits by the interpreter and by machine code, and as texts.

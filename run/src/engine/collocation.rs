@@ -193,7 +193,7 @@ impl<const M: usize> Motion for Collocated<'_, M> {
     }
 
     fn lanes(&self) -> Option<&Compiled> {
-        self.elements.compiled.as_deref().filter(|compiled| !compiled.moves())
+        self.elements.compiled.as_deref()
     }
 
     /// There is no series.

@@ -315,11 +315,6 @@ impl Compiled {
         made
     }
 
-    /// Whether steps depend on the time.
-    pub(crate) fn moves(&self) -> bool {
-        self.programs.step.moves()
-    }
-
     /// The numbers of the element with this matrix, row by row.
     pub(crate) fn element_of(&self, matrix: &[f64]) -> Vec<f64> {
         self.programs.step.element_of(matrix)
@@ -330,15 +325,31 @@ impl Compiled {
         self.kernel().programs.matrix.run(g, &[])
     }
 
-    /// [`WIDTH`] trajectories side by side, as [`Stepper::advance_lanes`](coadjoint_program::Stepper::advance_lanes).
+    /// Makes steps, after those already made, of [`WIDTH`] trajectories side by side, as
+    /// [`Stepper::advance_lanes`](coadjoint_program::Stepper::advance_lanes).
     pub(crate) fn advance_lanes(
         &self,
         g: &mut [f64],
         mu: &mut [f64],
-        steps: u64,
+        [first, steps]: [u64; 2],
         live: [bool; WIDTH],
     ) -> [u64; WIDTH] {
-        self.code().stepper(self.kernel()).advance_lanes(self.coefficients(), g, mu, steps, live)
+        let (step, stepper) = (&self.programs.step, self.code().stepper(self.kernel()));
+        if !step.moves() {
+            return stepper.advance_lanes(self.coefficients(), g, mu, steps, live);
+        }
+        let (mut slots, mut made) = (self.coefficients().to_vec(), [0; WIDTH]);
+        for number in 0..steps {
+            let live = from_fn(|lane| live[lane] && made[lane] == number);
+            if !live.contains(&true) {
+                break;
+            }
+            let Folded { size, .. } = self.folded;
+            step.set_time(&mut slots, size, (first + number) as f64 * size);
+            let own = stepper.advance_lanes(&slots, g, mu, 1, live);
+            made = from_fn(|lane| made[lane] + own[lane]);
+        }
+        made
     }
 }
 

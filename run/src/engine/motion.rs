@@ -314,8 +314,7 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Motion for Steps<'a, G
     }
 
     fn lanes(&self) -> Option<&Compiled> {
-        let moves = self.equations.moves();
-        self.elements.compiled.as_deref().filter(|_| !moves)
+        self.elements.compiled.as_deref()
     }
 }
 

@@ -186,7 +186,7 @@ impl<'a> Engine<'a> {
         } else if how.device.is_some() {
             let what = match alike {
                 true => {
-                    "--device: steps that depend on time, or with damping, or that call a function, are not made on devices"
+                    "--device: steps with damping, or that call a function, are not made on devices"
                 }
                 false => "--device: parameters that vary from row to row are not made on devices",
             };
@@ -295,7 +295,6 @@ impl<'a> Engine<'a> {
                 Err(reason) => rows.rejected.push(Rejected { row, step: 0, reason }),
             }
         }
-        // Where steps depend on the time each row has its own.
         let ways = if layout.parameters.is_empty() && self.system.alike() {
             self.march(before.clone(), course, watch)?
         } else {

@@ -69,7 +69,7 @@ impl March<'_> {
             };
             let (mut g, mut mu) = (beside(|state| &state.g), beside(|state| &state.mu));
             let live = from_fn(|lane| ways.get(lane).is_some_and(|w| w.stopped.is_none()));
-            made = compiled.advance_lanes(&mut g, &mut mu, end - first, live);
+            made = compiled.advance_lanes(&mut g, &mut mu, [first, end - first], live);
             for (lane, Way { state, .. }) in ways.iter_mut().enumerate() {
                 for (list, own) in [(&g, &mut state.g), (&mu, &mut state.mu)] {
                     let values = list.iter().skip(lane).step_by(WIDTH);
