@@ -107,6 +107,8 @@ fn comment(kernel: &Kernel, about: &str) -> String {
     let of = |list: &[&crate::Program]| list.iter().map(|one| one.cost().total()).sum::<usize>();
     let fixed = of(&[&programs.guess, &programs.accept, &programs.transport]);
     let (n, m, correction) = (kernel.dim, kernel.element, of(&[&programs.correct]));
+    // As headers count them.
+    let often = if kernel.guesses_from_element() { "often five" } else { "most often one" };
     let time = match kernel.clock() {
         Some(_) => " * Steps depend on time: step i of a trajectory begins at time i h.\n",
         None => "",
@@ -120,7 +122,7 @@ fn comment(kernel: &Kernel, about: &str) -> String {
          \x20* 3 the step is outside the domain where it is accepted at once, 4 the state is not finite or not on the group.\n\
          \x20* Let targets be multiples of {BLOCK}, or one.\n\
          \x20*\n\
-         \x20* A step takes {fixed} operations and {correction} for each correction, most often one.\n\
+         \x20* A step takes {fixed} operations and {correction} for each correction, {often}.\n\
          {time}\x20*/\n",
         kernel.precision(),
     ));
