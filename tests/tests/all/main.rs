@@ -29,7 +29,6 @@ mod laws;
 mod layers;
 mod learned_step;
 mod long_series;
-mod order;
 mod parts;
 mod potential;
 mod predictor;
