@@ -13,7 +13,7 @@ use coadjoint_learn::{
 
 use crate::support::{WIDE, draw, random, random_network, random_polynomial, relativistic, sample};
 
-/// Derivatives in the laws are differences of eighth order, good to 1e-11 or so.
+/// Derivatives in the laws are differences of twelfth order, good to 1e-12 or so.
 fn keeps_the_geometry<G: LieGroup<Scalar = f64>, C: Chart<G>>(
     group: &G,
     name: &str,
