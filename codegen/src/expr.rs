@@ -12,7 +12,6 @@ pub(crate) struct ExprId(u32);
 
 impl ExprId {
     /// The index of the node in its arena; its operands have smaller ones.
-    #[must_use]
     pub(crate) fn index(self) -> usize {
         self.0 as usize
     }
@@ -21,29 +20,19 @@ impl ExprId {
 /// A number, a variable, or an operation on earlier nodes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Node {
-    /// An exact number.
     Number(Rational),
-    /// A coordinate of the momentum.
     Coordinate(usize),
     /// A scalar parameter, by its index among all parameters flattened.
     Parameter(usize),
-    /// The time t.
     Time,
     /// An input, a function of the time.
     Signal(usize),
-    /// −a.
     Neg(ExprId),
-    /// a + b.
     Add(ExprId, ExprId),
-    /// a − b.
     Sub(ExprId, ExprId),
-    /// a · b.
     Mul(ExprId, ExprId),
-    /// a / b.
     Div(ExprId, ExprId),
-    /// a to the power b.
     Pow(ExprId, ExprId),
-    /// A function of a.
     Call(Function, ExprId),
     /// Stands for input that was wrong and has been reported, so that nothing is reported twice.
     Wrong,
@@ -79,8 +68,6 @@ pub(crate) struct Arena {
 }
 
 impl Arena {
-    /// An arena without nodes.
-    #[must_use]
     pub(crate) fn new() -> Self {
         Self::default()
     }
@@ -93,8 +80,6 @@ impl Arena {
         id
     }
 
-    /// The number of nodes.
-    #[must_use]
     pub(crate) fn len(&self) -> usize {
         self.nodes.len()
     }
@@ -102,6 +87,19 @@ impl Arena {
     /// The place in the input where the node was read.
     pub(crate) fn span(&self, id: ExprId) -> Span {
         self.nodes[id.index()].1
+    }
+
+    /// How often each node is used by what these are made of; 0 where not at all.
+    pub(crate) fn uses(&self, roots: &[ExprId]) -> Vec<u32> {
+        let mut uses = vec![0_u32; self.len()];
+        roots.iter().for_each(|root| uses[root.index()] += 1);
+        for at in (0..self.len()).rev() {
+            if uses[at] > 0 {
+                let operands = self.nodes[at].0.operands();
+                operands.into_iter().flatten().for_each(|operand| uses[operand.index()] += 1);
+            }
+        }
+        uses
     }
 
     /// The nodes in their order, with identity and place.

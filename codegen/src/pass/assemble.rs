@@ -43,7 +43,6 @@ impl Energy {
         sum
     }
 
-    /// Whether it is a function of the time too.
     fn moves(&self) -> bool {
         let of_time = |node: &Node| matches!(node, Node::Time | Node::Signal(_));
         self.arena.iter().any(|(_, node, _)| of_time(node))
@@ -330,7 +329,6 @@ fn smooth_potential(
     Some((Programs::of_potential(algebra, programs, expressions), symbols))
 }
 
-/// The names of the entries of a matrix, row by row.
 pub(crate) fn entries(size: usize) -> Vec<String> {
     (0..size * size).map(|at| format!("g[{}][{}]", at / size, at % size)).collect()
 }

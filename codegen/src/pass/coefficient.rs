@@ -12,7 +12,7 @@ use num_integer::Integer;
 use num_traits::{One, Pow, Signed, ToPrimitive, Zero};
 
 use crate::diagnostic::Mistake;
-use crate::expr::{Function, ParameterExpr};
+use crate::expr::{Function, Node, ParameterExpr};
 use crate::number::Rational;
 
 /// The maximum number of bits of a numerator or denominator.
@@ -25,7 +25,6 @@ const DEEPEST: usize = 200;
 /// A product of powers of atoms, by its number in the table; [`ONE`] is the empty product.
 pub(super) type Product = usize;
 
-/// The empty product.
 pub(super) const ONE: Product = 0;
 
 /// rational · product; zero if the rational is.
@@ -44,7 +43,6 @@ impl Coefficient {
         self.factor.is_zero()
     }
 
-    /// The value, if it is a number.
     pub(super) fn as_number(&self) -> Option<&Rational> {
         (self.product == ONE || self.is_zero()).then_some(&self.factor)
     }
@@ -239,12 +237,46 @@ impl Table {
         self.atom(Atom::Call(function, a.clone()))
     }
 
-    /// base^power, by a root where that is exact or a square root, else by exp(power·ln base).
-    pub(super) fn root(
+    /// The operation of a node on constants; `b` is the second operand, where there is one.
+    pub(super) fn apply(
+        &mut self,
+        node: &Node,
+        a: &Coefficient,
+        b: Option<&Coefficient>,
+    ) -> Result<Coefficient, Mistake> {
+        let minus = |a: &Coefficient| Coefficient { factor: -&a.factor, product: a.product };
+        match (node, b) {
+            (Node::Neg(_), _) => Ok(minus(a)),
+            (Node::Call(function, _), _) => self.call(*function, a),
+            (Node::Add(..), Some(b)) => self.add(a, b),
+            (Node::Sub(..), Some(b)) => self.add(a, &minus(b)),
+            (Node::Mul(..), Some(b)) => self.multiply(a, b),
+            (Node::Div(..), Some(b)) => {
+                let inverse = self.power(b, -1)?;
+                self.multiply(a, &inverse)
+            }
+            (_, Some(b)) => self.raise(a, b),
+            (_, None) => Ok(a.clone()),
+        }
+    }
+
+    /// base^power.
+    pub(super) fn raise(
         &mut self,
         base: &Coefficient,
         power: &Coefficient,
     ) -> Result<Coefficient, Mistake> {
+        match power.as_number().filter(|power| power.is_integer()) {
+            Some(whole) => match whole.numer().to_i64() {
+                Some(n) => self.power(base, n),
+                None => Err(Mistake::LargePower(whole.to_string(), HIGHEST_POWER as u32)),
+            },
+            None => self.root(base, power),
+        }
+    }
+
+    /// base^power, by a root where that is exact or a square root, else by exp(power·ln base).
+    fn root(&mut self, base: &Coefficient, power: &Coefficient) -> Result<Coefficient, Mistake> {
         let whole = |value: &BigInt| value.to_i64().filter(|n| n.abs() <= HIGHEST_POWER);
         let fraction = power.as_number().and_then(|p| Some((whole(p.numer())?, whole(p.denom())?)));
         if let Some((n, 2)) = fraction {
@@ -272,7 +304,6 @@ impl Table {
         Rational::from_float(value).ok_or_else(|| Mistake::NotReal(expression.text(&[])))
     }
 
-    /// The product as an expression in parameters.
     pub(super) fn expression(&self, product: Product) -> ParameterExpr {
         let powers = &self.products[product];
         let of_sign = |negative: bool| {
@@ -312,7 +343,6 @@ impl Table {
         }
     }
 
-    /// factor · product as an expression in parameters.
     pub(super) fn scaled(&self, factor: &Rational, product: Product) -> ParameterExpr {
         if product == ONE {
             return ParameterExpr::Rational(factor.clone());

@@ -36,7 +36,6 @@ impl Sum {
         Self { terms }
     }
 
-    /// The value, if no coordinate occurs.
     pub(super) fn as_constant(&self) -> Option<Coefficient> {
         match self.terms.len() {
             0 => Some(Coefficient::number(Rational::zero())),
@@ -64,7 +63,7 @@ pub(super) fn polynomial(
     diagnostics: &Diagnostics,
 ) -> Option<Sum> {
     let uses = match root {
-        Some(root) => uses(arena, root),
+        Some(root) => arena.uses(&[root]),
         None => vec![u32::MAX; arena.len()],
     };
     let count = root.map_or(arena.len(), |root| root.index() + 1);
@@ -76,21 +75,6 @@ pub(super) fn polynomial(
         pass.values.push(value);
     }
     pass.values.pop().flatten()
-}
-
-/// How often each node is used by what `root` is made of; 0 where not at all.
-fn uses(arena: &Arena, root: ExprId) -> Vec<u32> {
-    let mut uses = vec![0_u32; arena.len()];
-    uses[root.index()] = 1;
-    let nodes: Vec<_> = arena.iter().take(root.index() + 1).collect();
-    for (id, node, _) in nodes.into_iter().rev() {
-        if uses[id.index()] > 0 {
-            for operand in node.operands().into_iter().flatten() {
-                uses[operand.index()] += 1;
-            }
-        }
-    }
-    uses
 }
 
 struct Pass<'a> {
@@ -230,38 +214,26 @@ impl Pass<'_> {
     }
 
     fn power(&mut self, base: &Sum, power: &Coefficient, span: Span) -> Option<Sum> {
-        let constant = base.as_constant();
-        let Some(number) = power.as_number() else {
-            let Some(base) = constant else { return self.wrong(span, Mistake::UnknownPower) };
-            let value = self.table.root(&base, power);
+        if let Some(base) = base.as_constant() {
+            let value = self.table.raise(&base, power);
             return self.checked(span, value).map(Sum::constant);
+        }
+        let Some(number) = power.as_number() else {
+            return self.wrong(span, Mistake::UnknownPower);
         };
-        let whole = number.is_integer().then(|| number.numer().to_i64());
-        let large = || Mistake::LargePower(number.to_string(), HIGHEST_DEGREE);
-        match (constant, whole) {
-            (Some(base), Some(Some(n))) => {
-                let value = self.table.power(&base, n);
-                self.checked(span, value).map(Sum::constant)
-            }
-            (Some(base), None) => {
-                let value = self.table.root(&base, power);
-                self.checked(span, value).map(Sum::constant)
-            }
-            (None, None) => self.wrong(span, Mistake::FractionalPower(number.to_string())),
-            (_, Some(None)) => self.wrong(span, large()),
-            (None, Some(Some(n))) if n < 0 => {
-                self.wrong(span, Mistake::NegativePower(n.to_string()))
-            }
-            (None, Some(Some(n))) => {
-                if n > i64::from(HIGHEST_DEGREE) {
-                    return self.wrong(span, large());
-                }
+        if !number.is_integer() {
+            return self.wrong(span, Mistake::FractionalPower(number.to_string()));
+        }
+        match number.numer().to_i64() {
+            Some(n) if n < 0 => self.wrong(span, Mistake::NegativePower(n.to_string())),
+            Some(n) if n <= i64::from(HIGHEST_DEGREE) => {
                 let mut result = Sum::constant(Coefficient::number(Rational::one()));
                 for _ in 0..n {
                     result = self.multiply(&result, base, span)?;
                 }
                 Some(result)
             }
+            _ => self.wrong(span, Mistake::LargePower(number.to_string(), HIGHEST_DEGREE)),
         }
     }
 }

@@ -34,6 +34,15 @@ enum Value {
     Number(Id),
 }
 
+impl Value {
+    fn as_constant(&self) -> Option<&Coefficient> {
+        match self {
+            Self::Constant(value) => Some(value),
+            Self::Number(_) => None,
+        }
+    }
+}
+
 /// Lowers the expressions `roots` in coordinates, scalar parameters and inputs with these names, with the gradient of their
 /// sum; `None` if something was wrong, which is then reported.
 pub(super) fn lower(
@@ -43,7 +52,7 @@ pub(super) fn lower(
     table: &mut Table,
     diagnostics: &Diagnostics,
 ) -> Option<Lowered> {
-    let needed = needed(arena, roots);
+    let uses = arena.uses(roots);
     let [coordinates, scalars, signals] = names;
     let mut pass = Pass {
         time: coordinates.len(),
@@ -56,7 +65,7 @@ pub(super) fn lower(
         texts: texts(arena, names),
     };
     for (id, node, span) in arena.iter() {
-        let value = if needed[id.index()] { pass.node(id, node, span) } else { None };
+        let value = if uses[id.index()] > 0 { pass.node(id, node, span) } else { None };
         pass.values.push(value);
     }
     let roots: Option<Vec<Id>> =
@@ -86,19 +95,6 @@ pub(super) fn lower(
     })
 }
 
-/// Which nodes these are made of.
-fn needed(arena: &Arena, roots: &[ExprId]) -> Vec<bool> {
-    let mut needed = vec![false; arena.len()];
-    roots.iter().for_each(|root| needed[root.index()] = true);
-    let nodes: Vec<_> = arena.iter().collect();
-    for (id, node, _) in nodes.into_iter().rev() {
-        if needed[id.index()] {
-            node.operands().into_iter().flatten().for_each(|id| needed[id.index()] = true);
-        }
-    }
-    needed
-}
-
 struct Pass<'a> {
     /// The number of the input that is the time.
     time: usize,
@@ -122,7 +118,6 @@ impl Pass<'_> {
         self.diagnostics.check(span, result).map(Value::Constant)
     }
 
-    /// A value as a node of the graph.
     fn number(&mut self, value: &Value) -> Id {
         match value {
             Value::Number(id) => *id,
@@ -137,100 +132,62 @@ impl Pass<'_> {
         }
     }
 
-    fn numbers(&mut self, a: &Value, b: &Value) -> [Id; 2] {
-        [self.number(a), self.number(b)]
+    fn node(&mut self, id: ExprId, node: &Node, span: Span) -> Option<Value> {
+        cancel::check();
+        let [Some(a), b] = node.operands() else { return self.leaf(id, node, span) };
+        let a = self.take(a)?;
+        let b = match b {
+            Some(b) => Some(self.take(b)?),
+            None => None,
+        };
+        let known = b.as_ref().map(Value::as_constant);
+        if let (Some(a), None | Some(Some(_))) = (a.as_constant(), known) {
+            let value = self.table.apply(node, a, known.flatten());
+            return self.constant(span, value);
+        }
+        let by_constant = known.flatten().is_some();
+        let b = match (node, b) {
+            (Node::Pow(..), Some(b)) => return self.power(id, &a, &b, span),
+            (Node::Div(..), Some(Value::Constant(b))) => {
+                let inverse = self.table.power(&b, -1);
+                Some(self.constant(span, inverse)?)
+            }
+            (_, b) => b,
+        };
+        let (a, b) = (self.number(&a), b.map(|b| self.number(&b)));
+        Some(Value::Number(match (node, b) {
+            (Node::Call(function, _), _) => self.call(id, *function, a, span)?,
+            (Node::Add(..), Some(b)) => self.graph.add(a, b),
+            (Node::Sub(..), Some(b)) => self.graph.sub(a, b),
+            (Node::Mul(..), Some(b)) => self.graph.mul(a, b),
+            (Node::Div(..), Some(b)) if by_constant => self.graph.mul(a, b),
+            (Node::Div(..), Some(b)) => {
+                let quotient = self.graph.div(a, b);
+                let test = self.graph.div(quotient, b);
+                self.watched.push((id, b, test));
+                quotient
+            }
+            _ => self.graph.neg(a),
+        }))
     }
 
-    fn node(&mut self, id: ExprId, node: &Node, span: Span) -> Option<Value> {
-        use Value::{Constant, Number};
-        cancel::check();
+    fn leaf(&mut self, id: ExprId, node: &Node, span: Span) -> Option<Value> {
         Some(match *node {
-            Node::Wrong => return None,
-            Node::Number(ref value) => Constant(Coefficient::number(value.clone())),
-            Node::Coordinate(i) => Number(self.graph.input(i)),
+            Node::Number(ref value) => Value::Constant(Coefficient::number(value.clone())),
+            Node::Coordinate(i) => Value::Number(self.graph.input(i)),
             Node::Parameter(i) => {
                 let value = self.table.parameter(i);
                 return self.constant(span, value);
             }
-            Node::Time => Number(self.graph.input(self.time)),
+            Node::Time => Value::Number(self.graph.input(self.time)),
             Node::Signal(i) => {
                 // Outside its table it is not finite.
                 let time = self.graph.input(self.time);
                 let value = self.graph.input(self.time + 1 + i);
                 self.watched.push((id, time, value));
-                Number(value)
+                Value::Number(value)
             }
-            Node::Neg(a) => match self.take(a)? {
-                Constant(mut a) => {
-                    a.negate();
-                    Constant(a)
-                }
-                Number(a) => Number(self.graph.neg(a)),
-            },
-            Node::Add(a, b) => match (self.take(a)?, self.take(b)?) {
-                (Constant(a), Constant(b)) => {
-                    let sum = self.table.add(&a, &b);
-                    return self.constant(span, sum);
-                }
-                (a, b) => {
-                    let [a, b] = self.numbers(&a, &b);
-                    Number(self.graph.add(a, b))
-                }
-            },
-            Node::Sub(a, b) => match (self.take(a)?, self.take(b)?) {
-                (Constant(a), Constant(mut b)) => {
-                    b.negate();
-                    let sum = self.table.add(&a, &b);
-                    return self.constant(span, sum);
-                }
-                (a, b) => {
-                    let [a, b] = self.numbers(&a, &b);
-                    Number(self.graph.sub(a, b))
-                }
-            },
-            Node::Mul(a, b) => match (self.take(a)?, self.take(b)?) {
-                (Constant(a), Constant(b)) => {
-                    let product = self.table.multiply(&a, &b);
-                    return self.constant(span, product);
-                }
-                (a, b) => {
-                    let [a, b] = self.numbers(&a, &b);
-                    Number(self.graph.mul(a, b))
-                }
-            },
-            Node::Div(a, b) => {
-                let (a, b) = (self.take(a)?, self.take(b)?);
-                let Constant(divisor) = b else {
-                    let [a, b] = self.numbers(&a, &b);
-                    let quotient = self.graph.div(a, b);
-                    let test = self.graph.div(quotient, b);
-                    self.watched.push((id, b, test));
-                    return Some(Number(quotient));
-                };
-                let inverse = self.table.power(&divisor, -1);
-                let inverse = self.diagnostics.check(span, inverse)?;
-                match a {
-                    Constant(a) => {
-                        let product = self.table.multiply(&a, &inverse);
-                        return self.constant(span, product);
-                    }
-                    Number(a) => {
-                        let inverse = self.number(&Constant(inverse));
-                        Number(self.graph.mul(a, inverse))
-                    }
-                }
-            }
-            Node::Pow(a, b) => {
-                let (a, b) = (self.take(a)?, self.take(b)?);
-                return self.power(id, &a, &b, span);
-            }
-            Node::Call(function, a) => match self.take(a)? {
-                Constant(a) => {
-                    let value = self.table.call(function, &a);
-                    return self.constant(span, value);
-                }
-                Number(a) => Number(self.call(id, function, a, span)?),
-            },
+            _ => return None,
         })
     }
 
@@ -266,21 +223,8 @@ impl Pass<'_> {
     }
 
     fn power(&mut self, id: ExprId, a: &Value, b: &Value, span: Span) -> Option<Value> {
-        let known = match b {
-            Value::Constant(power) => power.as_number().cloned(),
-            Value::Number(_) => None,
-        };
-        match (a, b, known) {
-            (Value::Constant(a), Value::Constant(power), known) => {
-                let whole = known.filter(|known| known.is_integer());
-                let value = match whole.as_ref().map(|whole| whole.numer().to_i64()) {
-                    Some(Some(n)) => self.table.power(a, n),
-                    Some(None) => Err(Mistake::LargePower("…".to_owned(), LARGEST_POWER)),
-                    None => self.table.root(a, power),
-                };
-                self.constant(span, value)
-            }
-            (Value::Number(a), _, Some(power)) => {
+        match (a, b.as_constant().and_then(Coefficient::as_number)) {
+            (Value::Number(a), Some(power)) => {
                 let within = |size: Option<u32>| size.filter(|size| *size <= LARGEST_POWER);
                 let m = power.numer().to_i32().filter(|m| within(Some(m.unsigned_abs())).is_some());
                 let (Some(m), Some(n)) = (m, within(power.denom().to_u32())) else {

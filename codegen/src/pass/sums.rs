@@ -13,7 +13,6 @@ use crate::problem::Symbol;
 
 /// Factors (variable, power).
 type Monomial = Vec<(u32, u32)>;
-/// A sum of products of symbols.
 type Sum = Vec<(Monomial, Rational)>;
 
 /// Makes every sum of symbols in the frame's rest, 1/I₁ − 1/I₂ say, a symbol of its own, of which the
@@ -61,7 +60,6 @@ pub(crate) fn name_sums(
     }
 }
 
-/// A sum of products of symbols as an expression.
 fn expression(sum: &Sum, dim: usize, symbols: &[Symbol]) -> ParameterExpr {
     let of_sign = |negative: bool| {
         let terms = sum.iter().filter(|(_, value)| value.is_negative() == negative);
