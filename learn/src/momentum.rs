@@ -125,11 +125,6 @@ where
     Some((next, turn * moves))
 }
 
-/// The unit covectors e¹ … eⁿ.
-fn units<G: LieGroup<Scalar = f64>>(dim: usize) -> impl Iterator<Item = G::Vector> {
-    (0..dim).map(move |j| G::Vector::from_entries(dim, |i| if i == j { 1.0 } else { 0.0 }))
-}
-
 /// d^Lτ_x, where τ⁻¹dτ = d^Lτ_x dx: row j is (d^Lτ_x)ᵀ e^j, and d^Lτ_x = d^Rτ_{−x}.
 fn left_derivative<G, C>(group: &G, chart: C, x: &G::Vector) -> DMatrix<f64>
 where
@@ -138,8 +133,8 @@ where
 {
     let dim = x.dim();
     let minus = G::Vector::from_entries(dim, |i| -x[i]);
-    let rows: Vec<f64> =
-        units::<G>(dim).flat_map(|e| entries(&chart.pull_back(group, &minus, &e))).collect();
+    let row = |j| chart.pull_back(group, &minus, &G::Vector::unit(dim, j));
+    let rows: Vec<f64> = (0..dim).flat_map(|j| entries(&row(j))).collect();
     DMatrix::from_row_slice(dim, dim, &rows)
 }
 
@@ -149,7 +144,7 @@ where
     G: LieGroup<Scalar = f64>,
 {
     let dim = mu.dim();
-    let columns: Vec<f64> =
-        units::<G>(dim).flat_map(|xi| entries(&group.ad_star(&xi, mu))).collect();
+    let column = |j| group.ad_star(&G::Vector::unit(dim, j), mu);
+    let columns: Vec<f64> = (0..dim).flat_map(|j| entries(&column(j))).collect();
     DMatrix::from_column_slice(dim, dim, &columns)
 }

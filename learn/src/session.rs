@@ -1,9 +1,10 @@
 //! A session of `coadjoint learn`: read, reduce, choose, fit, evaluate.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use coadjoint::Phase;
 use coadjoint::groups::{Chart, Coordinates};
+use coadjoint_codegen::file;
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
@@ -479,18 +480,12 @@ fn casimir_change<G: DataGroup>(group: &G, pairs: &MomentumPairs, pair: usize) -
 /// The endings that a session may append to the name of a checkpoint.
 const ENDINGS: [&str; 4] = [".network", ".hybrid", ".network.held-out", ".hybrid.held-out"];
 
-fn ending(base: &Path, ending: &str) -> PathBuf {
-    let mut name = base.as_os_str().to_owned();
-    name.push(ending);
-    name.into()
-}
-
 /// Removes the checkpoints of a session that has ended, and whose model is safe.
 ///
 /// # Errors
 /// [`LearnError::File`] when one is there and cannot be removed.
 pub fn remove_checkpoints(base: &Path) -> Result<(), LearnError> {
-    for path in ENDINGS.map(|name| ending(base, name)) {
+    for path in ENDINGS.map(|ending| file::beside(base, ending)) {
         match std::fs::remove_file(&path) {
             Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
                 return Err(LearnError::File { path, source });
@@ -514,7 +509,8 @@ fn train(
         return Err(LearnError::option("evaluations", 0, "a network is trained by at least one"));
     }
     let checkpoint = checkpoint.as_deref();
-    let checkpoint = checkpoint.map(|base| ending(base, &format!(".{}{purpose}", kind.name())));
+    let ending = format!(".{}{purpose}", kind.name());
+    let checkpoint = checkpoint.map(|base| file::beside(base, &ending));
     let options = TrainingOptions { seed: request.seed, checkpoint, ..request.network.clone() };
     if kind == Kind::Network {
         let (network, history) = fit_network(&data.p, &data.x, None, &options, progress)?;

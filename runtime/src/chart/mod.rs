@@ -66,7 +66,7 @@ pub trait Chart<G: LieGroup>: Copy + Debug + Default {
 }
 
 /// The matrix of a linear map of vectors.
-fn columns<G: LieGroup>(dim: usize, map: impl Fn(&G::Vector) -> G::Vector) -> Matrix<G> {
+pub(crate) fn columns<G: LieGroup>(dim: usize, map: impl Fn(&G::Vector) -> G::Vector) -> Matrix<G> {
     let mut matrix = G::Vector::zero_matrix(dim);
     for j in 0..dim {
         let column = map(&G::Vector::unit(dim, j));

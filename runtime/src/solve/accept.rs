@@ -7,7 +7,7 @@
 use coadjoint_program::limits::{LARGEST_RATIO, NEAR, RATE_OF_HALF_TURN};
 use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd, SimdValue};
 
-use crate::chart::Chart;
+use crate::chart::{Chart, columns};
 use crate::error::{Circumstances, StepError};
 use crate::generating::{ScalarOf, VectorOf};
 use crate::group::LieGroup;
@@ -19,9 +19,6 @@ use crate::solve::{Integrator, Solver};
 
 /// The candidate if it is right, or the solution followed from the identity. Lanes are only accepted as they are: others
 /// have to be tried again one by one.
-///
-/// # Errors
-/// Why there is no right step.
 pub(crate) fn accept<S: Integrator + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
@@ -51,9 +48,6 @@ pub(crate) fn accept<S: Integrator + ?Sized>(
 }
 
 /// Whether x lies in the chart, and p where the series converges.
-///
-/// # Errors
-/// [`StepError::OutsideChart`], [`StepError::SeriesDiverges`].
 fn check_domain<S: Integrator + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
@@ -73,9 +67,6 @@ fn check_domain<S: Integrator + ?Sized>(
 }
 
 /// Whether x lies in the chart.
-///
-/// # Errors
-/// [`StepError::OutsideChart`].
 fn check_chart<S: Integrator + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
@@ -89,7 +80,6 @@ fn check_chart<S: Integrator + ?Sized>(
     Err(refuse(generating, mu, candidate, |at| StepError::OutsideChart { extent, at }))
 }
 
-/// A refusal with its circumstances.
 #[cold]
 fn refuse<S: Integrator + ?Sized>(
     generating: &S,
@@ -134,15 +124,11 @@ fn square_of_rate<S: Integrator + ?Sized>(
     let (_, hessian) = generating.gradient_and_hessian(&p);
     let jacobian = VectorOf::<S>::one_minus_product(dim, &derivative, &hessian);
     let [zero, one, two] = [0.0, 1.0, 2.0].map(ScalarOf::<S>::of);
-    let mut z = VectorOf::<S>::zero_matrix(dim);
-    for j in 0..dim {
-        let unit = VectorOf::<S>::from_entries(dim, |i| if i == j { one } else { zero });
-        let turned = group.ad_star(x, &unit);
-        for i in 0..dim {
-            let identity = if i == j { one } else { zero };
-            z[(i, j)] = turned[i] + two * (identity - jacobian[(i, j)]);
-        }
-    }
+    let turned = columns::<S::Group>(dim, |unit| group.ad_star(x, unit));
+    let z = VectorOf::<S>::matrix_from_entries(dim, |i, j| {
+        let identity = if i == j { one } else { zero };
+        turned[(i, j)] + two * (identity - jacobian[(i, j)])
+    });
     (0..dim).fold(zero, |largest, i| {
         let row = (0..dim).fold(zero, |sum, j| sum + (z[(i, j)] * z[(j, i)]).simd_abs());
         largest.worse(row)
