@@ -256,9 +256,6 @@ impl Output {
     }
 
     /// The same with another passing name, on the same file system.
-    ///
-    /// # Errors
-    /// As [`Output::open`].
     pub(crate) fn open_as(path: &Path, passing: &Path, inputs: &[&Path]) -> io::Result<Self> {
         check(path, inputs)?;
         let special = is_special(path);
@@ -399,12 +396,6 @@ impl Output {
             let _ = folder.sync_all();
         }
         Ok(())
-    }
-
-    /// Whether it was begun or resumed.
-    #[must_use]
-    pub fn is_begun(&self) -> bool {
-        self.begun
     }
 
     /// Removes the passing file.

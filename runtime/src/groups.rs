@@ -9,18 +9,25 @@
 //! | [`StaticMatrixGroup`], `MatrixGroup` | matrices of any algebra you give | any |
 
 pub use crate::chart::{Cayley, Chart, Exponential};
-pub use crate::group::element_error::ElementError;
 #[cfg(feature = "alloc")]
-pub use crate::group::product::DirectProduct;
-pub use crate::group::product::{Power, Product};
-pub use crate::group::so3::{Quaternions, SO3, SU2};
-pub use crate::group::{CayleyGroup, FixedDimension, LieGroup, Rows};
-pub use crate::group::{se2::SE2, se3::SE3};
-pub use crate::linear::coordinates::Coordinates;
-pub use crate::table::{
-    Aff1, Aff1Algebra, BasisEntry, CasimirTerm, CayleyAlgebra, Heisenberg, HeisenbergAlgebra,
-    Rotations, SL2, SL2Algebra, SO4, SO5, SU3, SpecialUnitary, StaticAlgebra, StaticMatrixGroup,
-    StructureConstant, TableGroup,
+pub use crate::group::product::row::DirectProduct;
+pub use crate::group::{
+    CayleyGroup, FixedDimension, LieGroup, Rows,
+    element_error::ElementError,
+    product::{pair::Product, row::Power},
+    se2::SE2,
+    se3::SE3,
+    so3::{Quaternions, SO3, SU2},
 };
+pub use crate::linear::coordinates::Coordinates;
 #[cfg(feature = "alloc")]
-pub use crate::table::{CayleyMatrixGroup, MatrixGroup, TableError};
+pub use crate::table::dynamic::{CayleyMatrixGroup, MatrixGroup, TableError};
+pub use crate::table::{
+    algebra::{BasisEntry, CasimirTerm, StructureConstant},
+    catalogue::{
+        Aff1, Aff1Algebra, Heisenberg, HeisenbergAlgebra, Rotations, SL2, SL2Algebra, SO4, SO5,
+        SU3, SpecialUnitary,
+    },
+    fixed::{CayleyAlgebra, StaticAlgebra, StaticMatrixGroup},
+    group::TableGroup,
+};

@@ -197,8 +197,5 @@ pub use nalgebra;
 
 pub use error::StepError;
 pub use generating::GeneratingFunction;
-pub use group::LieGroup;
-pub use group::phase::Phase;
-pub use group::se3::SE3;
-pub use group::so3::SO3;
+pub use group::{LieGroup, phase::Phase, se3::SE3, so3::SO3};
 pub use number::Scalar;

@@ -79,8 +79,7 @@ impl Options {
 
 /// The name as an identifier of Rust, with an underscore in place of what none has, and at the end of a keyword or of `T`,
 /// which stands for the numbers.
-#[must_use]
-pub fn identifier(name: &str) -> Ident {
+pub(crate) fn identifier(name: &str) -> Ident {
     let valid = |word: &str| syn::parse_str::<Ident>(word).is_ok();
     let allowed = |c: char| c.is_ascii_alphanumeric() || valid(&format!("a{c}"));
     let mut word: String = name.chars().map(|c| if allowed(c) { c } else { '_' }).collect();

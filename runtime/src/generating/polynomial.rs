@@ -13,7 +13,7 @@ use crate::generating::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf};
 use crate::group::LieGroup;
 use crate::linear::coordinates::Coordinates;
 use crate::number::Scalar;
-use crate::table::TableError;
+use crate::table::dynamic::TableError;
 
 /// The polynomial S(p) = Σ c·∏ pᵢ^power as a generating function on the group `G` in the chart
 /// `C`: a series derived elsewhere, or any polynomial at all.
@@ -46,10 +46,8 @@ pub struct PolynomialFunction<G, C> {
 /// A term of S_K or S_{K−2} as (coefficient, whether it is one of S_K, monomial).
 type LastTerm = (f64, bool, Vec<(u32, u32)>);
 
-/// The last two terms of a truncated series.
 #[derive(Clone, Debug)]
 struct TruncatedSeries {
-    /// The terms of S_K and S_{K−2}.
     last: Vec<LastTerm>,
     /// The direct factor of the group that each coordinate belongs to.
     factors: Vec<u32>,

@@ -9,11 +9,11 @@ use crate::number::{Coefficients, Number, Registers};
 
 /// Several numbers in a register of the instructions `S`; each lane has the bits that a single number would have.
 #[derive(Clone, Copy)]
-pub struct Register<S: Simd>(S, S::f64s);
+pub(super) struct Register<S: Simd>(S, S::f64s);
 
 /// A truth value for each number of a register.
 #[derive(Clone, Copy)]
-pub struct Mask<S: Simd>(S, S::m64s);
+pub(super) struct Mask<S: Simd>(S, S::m64s);
 
 macro_rules! operators {
     ($($operator:ident $name:ident $function:ident),*) => {$(
@@ -58,7 +58,6 @@ impl<S: Simd> Not for Mask<S> {
 }
 
 impl<S: Simd> Register<S> {
-    /// The numbers, each through a function.
     #[inline(always)]
     fn map(self, f: impl Fn(f64) -> f64) -> Self {
         let mut list = [0.0; 8];
@@ -134,7 +133,7 @@ impl<S: Simd> Number for Register<S> {
 
 /// Coefficients that are spread over the lanes where they are read.
 #[derive(Clone, Copy)]
-pub struct Spread<'a, S, const SLOTS: usize>(S, &'a [f64; SLOTS]);
+struct Spread<'a, S, const SLOTS: usize>(S, &'a [f64; SLOTS]);
 
 impl<S: Simd, const SLOTS: usize> Coefficients<Register<S>> for Spread<'_, S, SLOTS> {
     #[inline(always)]
@@ -151,9 +150,8 @@ impl<S: Simd, const SLOTS: usize> Coefficients<Register<S>> for Spread<'_, S, SL
     }
 }
 
-/// The registers of the instructions `S`.
 #[derive(Clone, Copy)]
-pub struct Of<S>(pub S);
+pub(super) struct Of<S>(pub(super) S);
 
 impl<S: Simd> Registers for Of<S> {
     type Number = Register<S>;

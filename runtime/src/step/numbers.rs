@@ -4,12 +4,12 @@ use nalgebra::{Isometry2, Isometry3, Translation2, Translation3};
 use nalgebra::{Quaternion, UnitComplex, UnitQuaternion, Vector3};
 
 use crate::group::LieGroup;
-use crate::group::product::{Power, Product};
+use crate::group::product::{pair::Product, row::Power};
 use crate::group::se2::SE2;
 use crate::group::se3::SE3;
 use crate::group::so3::Quaternions;
 use crate::number::Scalar;
-use crate::table::{StaticAlgebra, StaticMatrixGroup};
+use crate::table::fixed::{StaticAlgebra, StaticMatrixGroup};
 
 /// A group whose elements the programs of a step read and write as a row of numbers; `coadjoint emit` says which.
 pub trait ElementNumbers: LieGroup {
@@ -23,7 +23,6 @@ pub trait ElementNumbers: LieGroup {
     fn read(numbers: &[Self::Scalar]) -> Self::Element;
 }
 
-/// The numbers w, x, y, z.
 #[inline(always)]
 fn write_quaternion<T: Scalar>(q: &UnitQuaternion<T>, numbers: &mut [T]) {
     let q = q.as_ref();
@@ -98,7 +97,6 @@ impl<T: Scalar> ElementNumbers for SE2<T> {
     }
 }
 
-/// The matrix, row by row.
 impl<A, const N: usize, const D: usize, T> ElementNumbers for StaticMatrixGroup<A, N, D, T>
 where
     A: StaticAlgebra,

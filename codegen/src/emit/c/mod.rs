@@ -14,10 +14,10 @@ mod template;
 
 use coadjoint_program::Precision;
 
-use crate::emit::c::names::Names;
+use crate::emit::c::names::{MOST_OPERATIONS, Names};
 use crate::step::Origin;
 
-pub use names::{HeaderError, HeaderOptions, Language, MOST_OPERATIONS, prefix};
+pub use names::{HeaderError, HeaderOptions, Language, prefix};
 
 /// The header of an origin, to be saved as `PREFIX.h` (`PREFIX.hpp` for C++).
 ///

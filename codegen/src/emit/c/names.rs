@@ -48,7 +48,6 @@ fn is_macro(name: &str) -> bool {
     name == "I" || (capitals > 1 && !name.chars().any(|c| c.is_ascii_lowercase()))
 }
 
-/// The names of a header.
 #[derive(Debug)]
 pub(crate) struct Names {
     /// The prefix of functions and types.
@@ -63,7 +62,6 @@ pub(crate) struct Names {
 }
 
 impl Names {
-    /// The names for a system with these parameters.
     pub(crate) fn new(parameters: &[Parameter], options: &HeaderOptions) -> Self {
         let lower = prefix(&options.prefix);
         let mut taken = BTreeSet::new();
@@ -99,7 +97,6 @@ impl Names {
         format!("{}_{}", self.upper, self.ending)
     }
 
-    /// The name of the file.
     pub(crate) fn file(&self) -> String {
         format!("{}.{}", self.lower, self.ending.to_lowercase())
     }
@@ -116,7 +113,7 @@ impl Names {
 
 /// The most operations of a step (first guess, one correction, acceptance, transport) that are written as C: about
 /// half a megabyte of machine code, and a minute of a compiler.
-pub const MOST_OPERATIONS: usize = 40_000;
+pub(super) const MOST_OPERATIONS: usize = 40_000;
 
 /// The language of a header.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
