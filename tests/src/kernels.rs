@@ -3,7 +3,7 @@
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;
-use coadjoint_codegen::problem::Solver;
+use coadjoint_codegen::problem::{Problem, Solver};
 use coadjoint_codegen::smooth::{Hamiltonian, Smooth};
 use coadjoint_codegen::step::Step;
 use coadjoint_codegen::system::{Options, read, read_either};
@@ -43,7 +43,20 @@ pub fn limited(step: &Step, h: f64, radius: f64) -> Vec<f64> {
     coefficients
 }
 
-const NAMES: [&str; 8] = ["a", "b", "c", "d", "e", "f", "g", "h"];
+/// A system file on coordinates a, b, c, …, its integrator with these settings.
+fn text(group: &str, hamiltonian: &str, settings: &str) -> String {
+    let dim = lie::catalogue::lookup(group).unwrap().dim();
+    let names: Vec<String> = ('a'..).take(dim).map(|name| format!("\"{name}\"")).collect();
+    let names = names.join(", ");
+    format!(
+        "group = {group:?}\ncoordinates = [{names}]\nhamiltonian = {hamiltonian:?}\n[integrator]\n{settings}"
+    )
+}
+
+/// The problem of such a file.
+pub fn problem(group: &str, hamiltonian: &str, settings: &str, options: Options) -> Problem {
+    read(&text(group, hamiltonian, settings), options).unwrap().problem
+}
 
 /// The integrator of a system of [`SYSTEMS`].
 pub fn integrator(group: &str, hamiltonian: &str, chart: &str, truncation: usize) -> Integrator {
@@ -58,21 +71,15 @@ pub fn integrator_by(
     chart: &str,
     truncation: usize,
 ) -> Integrator {
-    let text = format!("{}[integrator]\nchart = {chart:?}\n", text(group, hamiltonian));
     let options =
         Options { truncation: Some(truncation), solver: Some(solver), ..Options::default() };
-    Integrator::build(read(&text, options).unwrap().problem, TermLimit::default()).unwrap()
-}
-
-fn text(group: &str, hamiltonian: &str) -> String {
-    let dim = lie::catalogue::lookup(group).unwrap().dim();
-    let names = NAMES[..dim].iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
-    format!("group = {group:?}\ncoordinates = [{names}]\nhamiltonian = {hamiltonian:?}\n")
+    let problem = problem(group, hamiltonian, &format!("chart = {chart:?}\n"), options);
+    Integrator::build(problem, TermLimit::default()).unwrap()
 }
 
 /// Any Hamiltonian in the coordinates a, b, …, for steps by collocation of the order `truncation` + 1.
 pub fn smooth(group: &str, hamiltonian: &str, truncation: usize) -> Smooth {
-    let text = format!("{}[integrator]\nmethod = \"collocation\"\n", text(group, hamiltonian));
+    let text = text(group, hamiltonian, "method = \"collocation\"\n");
     let options = Options { truncation: Some(truncation), ..Options::default() };
     match read_either(&text, options, &[]).unwrap().problem {
         Hamiltonian::Smooth(smooth) => *smooth,

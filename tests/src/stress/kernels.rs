@@ -7,9 +7,8 @@ use coadjoint::groups::MatrixGroup;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::judge::Judge;
-use coadjoint_codegen::problem::Problem;
 use coadjoint_codegen::step::Step;
-use coadjoint_codegen::system::{Options, read};
+use coadjoint_codegen::system::Options;
 use coadjoint_program::WIDTH;
 use nalgebra::DVector;
 
@@ -18,6 +17,7 @@ use super::random::Random;
 use super::runtime::{Outcome, State, Steps, Way};
 use crate::backends::{AnyStepper, Backend, matrix_of, numbers_of};
 use crate::bridge::matrix_group;
+use crate::kernels::problem;
 
 /// Group, Hamiltonian on coordinates a, b, c, …, chart, frame, truncation.
 const SYSTEMS: [(&str, &str, &str, &str, usize); 16] = [
@@ -54,7 +54,6 @@ impl Subject {
     }
 }
 
-/// Steps of one size.
 struct Runner {
     subject: Arc<Subject>,
     stepper: AnyStepper,
@@ -62,7 +61,6 @@ struct Runner {
 }
 
 impl Runner {
-    /// The numbers of exp(at).
     fn element(&self, at: &[f64]) -> Vec<f64> {
         let group = &self.subject.group;
         numbers_of(&self.subject.step, group, &group.exp(&DVector::from_column_slice(at)))
@@ -131,20 +129,11 @@ impl Steps for Runner {
     }
 }
 
-fn problem(group: &str, hamiltonian: &str, chart: &str, frame: &str, truncation: usize) -> Problem {
-    let dim = super::family::algebra(group).dim();
-    let names: Vec<String> = ('a'..).take(dim).map(|name| format!("\"{name}\"")).collect();
-    let text = format!(
-        "group = {group:?}\ncoordinates = [{}]\nhamiltonian = {hamiltonian:?}\n[integrator]\nchart = {chart:?}\nframe = {frame:?}\n",
-        names.join(", ")
-    );
-    let options = Options { truncation: Some(truncation), ..Options::default() };
-    read(&text, options).expect("a system").problem
-}
-
 fn model(system: (&str, &str, &str, &str, usize), backend: Backend) -> Model {
     let (group, hamiltonian, chart, frame, truncation) = system;
-    let problem = problem(group, hamiltonian, chart, frame, truncation);
+    let settings = format!("chart = {chart:?}\nframe = {frame:?}\n");
+    let options = Options { truncation: Some(truncation), ..Options::default() };
+    let problem = problem(group, hamiltonian, &settings, options);
     let algebra = problem.algebra.clone();
     let (dim, limit) = (algebra.dim(), TermLimit::default());
     let judge = Judge::of_problem(&problem, limit).expect("a judge");
@@ -174,7 +163,6 @@ fn model(system: (&str, &str, &str, &str, usize), backend: Backend) -> Model {
     Model { judge, draw: Box::new(draw) }
 }
 
-/// All families whose names contain `only`.
 pub fn families(only: &str) -> Vec<Family> {
     let named = Backend::ALL.iter().map(|&backend| (format!("kernel-{}", backend.name()), backend));
     let chosen = named.filter(|(name, _)| name.contains(only));
