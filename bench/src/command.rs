@@ -9,9 +9,7 @@ use std::time::{Duration, Instant};
 use crate::systems::{SYSTEMS, System, momenta};
 use crate::timing::{Failure, Way, line, medians};
 
-/// Trajectories of an ensemble.
 const BODIES: usize = 100_000;
-/// Steps of the short run.
 const FEW: u64 = 8;
 
 /// The command: the one given, or the one beside this program.

@@ -58,9 +58,7 @@ fn quadratic(mu: [f64; 8]) -> f64 {
 
 type Made = Result<Vec<Way<'static>>, Failure>;
 
-/// A system with its steps by the attribute.
 pub struct System {
-    /// Its name in tables.
     pub name: &'static str,
     /// The example file.
     pub file: &'static str,
@@ -130,7 +128,6 @@ macro_rules! system {
     };
 }
 
-/// The six systems.
 pub const SYSTEMS: [System; 6] = [
     system!("rigid body, K = 7", "rigid_body", 7, 0.1, RigidBody, SO3, 3, &[2.0, 0.5, 1.0]),
     system!(
@@ -191,7 +188,6 @@ pub fn momenta(system: &System, count: usize) -> Vec<f64> {
     (0..count).flat_map(|i| system.momentum.iter().map(move |mu| mu * size(i))).collect()
 }
 
-/// Trajectories in lanes.
 const BODIES: usize = 1024;
 /// Systems that are tried in lanes: the first ones.
 const IN_LANES: usize = 2;

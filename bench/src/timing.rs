@@ -2,14 +2,11 @@
 
 use std::time::{Duration, Instant};
 
-/// Why something could not be measured.
 pub type Failure = Box<dyn std::error::Error>;
 
 type Run<'a> = dyn FnMut(u64) -> Result<Duration, Failure> + 'a;
 
-/// A way to make steps.
 pub struct Way<'a> {
-    /// Its name in the table.
     pub name: String,
     /// How many trajectories make each step.
     bodies: u64,

@@ -77,7 +77,6 @@ pub enum LearnError {
 }
 
 impl LearnError {
-    /// An option out of its range.
     pub(crate) fn option(
         option: &'static str,
         value: impl fmt::Display,
@@ -86,7 +85,6 @@ impl LearnError {
         Self::InvalidOption { option, value: value.to_string(), requirement: requirement.into() }
     }
 
-    /// Names the file for an error of the system.
     pub(crate) fn file(path: &Path) -> impl Fn(std::io::Error) -> Self {
         move |source| Self::File { path: path.into(), source }
     }

@@ -155,12 +155,10 @@ where
 {
 }
 
-/// The coordinates of `vector` as numbers in a row.
 pub(crate) fn entries<V: Coordinates<f64>>(vector: &V) -> Vec<f64> {
     (0..vector.dim()).map(|i| vector[i]).collect()
 }
 
-/// The vector with the coordinates given.
 pub(crate) fn vector<G: LieGroup<Scalar = f64>>(entries: &[f64]) -> G::Vector {
     G::Vector::from_entries(entries.len(), |i| entries[i])
 }

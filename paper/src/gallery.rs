@@ -13,7 +13,6 @@ use coadjoint_run::{Accuracy, Derived, meet_tolerance, read_varying};
 
 use crate::outcome::{Fallible, brief};
 
-/// The size of a panel.
 const SIZE: (f64, f64) = (400.0, 250.0);
 /// Stretches of time in which two points of a curve are drawn.
 const COLUMNS: usize = 130;
@@ -30,7 +29,6 @@ impl Sink for Looks {
     }
 }
 
-/// Runs a system as its file says.
 pub fn picture(file: &Path) -> Fallible<Picture> {
     let parameters = Parameters::Substituted;
     let options = Options { parameters, ..Options::default() };
@@ -99,7 +97,6 @@ pub fn worst(picture: &Picture) -> f64 {
     exact.map(largest).fold(0.0, |a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) })
 }
 
-/// The HTML of a system.
 pub fn exhibit(picture: &Picture) -> String {
     let name = escaped(&picture.name);
     let mark = verdict(worst(picture) <= BOUND);
@@ -139,7 +136,6 @@ pub fn verdict(holds: bool) -> String {
     format!("<span class=\"mark{class}\">{word}</span>")
 }
 
-/// Settings in a line.
 pub fn settings(settings: &[String]) -> String {
     let spans: Vec<String> =
         settings.iter().map(|setting| format!("<span>{}</span>", escaped(setting))).collect();

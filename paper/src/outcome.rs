@@ -22,7 +22,6 @@ pub fn shown(cell: &Value) -> String {
     }
 }
 
-/// A number in few digits.
 pub fn brief(value: f64) -> String {
     let trimmed = |text: &str| text.trim_end_matches('0').trim_end_matches('.').to_owned();
     let text = match value {
@@ -48,19 +47,16 @@ pub fn brief(value: f64) -> String {
     text.replace('-', "−")
 }
 
-/// How to run experiments.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// Fewer samples and steps, smaller networks.
     pub quick: bool,
-    /// The seed everything follows from.
     pub seed: u64,
     /// Where outcomes and the state of training are kept.
     pub out: Option<PathBuf>,
 }
 
 impl Options {
-    /// An empty report.
     pub(crate) fn report(&self, name: &str) -> Report {
         Report { name: name.into(), quick: self.quick, seed: self.seed, ..Report::default() }
     }
@@ -183,7 +179,6 @@ impl Judgement {
     }
 }
 
-/// The outcome of an experiment.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Report {
     pub name: String,

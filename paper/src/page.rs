@@ -9,12 +9,10 @@ use crate::gallery::{self, settings, verdict};
 use crate::outcome::{Judgement, Report, Table, brief, shown};
 use crate::text::{Figure, figures, fill};
 
-/// The size of a panel.
 const SIZE: (f64, f64) = (440.0, 230.0);
 /// The width of a panel where three are side by side.
 const NARROW: f64 = 400.0;
 
-/// A figure or a table with its numbers.
 pub struct Section {
     pub figure: &'static Figure,
     pub settings: Vec<String>,

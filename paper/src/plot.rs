@@ -30,11 +30,9 @@ struct Lines {
     lines: Vec<Vec<String>>,
 }
 
-/// How points are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum Draw {
-    /// As a line.
     Line,
     /// The greatest size in each stretch of time; the start, where all is 0, is left out.
     Peaks,
@@ -42,13 +40,11 @@ enum Draw {
     Range,
     /// The differences from the first value.
     Change,
-    /// With a marker for each point.
     Marked,
     /// Operations over errors: the unbeaten ones of the method whose number stands in place of a column.
     Cost,
 }
 
-/// How an axis is laid.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum Lay {

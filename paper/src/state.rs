@@ -25,7 +25,6 @@ pub struct State {
 }
 
 impl State {
-    /// The state at a phase point.
     pub fn of<G: DataGroup>(group: &G, phase: &Phase<G>) -> Self {
         let matrix = matrix_of(group, &phase.group_element).transpose().iter().copied().collect();
         Self { momentum: (0..group.dim()).map(|i| phase.momentum[i]).collect(), matrix }
@@ -36,7 +35,6 @@ impl State {
         (Matrix3::from_row_slice(&self.matrix) * Vector3::from_row_slice(&self.momentum)).into()
     }
 
-    /// The energy of the paper's rigid body.
     pub fn energy(&self) -> f64 {
         Separable::paper().value(&self.momentum)
     }
@@ -57,7 +55,6 @@ impl State {
     }
 }
 
-/// The largest size.
 pub fn largest(values: &[f64]) -> f64 {
     values.iter().map(|value| value.abs()).fold(0.0, f64::max)
 }
@@ -84,7 +81,6 @@ impl Errors {
         ])
     }
 
-    /// The largest sizes.
     pub fn largest(&self) -> [f64; 3] {
         self.0.each_ref().map(|values| largest(values))
     }
@@ -112,7 +108,6 @@ pub fn momenta(
     Ok(states)
 }
 
-/// Momenta of the exact flow of the paper's rigid body.
 pub fn exact_momenta(start: [f64; 3], h: f64, count: usize) -> Vec<State> {
     let states = exact(start, h, count).into_iter();
     states.map(|state| State { matrix: Vec::new(), ..state }).collect()
@@ -133,7 +128,6 @@ pub fn exact_phases<G: DataGroup>(
     phases
 }
 
-/// States of the exact flow of the paper's rigid body.
 pub fn exact(start: [f64; 3], h: f64, count: usize) -> Vec<State> {
     let group = SO3::new();
     let phases = exact_phases(&group, &Separable::paper(), Vector3::from(start), h, count);
@@ -154,7 +148,6 @@ pub struct Steps {
 }
 
 impl Steps {
-    /// The steps of a system in this chart, with this truncation.
     pub fn new(system: &str, chart: Chart, truncation: usize) -> Fallible<Self> {
         let options = Options {
             parameters: Parameters::Substituted,
@@ -168,7 +161,6 @@ impl Steps {
         Ok(Self { step: Step::build(&integrator)? })
     }
 
-    /// The programs.
     pub fn kernel(&self) -> &Kernel {
         self.step.kernel()
     }

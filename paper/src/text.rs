@@ -12,7 +12,6 @@ use crate::plot::Group;
 #[serde(default, deny_unknown_fields)]
 pub struct Figure {
     pub id: String,
-    /// The experiment that it shows.
     pub experiment: String,
     pub title: String,
     /// Whether it is ours and not the paper's.
@@ -21,12 +20,10 @@ pub struct Figure {
     pub shows: String,
     /// The gaps in the paper, and the choices made here.
     pub silent: String,
-    /// The results.
     pub out: String,
     /// Which of the experiment's tables are shown, from and to; all if not given.
     pub tables: Option<[usize; 2]>,
     pub judged: Vec<Judged>,
-    /// The curves drawn.
     pub group: Vec<Group>,
 }
 
@@ -101,7 +98,6 @@ impl Report {
         }));
     }
 
-    /// Tables, notes and judgements as text.
     pub fn text(&self) -> String {
         let version = if self.quick { ", quick" } else { "" };
         let mut text = format!("{} (seed {}{version})\n", self.name, self.seed);

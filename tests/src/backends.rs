@@ -14,20 +14,15 @@ use nalgebra::{DMatrix, DVector};
 /// A stepper that any thread can use.
 pub type AnyStepper = Arc<dyn Stepper + Send + Sync>;
 
-/// The backends that evaluate kernels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Backend {
-    /// The interpreter of the programs.
     Interpreter,
-    /// The system's C compiler.
     C,
-    /// Cranelift.
     #[cfg(feature = "jit")]
     Jit,
 }
 
 impl Backend {
-    /// All that this build knows.
     pub const ALL: &'static [Self] = &[
         Self::Interpreter,
         Self::C,
@@ -35,7 +30,6 @@ impl Backend {
         Self::Jit,
     ];
 
-    /// One word.
     pub fn name(self) -> &'static str {
         match self {
             Self::Interpreter => "interpreter",

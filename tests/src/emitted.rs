@@ -6,7 +6,6 @@ use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::parse::rust;
 
-/// All of them.
 pub const SYSTEMS: [(&str, &str); 5] =
     [RIGID_BODY, CAYLEY_BODY, HEAVY_TOP, COMOVING_BODY, THREE_WAVE];
 

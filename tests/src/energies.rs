@@ -8,7 +8,6 @@ pub const INVERSE_INERTIA: [f64; 3] = [1.0 / 1.5, 0.5, 0.4];
 
 /// Momenta from which the systems on so(3)\* and se(3)\* start.
 pub const THREE: [f64; 3] = [2.0, 0.5, 1.0];
-/// See [`THREE`].
 pub const SIX: [f64; 6] = [0.8, -0.5, 0.6, 0.3, 0.7, -0.4];
 
 /// √(1 + Σ wᵢ μᵢ²) + μ₂³/10: a relativistic body.

@@ -1,5 +1,5 @@
 //! Helpers that the integration tests share.
-#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used)]
+#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used, missing_docs)]
 
 pub mod backends;
 pub mod bridge;

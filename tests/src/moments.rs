@@ -6,12 +6,10 @@ use nalgebra::{Complex, DMatrix};
 /// A function of the momentum and the size against which its drift is measured.
 pub type Measured = (f64, f64);
 
-/// |v|².
 pub fn square(v: &[f64]) -> f64 {
     v.iter().map(|x| x * x).sum()
 }
 
-/// u·v.
 pub fn dot(u: &[f64], v: &[f64]) -> f64 {
     u.iter().zip(v).map(|(x, y)| x * y).sum()
 }

@@ -11,10 +11,8 @@ use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::poly::Polynomial;
 use serde::Deserialize;
 
-/// A term c·∏ μᵢ^eᵢ of a Hamiltonian.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Term {
-    /// eᵢ.
     pub exponents: Vec<u32>,
     /// c as a reduced fraction.
     pub coefficient: String,
@@ -23,7 +21,6 @@ pub struct Term {
 /// A system, where it starts, and where it is at time T.
 #[derive(Clone, Debug, Deserialize)]
 pub struct EndState {
-    /// The name.
     pub system: String,
     /// The file in `examples/`, where there is one.
     pub file: Option<String>,
@@ -31,21 +28,16 @@ pub struct EndState {
     pub group: String,
     /// All structure constants (i, j, k, c) where `group` is `algebra`.
     pub structure: Option<Vec<(usize, usize, usize, String)>>,
-    /// H_red.
     #[serde(rename = "H")]
     pub hamiltonian: Vec<Term>,
-    /// μ(0).
     pub momentum0: Vec<String>,
-    /// T.
     #[serde(rename = "T")]
     pub time: String,
-    /// μ(T).
     pub momentum: Vec<String>,
     /// g(T), with g(0) = 1; adjoint matrices where only brackets are known.
     pub group_element: Vec<Vec<String>>,
 }
 
-/// Every entry of both files.
 pub fn end_states() -> Vec<EndState> {
     let mut all: Vec<EndState> = serde_json::from_str(include_str!("../reference/end_states.json"))
         .expect("end_states.json");
@@ -55,19 +47,16 @@ pub fn end_states() -> Vec<EndState> {
     all
 }
 
-/// The entry of this name.
 pub fn end_state(system: &str) -> EndState {
     let found = end_states().into_iter().find(|entry| entry.system == system);
     found.unwrap_or_else(|| panic!("no reference for {system}"))
 }
 
-/// Numbers given as decimals.
 pub fn numbers(texts: &[String]) -> Vec<f64> {
     texts.iter().map(|text| text.parse().expect("a decimal")).collect()
 }
 
 impl EndState {
-    /// 𝔤.
     pub fn algebra(&self) -> LieAlgebra {
         match &self.structure {
             None => catalogue::lookup(&self.group).expect("a group of the catalogue"),
@@ -79,7 +68,6 @@ impl EndState {
         }
     }
 
-    /// H_red as a polynomial in μ.
     pub fn polynomial(&self) -> Polynomial {
         let terms = self.hamiltonian.iter();
         Polynomial::from_terms(
@@ -88,7 +76,6 @@ impl EndState {
         )
     }
 
-    /// S₁ … S_K in the exponential chart.
     pub fn series(&self, truncation: usize) -> GeneratingSeries {
         let (algebra, limit) = (self.algebra(), TermLimit::default());
         derive(&algebra, Chart::Exponential, &self.polynomial(), truncation, limit)

@@ -25,7 +25,6 @@ pub struct Outcome {
     pub watched: Vec<(f64, f64)>,
 }
 
-/// A function of the momentum, watched over a run.
 pub type Watched<'a> = &'a dyn Fn(&[f64]) -> f64;
 
 /// Runs from the reference's initial state, μ(0) replaced by `start` if given, `steps` steps of

@@ -32,7 +32,6 @@ pub const SEMIAXES: [f64; 3] = [2.30, 1.20, 0.96];
 pub struct LongAxisMode {
     /// L², the square of the angular momentum.
     pub momentum_squared: f64,
-    /// 2 E, twice the energy.
     pub twice_energy: f64,
 }
 
@@ -46,7 +45,6 @@ pub struct ClosedForm {
 }
 
 impl LongAxisMode {
-    /// The motion with these integrals.
     pub fn closed_form(&self) -> ClosedForm {
         let [i1, i2, i3] = INERTIA;
         let Self { momentum_squared: l2, twice_energy: e2 } = *self;
@@ -114,7 +112,6 @@ impl LongAxisMode {
 }
 
 impl ClosedForm {
-    /// The body momentum at time t.
     pub fn momentum(&self, t: f64) -> Vector3<f64> {
         // Reduced to one period before the Landen steps blow the argument up.
         let period = 4.0 * complete_first(self.modulus);
@@ -128,9 +125,7 @@ impl ClosedForm {
 /// along z. The real geometry of 1992/93 changed quickly; this is one of its size, held fixed.
 #[derive(Clone, Copy, Debug)]
 pub struct Geometry {
-    /// Towards the observer.
     pub observer: Vector3<f64>,
-    /// Towards the Sun.
     pub sun: Vector3<f64>,
 }
 
@@ -168,9 +163,7 @@ impl Geometry {
 pub struct LightCurve {
     /// Brightness, sampled at equal intervals from t = 0.
     pub samples: Vec<f64>,
-    /// The interval, in days.
     pub interval: f64,
-    /// The last state.
     pub end: Phase<SO3>,
     /// The largest relative drift of the spatial angular momentum.
     pub drift: f64,
@@ -208,7 +201,6 @@ pub fn light_curve(
     Ok(LightCurve { samples: curve, interval, end: body, drift, casimir_drift })
 }
 
-/// A line of a spectrum.
 #[derive(Clone, Copy, Debug)]
 pub struct Line {
     /// In cycles per day.

@@ -146,7 +146,6 @@ impl Motion {
         ([nodes, cross(&direction, &nodes), direction], momentum, [x * scale, y * scale])
     }
 
-    /// Momentum and attitude (matrix by rows) at time t.
     #[inline]
     fn at(&self, t: f64) -> (Vector, [Vector; 3]) {
         let (body, momentum, shifted) = self.body_frame(t);
@@ -167,7 +166,6 @@ impl Motion {
     }
 }
 
-/// The product of two complex numbers.
 #[inline(always)]
 fn turn(u: &[f64; 2], v: &[f64; 2]) -> [f64; 2] {
     [u[0] * v[0] - u[1] * v[1], u[0] * v[1] + u[1] * v[0]]
@@ -236,7 +234,6 @@ impl Theta {
         slope / value
     }
 
-    /// All of them at z.
     #[inline(always)]
     fn at(&self, z: f64) -> Values {
         let (sine, cosine) = z.sin_cos();

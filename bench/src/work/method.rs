@@ -6,7 +6,6 @@ use crate::timing::Failure;
 /// The state at the end of a problem, by steps of this size or to this tolerance.
 pub type Run = fn(&Problem, f64) -> Result<State, Failure>;
 
-/// A method for one problem.
 pub struct Method {
     /// Its name, unique among the methods.
     pub name: String,
@@ -26,7 +25,6 @@ impl Method {
         Self { name, order: Some(order), settings, run }
     }
 
-    /// Runs it from the start to the end of the problem.
     pub fn run(&self, problem: &Problem, setting: f64) -> Result<State, Failure> {
         (self.run)(problem, setting)
     }

@@ -18,7 +18,6 @@ use method::Method;
 use problem::Problem;
 use sweep::Measurement;
 
-/// Every method for a problem.
 pub fn methods(problem: &Problem) -> Vec<Method> {
     let mut methods = ours::methods(problem);
     methods.extend(smooth::methods(problem));

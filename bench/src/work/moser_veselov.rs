@@ -7,7 +7,6 @@ use super::method::{Method, equal_steps};
 use super::problem::{Kind, Problem, Quaternion, State, Vector, cross, dot, matrix};
 use crate::timing::Failure;
 
-/// The method, for a free body.
 pub fn method(problem: &Problem) -> Option<Method> {
     let name = "DMV10, Newton".to_owned();
     (problem.kind == Kind::Free).then(|| Method::stepping(name, 10, problem.time_scale, run))
@@ -42,7 +41,6 @@ fn run(problem: &Problem, step: f64) -> Result<State, Failure> {
     Ok(State::rotating(m, matrix(&q)))
 }
 
-/// Hamilton's product.
 #[inline(always)]
 fn multiply(a: &Quaternion, b: &Quaternion) -> Quaternion {
     [

@@ -6,7 +6,6 @@ use super::method::{Method, Run, equal_steps};
 use super::problem::{Kind, Problem, State, Vector, matrix};
 use crate::timing::Failure;
 
-/// A free body.
 macro_rules! free {
     ($module:ident, $truncation:literal, $frame:ident) => {
         mod $module {
@@ -92,7 +91,6 @@ macro_rules! symmetric_top {
     };
 }
 
-/// Kirchhoff's body.
 macro_rules! fluid {
     ($module:ident, $truncation:literal, $frame:ident) => {
         mod $module {

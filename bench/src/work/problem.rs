@@ -4,18 +4,15 @@ use serde::Deserialize;
 
 use crate::timing::Failure;
 
-/// Three components.
 pub type Vector = [f64; 3];
 /// Scalar part first.
 pub type Quaternion = [f64; 4];
 
-/// u × v.
 #[inline(always)]
 pub fn cross(u: &Vector, v: &Vector) -> Vector {
     [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
 }
 
-/// u · v.
 #[inline(always)]
 pub fn dot(u: &Vector, v: &Vector) -> f64 {
     u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
@@ -30,12 +27,10 @@ pub struct State {
     pub force: Vector,
     /// The rotation, by rows.
     pub rotation: [Vector; 3],
-    /// The translation.
     pub position: Vector,
 }
 
 impl State {
-    /// A state without translation.
     pub fn rotating(momentum: Vector, rotation: [Vector; 3]) -> Self {
         Self { momentum, force: [0.0; 3], rotation, position: [0.0; 3] }
     }
@@ -90,11 +85,9 @@ pub enum Kind {
 pub struct Problem {
     /// Its name in files and options.
     pub name: String,
-    /// One line for people.
     pub title: &'static str,
     /// 1/Iᵢ.
     pub inverse_inertia: Vector,
-    /// The rest of H.
     pub kind: Kind,
     /// Π at the start.
     pub momentum: Vector,
@@ -132,7 +125,6 @@ struct Entry {
     end_state: Figures,
 }
 
-/// A state in the file.
 #[derive(Deserialize)]
 pub struct Figures {
     momentum: [String; 3],
@@ -142,7 +134,6 @@ pub struct Figures {
 }
 
 impl Figures {
-    /// The state.
     pub fn state(&self) -> Result<State, Failure> {
         let [momentum, force, position] =
             [numbers(&self.momentum)?, numbers(&self.force)?, numbers(&self.position)?];
@@ -163,7 +154,6 @@ fn numbers<const N: usize>(texts: &[String; N]) -> Result<[f64; N], Failure> {
 /// The file of references, written by `tests/reference/make_references.py`.
 pub const FILE: &str = include_str!("../../reference/end_states.json");
 
-/// Every problem.
 pub fn all() -> Result<Vec<Problem>, Failure> {
     let entries: Vec<Entry> = serde_json::from_str(FILE)?;
     entries.iter().map(problem).collect()

@@ -10,9 +10,7 @@ use crate::timing::median;
 /// A setting of a method with the error it reaches and its cost.
 #[derive(Clone, Debug)]
 pub struct Measurement {
-    /// The method's name.
     pub method: String,
-    /// The error at the end.
     pub error: f64,
     /// Nanoseconds of one core per unit of the problem's time: the median over the rounds.
     pub nanoseconds: f64,
@@ -25,11 +23,8 @@ const CHEAPEST: usize = 4;
 
 /// A setting with a rough time.
 pub struct Candidate {
-    /// The place of its method.
     pub method: usize,
-    /// The step or the tolerance.
     pub setting: f64,
-    /// The error at the end.
     pub error: f64,
     /// The least time of some runs.
     pub rough: Duration,

@@ -59,8 +59,6 @@ pub struct Diagnostics {
 }
 
 impl Diagnostics {
-    /// No mistakes yet.
-    #[must_use]
     pub(crate) fn new() -> Self {
         Self::default()
     }
@@ -96,8 +94,6 @@ impl Diagnostics {
         self.len() == 0
     }
 
-    /// The number of mistakes.
-    #[must_use]
     pub(crate) fn len(&self) -> usize {
         self.list.borrow().len()
     }
@@ -234,12 +230,10 @@ pub enum Span {
 }
 
 impl Span {
-    /// A range of bytes.
     pub(crate) fn text(range: Range<usize>) -> Self {
         Self::Text { start: range.start, end: range.end }
     }
 
-    /// A single token.
     pub(crate) fn from_tokens(span: proc_macro2::Span) -> Self {
         Self::Tokens { first: span, last: span }
     }

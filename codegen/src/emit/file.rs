@@ -42,7 +42,6 @@ pub fn collocation_file(smooth: &Smooth, options: &Options) -> String {
     module(Items { opening: vec![opening], ..collocation(smooth, options) })
 }
 
-/// Items as a source file.
 fn module(items: Items) -> String {
     let Items { opening, struct_and_methods, programs } = items;
     let mut result = comment(opening.iter().flat_map(|paragraph| wrapped(paragraph, WIDTH)));
@@ -59,7 +58,6 @@ pub fn potential_items(kick: &Kick, options: &Options) -> String {
     format!("\n{}", text(super::kick(kick, &Options { name, ..options.clone() })))
 }
 
-/// Lines as comments.
 fn comment(lines: impl IntoIterator<Item = String>) -> String {
     let comment = |line: String| match line.is_empty() {
         true => "//\n".to_owned(),
@@ -71,8 +69,6 @@ fn comment(lines: impl IntoIterator<Item = String>) -> String {
 /// How long a line of a table may be.
 const LONGEST_ROW: usize = 100;
 
-/// The items as formatted text.
-#[must_use]
 pub(crate) fn text(tokens: TokenStream) -> String {
     match syn::parse2(tokens.clone()) {
         Ok(items) => spaced(&filled(&comments(&prettyplease::unparse(&items)))),

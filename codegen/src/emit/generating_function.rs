@@ -11,7 +11,6 @@ use crate::integrator::{FoldTable, Integrator, Predictor};
 use crate::problem::Solver;
 
 /// `impl GeneratingFunction for name`; `slots` is the number of coefficients.
-#[must_use]
 pub(crate) fn generating_function(
     integrator: &Integrator,
     options: &Options,
@@ -108,7 +107,6 @@ pub(crate) fn generating_function(
 }
 
 /// How steps are solved, where the dimension alone does not say it.
-#[must_use]
 pub(crate) fn solver(integrator: &Integrator, krate: &TokenStream) -> TokenStream {
     let solver = integrator.problem.solver();
     if solver == Solver::of_dimension(integrator.problem.algebra.dim()) {
@@ -123,7 +121,6 @@ pub(crate) fn solver(integrator: &Integrator, krate: &TokenStream) -> TokenStrea
 }
 
 /// `impl Integrator` of a function whose steps are too long to be printed.
-#[must_use]
 pub(crate) fn without_programs(
     integrator: &Integrator,
     options: &Options,
@@ -162,14 +159,12 @@ fn written(program: &Program, options: &Options, input: &str) -> Body {
 }
 
 /// The body of a function with one output; it reads `input` and `c`.
-#[must_use]
 pub(crate) fn scalar_function(program: &Program, options: &Options, input: &str) -> TokenStream {
     let Body { statements, outputs } = written(program, options, input);
     quote!(#statements #(#outputs)*)
 }
 
 /// The body of a function with as many outputs as `vector` has entries.
-#[must_use]
 pub(crate) fn vector_function(
     program: &Program,
     vector: &TokenStream,

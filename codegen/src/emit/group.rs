@@ -29,7 +29,6 @@ pub(crate) struct GroupType {
 
 /// The runtime type for `algebra`: one of the runtime's own, or tables written beside the
 /// integrator `name`.
-#[must_use]
 pub(crate) fn group_type(
     algebra: &LieAlgebra,
     name: &Ident,
@@ -192,8 +191,6 @@ pub(crate) struct Types {
 }
 
 impl Types {
-    /// The types for this algebra and chart.
-    #[must_use]
     pub(crate) fn new(algebra: &LieAlgebra, chart: Chart, options: &Options) -> Self {
         let Options { krate, visibility, name, .. } = options;
         let dim = algebra.dim();

@@ -11,7 +11,6 @@ use crate::problem::Problem;
 use crate::step::{Origin, Step};
 
 /// Lines for a doc comment: source, group, chart, truncation, order, terms, operations of a step where it is printed.
-#[must_use]
 pub(crate) fn lines(integrator: &Integrator, step: Option<&Step>) -> Vec<String> {
     let problem = &integrator.problem;
     let terms: Vec<String> = (1..=problem.truncation)
@@ -50,7 +49,6 @@ pub(crate) fn lines(integrator: &Integrator, step: Option<&Step>) -> Vec<String>
 }
 
 /// Paragraphs for the opening of a file: the system, how to use its step, the promises, the cost, how to read it.
-#[must_use]
 pub(crate) fn opening(
     integrator: &Integrator,
     options: &Options,
@@ -106,7 +104,6 @@ pub(crate) fn opening(
 const MOST_LINES: usize = 4000;
 
 /// A line for each slot that holds a coefficient of S: `c[3] = 2 C(p₁ p₂²), of S₃ + S₅`.
-#[must_use]
 pub(crate) fn legend(coefficients: &Coefficients) -> Vec<String> {
     let mut lines = Vec::new();
     for (slot, &(base, scale)) in coefficients.slots().iter().enumerate() {
@@ -137,15 +134,11 @@ pub(crate) fn legend(coefficients: &Coefficients) -> Vec<String> {
     lines
 }
 
-/// A number in subscript digits.
-#[must_use]
 pub(crate) fn subscript(number: usize) -> String {
     let digit = |c: char| c.to_digit(10).and_then(|d| char::from_u32(0x2080 + d)).unwrap_or(c);
     number.to_string().chars().map(digit).collect()
 }
 
-/// A number in superscript digits.
-#[must_use]
 pub(crate) fn superscript(number: usize) -> String {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let digit = |c: char| c.to_digit(10).map_or(c, |d| DIGITS[d as usize]);

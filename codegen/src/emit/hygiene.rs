@@ -39,7 +39,6 @@ pub fn hygienic(
 }
 
 /// `name`, with as many underscores at its end as make it differ from all of `taken`.
-#[must_use]
 pub(crate) fn fresh(name: &str, taken: &BTreeSet<String>) -> String {
     let mut name = name.to_owned();
     while taken.contains(&name) {

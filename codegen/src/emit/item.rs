@@ -205,7 +205,6 @@ fn lanes(options: &Options, printed: bool) -> TokenStream {
 }
 
 /// The constructor `new(step, parameters…)`, which folds.
-#[must_use]
 pub(crate) fn constructor(
     integrator: &Integrator,
     krate: &TokenStream,
@@ -254,7 +253,6 @@ pub(crate) fn constructor(
     }
 }
 
-/// Parameters as arguments of a function.
 pub(crate) struct Arguments {
     /// `name: type` for each.
     pub arguments: Vec<TokenStream>,
@@ -264,8 +262,6 @@ pub(crate) struct Arguments {
     pub scalars: Vec<TokenStream>,
 }
 
-/// The arguments for these parameters.
-#[must_use]
 pub(crate) fn arguments(parameters: &[Parameter], krate: &TokenStream) -> Arguments {
     let mut names = parameters.iter().map(|parameter| parameter.name.clone()).collect();
     let mut result =

@@ -8,7 +8,6 @@ use crate::expr::{Function, ParameterExpr};
 
 /// The value of `expr` as an expression of type `T`; `parameters[i]` is the expression of scalar
 /// parameter number i.
-#[must_use]
 pub(crate) fn expression(expr: &ParameterExpr, parameters: &[TokenStream]) -> TokenStream {
     let sub = |e: &ParameterExpr| expression(e, parameters);
     match expr {

@@ -24,7 +24,6 @@ const INLINED_IN_LANES: usize = 6000;
 
 /// A call of a function that belongs to `operations` operations. Where they are many the function is not inlined for a
 /// single number, since the compiler's time grows faster than their count; where they are very many, not for lanes either.
-#[must_use]
 pub(crate) fn apart(krate: &TokenStream, call: &TokenStream, operations: usize) -> TokenStream {
     let called = quote!(#krate::plumbing::called(|| #call));
     if operations <= LARGE {
@@ -43,12 +42,10 @@ pub(crate) struct Field {
 }
 
 impl Field {
-    /// An array of this length.
     pub(crate) fn array(name: Ident, len: usize) -> Self {
         Self { name, len: Some(len) }
     }
 
-    /// A single number.
     pub(crate) fn number(name: Ident) -> Self {
         Self { name, len: None }
     }
@@ -87,7 +84,6 @@ pub(crate) struct Body {
 }
 
 /// Writes `program` down, in several functions where it is large.
-#[must_use]
 pub(crate) fn body(program: &Program, scope: &Scope<'_>) -> Body {
     let nodes = program.nodes();
     let parts = match program.operations() {
@@ -174,7 +170,6 @@ impl Scope<'_> {
         self.constant(0.0)
     }
 
-    /// A constant as a number.
     fn constant(&self, value: f64) -> TokenStream {
         let (c, value) = (self.bound("c"), Literal::f64_unsuffixed(value));
         quote!(#c.of(#value))
@@ -245,13 +240,11 @@ fn handed_on(program: &Program, parts: &[usize]) -> BTreeSet<usize> {
 }
 
 /// The nearest `f64` of an exact number.
-#[must_use]
 pub(crate) fn exact(value: &Rational) -> TokenStream {
     float(value.to_f64().unwrap_or(f64::NAN))
 }
 
 /// A literal; numbers beyond the range of `f64` by name, for folding to refuse.
-#[must_use]
 pub(crate) fn float(value: f64) -> TokenStream {
     if value.is_finite() {
         let literal = Literal::f64_unsuffixed(value);

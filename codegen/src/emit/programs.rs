@@ -14,15 +14,12 @@ use crate::step::Step;
 /// Steps of more operations than this are not printed: the compiler would take minutes.
 pub(crate) const MOST_OPERATIONS: usize = 20_000;
 
-/// The operations of a whole step.
-#[must_use]
 pub(crate) fn step_operations(step: &Step) -> usize {
     let programs = Part::ALL.iter().filter_map(|(part, _)| part.program(step.kernel()));
     programs.map(Program::operations).sum()
 }
 
 /// The programs and the loop as functions, and `impl Integrator`, which runs them.
-#[must_use]
 pub(crate) fn programs(
     step: &Step,
     options: &Options,

@@ -7,7 +7,6 @@ use super::program::float;
 use crate::integrator::{FoldTable, Integrator};
 
 /// The static `FOLD`, a `coadjoint::plumbing::Fold` with these lists.
-#[must_use]
 pub(crate) fn fold_item(krate: &TokenStream, table: &FoldTable) -> TokenStream {
     let number = |value: u32| Literal::u32_unsuffixed(value);
     let pair = |&(a, b): &(u32, u32)| {
@@ -67,7 +66,6 @@ pub(crate) fn fold_item(krate: &TokenStream, table: &FoldTable) -> TokenStream {
 }
 
 /// The static `LAST`, a `coadjoint::plumbing::LastTerms`: the monomials of the last two terms of the series.
-#[must_use]
 pub(crate) fn last_item(krate: &TokenStream, integrator: &Integrator) -> TokenStream {
     let (coefficients, truncation) = (&integrator.coefficients, integrator.problem.truncation);
     let monomials = coefficients.last_orders(truncation).map(|(order, base)| {
@@ -87,7 +85,6 @@ pub(crate) fn last_item(krate: &TokenStream, integrator: &Integrator) -> TokenSt
     }
 }
 
-/// A monomial as a slice of pairs.
 fn monomial(factors: &[(u32, u32)]) -> TokenStream {
     let factors = factors.iter().map(|&(coordinate, exponent)| {
         let coordinate = Literal::u32_unsuffixed(coordinate);

@@ -6,7 +6,6 @@ use crate::diagnostic::{Diagnostics, Mistake, Span, nearest};
 use crate::expr::Function;
 use crate::number::Rational;
 
-/// The meaning of a name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 // Some are those of files alone.
 #[cfg_attr(not(feature = "system"), allow(dead_code))]
@@ -15,9 +14,7 @@ pub(crate) enum Name {
     Coordinate(usize),
     /// A scalar parameter, counted through all parameters flattened.
     Parameter(usize),
-    /// A number.
     Number(Rational),
-    /// The time t.
     Time,
     /// An input, a function of the time, counted from 0.
     Signal(usize),
@@ -34,7 +31,6 @@ impl Name {
     }
 }
 
-/// Names and what they stand for.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Names {
     known: BTreeMap<String, Name>,
@@ -93,7 +89,6 @@ impl Names {
         }
     }
 
-    /// The meaning of the name.
     pub(crate) fn get(&self, name: &str) -> Option<&Name> {
         self.known.get(name)
     }
@@ -106,7 +101,6 @@ impl Names {
         indices.max().map(|last| last + 1)
     }
 
-    /// The mistake of using a name that is not known.
     pub(crate) fn unknown(&self, name: &str) -> Mistake {
         if matches!(name, "t" | "time") {
             return Mistake::Time(name.to_owned());
@@ -120,12 +114,10 @@ impl Names {
     }
 }
 
-/// Whether a character can begin a name.
 pub(super) fn begins_name(c: char) -> bool {
     c.is_alphabetic() || c == '_'
 }
 
-/// Whether a character can continue a name.
 pub(super) fn continues_name(c: char) -> bool {
     c.is_alphanumeric() || c == '_' || c == '\''
 }

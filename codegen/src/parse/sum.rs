@@ -27,9 +27,6 @@ pub(super) struct Scope<'a> {
 
 impl Scope<'_> {
     /// The meaning of a name, its indices worked out.
-    ///
-    /// # Errors
-    /// The mistake of using it, where it is not known.
     pub(crate) fn get(&self, name: &str) -> Result<Name, Mistake> {
         if let Some((_, value)) = self.indices.iter().find(|(index, _)| index == name) {
             return Ok(Name::Number(integer(*value)));

@@ -7,7 +7,6 @@ use super::names::{begins_name, continues_name, is_word};
 use crate::diagnostic::Mistake;
 use crate::number::Rational;
 
-/// A token.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Token {
     Number(Rational),
@@ -25,14 +24,12 @@ pub(super) enum Token {
     Wrong(Mistake),
 }
 
-/// The tokens with the bytes they take.
 pub(super) struct Tokens<'a> {
     text: &'a str,
     at: usize,
 }
 
 impl<'a> Tokens<'a> {
-    /// Those from byte `at` on.
     pub(super) fn new(text: &'a str, at: usize) -> Self {
         Self { text, at }
     }

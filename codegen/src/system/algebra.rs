@@ -32,7 +32,6 @@ pub(super) fn read(table: &Table<'_>, system: &str) -> Option<LieAlgebra> {
     None
 }
 
-/// The names under `generators`.
 fn generators(table: &Table<'_>) -> Option<Vec<(String, Span)>> {
     table.names("generators", GENERATORS).map(|(names, _)| names)
 }

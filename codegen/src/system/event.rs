@@ -28,7 +28,6 @@ pub struct Event {
     pub stop: bool,
 }
 
-/// Reads all events.
 pub(super) fn read(
     root: &Table<'_>,
     algebra: Option<&LieAlgebra>,

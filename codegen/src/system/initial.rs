@@ -148,7 +148,6 @@ fn solved(problem: &Problem, velocity: &[Rational]) -> Option<Vec<f64>> {
     Some((0..dim).map(|i| nearest_float(&momentum.get(i, 0))).collect())
 }
 
-/// Reads the group element, by its matrix or by quaternions.
 fn element(table: &Table<'_>, algebra: Option<&LieAlgebra>) -> Option<Vec<Vec<f64>>> {
     let projected = match table.get("project").map(|value| (value.get_ref(), value)) {
         Some((&DeValue::Boolean(yes), _)) => yes,

@@ -214,7 +214,6 @@ pub fn read_group(text: &str) -> Result<LieAlgebra, Diagnostics> {
     })
 }
 
-/// A kind of Hamiltonian.
 struct Kind<'a, H> {
     /// How a draft becomes a system.
     assemble: &'a dyn Fn(Draft, &Diagnostics) -> Option<H>,
@@ -348,7 +347,6 @@ fn system<H>(
     Some(System { problem, potential, damping, run, units, parameters: parameters.all() })
 }
 
-/// The name of the system.
 fn name(root: &Table<'_>) -> String {
     let name = root.string("name", "name = \"rigid-body\"");
     name.map_or(DEFAULT_NAME.to_owned(), |(name, _)| name.to_owned())

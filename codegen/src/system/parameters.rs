@@ -107,7 +107,6 @@ impl Parameters {
         kept
     }
 
-    /// All of them.
     pub(super) fn all(&self) -> Vec<Parameter> {
         self.list.iter().map(|(_, given)| given.parameter.clone()).collect()
     }
@@ -169,7 +168,6 @@ impl Given {
     }
 }
 
-/// The inverse of a matrix.
 fn inverse(parameter: &Parameter) -> Option<RationalMatrix> {
     let (Shape::Grid(_, columns), Some(values)) = (&parameter.shape, &parameter.default) else {
         return None;
@@ -177,7 +175,6 @@ fn inverse(parameter: &Parameter) -> Option<RationalMatrix> {
     RationalMatrix::from_rows(values.chunks((*columns).max(1)).map(<[_]>::to_vec)).inverse()
 }
 
-/// The words in the texts of a value.
 fn words_of(value: &DeValue<'_>) -> BTreeSet<String> {
     match value {
         DeValue::String(text) => words(text).collect(),

@@ -52,7 +52,6 @@ impl<'a> Table<'a> {
         self.entries.get(key)
     }
 
-    /// Keys and values in the order of the file.
     pub(super) fn entries(&self) -> Vec<(&'a str, Span, &'a Value<'a>)> {
         let mut list: Vec<_> = self.entries.iter().collect();
         list.sort_by_key(|(key, _)| key.span().start);
@@ -74,7 +73,6 @@ impl<'a> Table<'a> {
         self.diagnostics.report(span, Mistake::unknown_key(key, &self.name, known));
     }
 
-    /// Reports that a key must be given.
     pub(super) fn missing(&self, key: &str, example: &str) {
         // Of the file as a whole at its beginning.
         let place = if self.span.is_text() { self.span } else { Span::text(0..0) };
@@ -101,7 +99,6 @@ impl<'a> Table<'a> {
         self.diagnostics.report_other(place, what, &format!("write for example {example}"));
     }
 
-    /// The table under `key`, if there is one.
     pub(super) fn table(&self, key: &str) -> Option<Self> {
         let table = self.entry(key, self.get(key)?, &format!("[{key}] on a line of its own"))?;
         // The header line itself, not all of the table.
@@ -174,7 +171,6 @@ impl<'a> Table<'a> {
         Some((names.map(|name| (name.to_owned(), span(value))).collect(), span(value)))
     }
 
-    /// A whole number from 0.
     pub(super) fn integer(&self, key: &str, example: &str) -> Option<(usize, Span)> {
         let value = self.get(key)?;
         if let DeValue::Integer(n) = value.get_ref()
@@ -186,7 +182,6 @@ impl<'a> Table<'a> {
         None
     }
 
-    /// The nearest floating-point number.
     pub(super) fn number(&self, key: &str, example: &str) -> Option<(f64, Span)> {
         let value = self.get(key)?;
         Some((nearest_float(&self.exact(key, value, example)?), span(value)))
@@ -225,7 +220,6 @@ impl<'a> Table<'a> {
         constant(&arena, root, self.diagnostics)
     }
 
-    /// Exact numbers.
     pub(super) fn numbers<'v>(
         &self,
         key: &str,
@@ -275,7 +269,6 @@ impl<'a> Table<'a> {
     }
 }
 
-/// Where a value stands.
 pub(super) fn span(value: &Value<'_>) -> Span {
     Span::text(value.span())
 }

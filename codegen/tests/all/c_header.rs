@@ -97,7 +97,6 @@ fn compare(built: &Built, output: &str) {
     );
 }
 
-/// The refusals, and their messages.
 fn refusals(built: &Built, output: &str) {
     let name = built.system.name;
     let line = |start: &str| {

@@ -55,7 +55,6 @@ fn code_of_rust(text: &str) -> Vec<&str> {
     text.lines().filter(|line| !line.trim_start().starts_with("//")).collect()
 }
 
-/// The text of C without its comments.
 fn code_of_c(text: &str) -> String {
     let mut code = String::new();
     let mut rest = text;

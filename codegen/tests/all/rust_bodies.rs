@@ -7,7 +7,6 @@ use coadjoint_codegen::parse::rust;
 use coadjoint_codegen::problem::Problem;
 use nalgebra::{Matrix3, Vector3, Vector6};
 
-/// Reads a function given as text.
 fn read(arguments: &str, function: &str) -> Result<Problem, String> {
     let arguments = arguments.parse().unwrap();
     let function = syn::parse_str(function).unwrap();

@@ -21,12 +21,10 @@ pub struct MomentumPairs {
 }
 
 impl MomentumPairs {
-    /// N, the number of samples.
     pub(crate) fn count(&self) -> usize {
         self.before.ncols()
     }
 
-    /// The samples with the numbers given.
     pub(crate) fn select(&self, samples: &[usize]) -> Self {
         Self {
             before: self.before.select_columns(samples),
@@ -53,7 +51,6 @@ impl ReducedData {
         self.p.ncols()
     }
 
-    /// The samples with the numbers given.
     pub(crate) fn select(&self, samples: &[usize]) -> Self {
         Self {
             x: self.x.select_columns(samples),

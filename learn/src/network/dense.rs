@@ -13,13 +13,11 @@ fn activation(z: f64) -> f64 {
     1.0 - 2.0 / (libm::exp(2.0 * z) + 1.0)
 }
 
-/// The derivative σ′, given the value a.
 #[inline(always)]
 pub(super) fn slope(a: f64) -> f64 {
     1.0 - a * a
 }
 
-/// The second derivative σ″, given the value a.
 #[inline(always)]
 pub(super) fn bend(a: f64) -> f64 {
     -2.0 * a * (1.0 - a * a)
@@ -65,7 +63,6 @@ impl Layers {
         Self { hidden, last: DVector::from_column_slice(rest) }
     }
 
-    /// The outputs of the hidden layers.
     pub(super) fn forward(&self, points: &DMatrix<f64>) -> Vec<DMatrix<f64>> {
         let mut values: Vec<DMatrix<f64>> = Vec::with_capacity(self.hidden.len());
         for Hidden { matrix, biases, .. } in &self.hidden {
@@ -116,7 +113,6 @@ pub struct DenseNetwork {
     scale: f64,
 }
 
-/// The one activation that files name.
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 enum Activation {
@@ -191,7 +187,6 @@ impl DenseNetwork {
         Ok(Self { layers, scaling, mean, scale })
     }
 
-    /// u, as a column.
     fn normalise(&self, p: &[f64]) -> DMatrix<f64> {
         DMatrix::from_fn(p.len(), 1, |i, _| self.scaling.normalise(i, p[i]))
     }

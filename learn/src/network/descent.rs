@@ -16,7 +16,6 @@ use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 use std::path::Path;
 
-/// The first field of every checkpoint.
 const FORMAT: &str = "coadjoint-checkpoint-4";
 
 /// The state between two evaluations of the loss: the stage of the method, and all losses so far.
@@ -128,17 +127,14 @@ impl State {
 const WATCH: usize = 10;
 /// Evaluations between two checkpoints, which hold up to 22 rows of unknowns.
 const SAVE: usize = 100;
-/// Pairs of differences kept.
 const MEMORY: usize = 10;
 /// The strong Wolfe conditions: sufficient decrease and sufficient flattening.
 const WOLFE: (f64, f64) = (1e-4, 0.9);
 /// The most evaluations of one line search.
 const SEARCH: usize = 20;
 
-/// A loss and its gradient.
 type Evaluate<'a> = dyn FnMut(&[f64]) -> (f64, Vec<f64>) + 'a;
 
-/// A point of the line that is searched.
 struct Point {
     step: f64,
     loss: f64,

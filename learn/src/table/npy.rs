@@ -58,9 +58,6 @@ pub(crate) enum NpyError {
 impl NpyHeader {
     /// Reads the header of an array that has `total` bytes in all, and leaves `reader` at the first
     /// number. Nothing is allocated that the file does not hold.
-    ///
-    /// # Errors
-    /// [`NpyError`] naming what is wrong.
     pub(crate) fn read(reader: &mut impl Read, total: u64) -> Result<Self, NpyError> {
         let mut start = [0; 8];
         reader.read_exact(&mut start).map_err(|_| NpyError::Signature)?;

@@ -137,9 +137,6 @@ fn read_column(column: &mut ColumnReader, count: usize) -> Result<Vec<f64>, Parq
 
 /// Writes rows, one after the other in each piece that `next` gives until one is empty, as required columns of 64-bit
 /// floats; a row group a piece.
-///
-/// # Errors
-/// Where the rows cannot be had, or the file cannot be written.
 pub(crate) fn write_parquet(
     to: impl Write + Send,
     names: &[String],

@@ -38,7 +38,6 @@ struct Task<'a, G: DataGroup> {
     train: ReducedData,
     tests: PairRows<G>,
     test: ReducedData,
-    /// Seed of the networks.
     seed: u64,
     /// The name their checkpoints begin with, which begins with the experiment's.
     label: String,
@@ -73,7 +72,6 @@ impl<'a, G: DataGroup> Task<'a, G> {
         TrainingOptions { widths: vec![64, 64], adam_steps: 50, lbfgs_steps, ..full }
     }
 
-    /// The errors of the map that a function generates.
     fn figures<C: Chart<G>>(&self, function: &dyn MomentumFunction) -> Figures {
         let map = Generating::<G, C, _>::new(self.group.clone(), function);
         evaluate(&map, &self.group, &self.tests, &self.test)
@@ -121,9 +119,7 @@ impl<'a, G: DataGroup> Task<'a, G> {
     }
 }
 
-/// The step of the data.
 const LEARNED_STEP: f64 = 0.1;
-/// Points and gradients.
 type Samples = (DMatrix<f64>, DMatrix<f64>);
 
 /// Trains a network; also the losses on the way: (step, loss, loss on the test samples).

@@ -70,11 +70,8 @@ group = "SE3"
 coordinates = ["x", "y", "z", "u", "v", "w"]
 hamiltonian = "x^2/2 + y^2/2.4 + z^2/1.6 + 0.1*u + 0.4*w"
 "#;
-/// Its start.
 const TOP: [f64; 6] = [0.7, -0.4, 1.1, 0.0, 0.6, 0.8];
-/// The duration of a run.
 const ORDERS_DURATION: f64 = 8.0;
-/// Steps of a run.
 const ORDERS_COUNTS: [usize; 13] = [5, 8, 10, 16, 20, 32, 40, 64, 80, 128, 160, 320, 640];
 /// Step sizes of single steps.
 const SINGLE: [f64; 10] = [0.025, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.6, 0.8, 1.2];
@@ -156,9 +153,7 @@ pub fn orders(options: &Options) -> Fallible<Report> {
     Ok(report)
 }
 
-/// The duration of a run.
 const WORK_DURATION: f64 = 20.0;
-/// Steps of ours in a run.
 const WORK_COUNTS: [usize; 10] = [20, 25, 32, 40, 50, 64, 100, 160, 250, 500];
 /// Operations of an evaluation of the field by RK45: ξ = I⁻¹Π 3, Π × ξ 9, R ξ^ 9 entries of 3 each.
 const FIELD: usize = 3 + 9 + 27;

@@ -10,7 +10,6 @@ use coadjoint_paper::outcome::{Options, Report};
 use coadjoint_paper::page::{page, sections};
 use coadjoint_paper::text::figures;
 
-/// Experiments that train no network.
 const CHEAP: [&str; 8] = [
     "simulation",
     "orders",

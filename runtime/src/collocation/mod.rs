@@ -72,7 +72,6 @@ pub struct Collocation<G: LieGroup<Scalar = f64>, E, const M: usize> {
     /// The rates of the last steps in a ring, and how many were noted since the first guess.
     rates: [Option<Rates<G::Vector, M>>; KEPT],
     noted: usize,
-    /// The momentum after the last step.
     end: Option<G::Vector>,
 }
 
@@ -177,9 +176,6 @@ where
     }
 
     /// The step from a guess that knows no steps before it.
-    ///
-    /// # Errors
-    /// Why there is no right step.
     #[cold]
     fn anew(&mut self, mu: &G::Vector, middle: f64) -> Result<Attempt<G::Vector, M>, StepError> {
         self.noted = 0;
@@ -206,9 +202,6 @@ where
 
     /// Whether an attempt is the step: solved, in the chart, and with velocities that the nodes resolve. Other branches of
     /// the equations are far from the identity, and vary too much for their nodes.
-    ///
-    /// # Errors
-    /// Why it is not.
     fn judge(&self, mu: &G::Vector, attempt: &Attempt<G::Vector, M>) -> Result<(), StepError> {
         let at = Circumstances { x: attempt.x.largest_entry(), ratio: 0.0, usable_step: None };
         match &attempt.ending {

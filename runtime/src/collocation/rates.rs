@@ -83,12 +83,10 @@ where
 }
 
 impl<V: Coordinates<f64>, const M: usize> Rates<V, M> {
-    /// Rates that are all zero.
     pub(super) fn zero(dim: usize) -> Self {
         Self { x: V::zero_rows::<M>(dim), p: V::zero_rows::<M>(dim) }
     }
 
-    /// self ← self + s·other
     #[inline(always)]
     pub(super) fn add(&mut self, dim: usize, s: f64, other: &Self) {
         add::<V, M>(dim, &mut self.x, s, &other.x);

@@ -103,9 +103,6 @@ pub fn advance_by<S: Integrator + ?Sized>(
 }
 
 /// One step without programs, or from the x that programs have found and refused, and its distance from their guess.
-///
-/// # Errors
-/// As [`advance`].
 #[cold]
 #[inline(never)]
 fn by_hand<S: Integrator + ?Sized>(
@@ -171,9 +168,6 @@ fn finite_or_nan<T: Scalar, V: Coordinates<T>>(mu: &V) -> T {
 const OFF_GROUP: f64 = 1.0;
 
 /// Whether a state is finite, and its group element on the group.
-///
-/// # Errors
-/// The error of a state off the group, or not finite.
 pub(crate) fn check<G: LieGroup>(group: &G, phase: &Phase<G>) -> Result<(), StepError> {
     let defect = group.element_defect(&phase.group_element) + finite_or_nan(&phase.momentum);
     match defect.simd_le(largest_defect()).all() {
@@ -188,7 +182,6 @@ fn largest_defect<T: Scalar>() -> T {
     T::of(OFF_GROUP) * T::epsilon().simd_sqrt()
 }
 
-/// Names what is wrong with a state.
 fn unsound<G: LieGroup>(group: &G, phase: &Phase<G>) -> StepError {
     if !finite_or_nan(&phase.momentum).simd_le(G::Scalar::of(0.0)).all() {
         return StepError::Overflow;

@@ -108,7 +108,6 @@ const CAPACITY: usize = 96;
 const MAX_SIZE: usize = 6;
 const MAX_DIM: usize = 10;
 
-/// A table as it grows.
 struct Entries {
     all: [(usize, usize, usize, f64); CAPACITY],
     len: usize,
@@ -128,7 +127,6 @@ impl Entries {
     }
 }
 
-/// The basis of [`Rotations`].
 const fn rotations(size: usize) -> Entries {
     let (mut basis, mut i, mut a) = (Entries::EMPTY, 0, 0);
     while a < size {
@@ -142,7 +140,6 @@ const fn rotations(size: usize) -> Entries {
     basis
 }
 
-/// The basis of [`SpecialUnitary`].
 const fn special_unitary(n: usize) -> Entries {
     let (mut basis, mut i, mut a) = (Entries::EMPTY, 0, 0);
     while a < n {

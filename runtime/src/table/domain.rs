@@ -86,7 +86,6 @@ const fn share(n: usize, ad: &[f64], exact: bool, b: usize, j: usize, k: usize, 
     if exact { -0.5 * c * crossed } else { 0.25 * c * (same - crossed) }
 }
 
-/// Whether the set holds the basis vector.
 const fn holds(set: u128, i: usize) -> bool {
     i < MAX_DIM && set >> i & 1 == 1
 }

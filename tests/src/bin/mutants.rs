@@ -189,7 +189,6 @@ fn change(tree: &Path, file: &str, [from, to]: [&str; 2]) -> Result<String, Stri
     }
 }
 
-/// The files that a build needs, copied.
 fn copy(from: &Path, to: &Path) -> Result<(), String> {
     let listed = Command::new("git").args(["ls-files", "-z"]).current_dir(from).output();
     let listed = listed.map_err(|error| format!("git: {error}"))?.stdout;
@@ -217,7 +216,6 @@ fn tests(file: &str) -> &'static str {
     }
 }
 
-/// Whether they pass.
 fn passes(tree: &Path, file: &str) -> Result<bool, String> {
     let status = Command::new("cargo")
         .arg("test")

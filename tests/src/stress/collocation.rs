@@ -21,11 +21,8 @@ const FARTHEST: [f64; 4] = [0.2, 0.2, 2e-2, 5e-3];
 /// √(1 + Σ wᵢ μᵢ²) + ½ Σ qᵢⱼ μᵢ μⱼ + Σ bᵢ μᵢ
 #[derive(Clone, Debug)]
 pub struct Drawn {
-    /// w.
     pub root: Vec<f64>,
-    /// q, symmetric.
     pub form: Vec<Vec<f64>>,
-    /// b.
     pub linear: Vec<f64>,
 }
 
@@ -159,10 +156,8 @@ fn instance<G: LieGroup<Scalar = f64>>(group: &G, seed: u64, tally: &mut Tally) 
     }
 }
 
-/// Makes the steps of a seed.
 type Instances = fn(u64, &mut Tally);
 
-/// All families whose names contain `only`.
 pub(super) fn families(only: &str) -> Vec<Family> {
     let all: [(&str, Instances); 6] = [
         ("collocation-so3", |seed, tally| instance(&SO3::<f64>::new(), seed, tally)),

@@ -117,7 +117,6 @@ fn polynomials() -> Vec<(Recipe, Maker)> {
     ]
 }
 
-/// All families whose names contain `only`.
 pub fn families(only: &str) -> Vec<Family> {
     let mut families = Vec::new();
     for (recipe, steps) in polynomials() {

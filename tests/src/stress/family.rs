@@ -14,21 +14,15 @@ use super::verdict::Tally;
 
 /// A Hamiltonian, up to its parameters, with its exact series and its judge.
 pub struct Model {
-    /// Judges its steps.
     pub judge: Judge,
-    /// Draws the parameters.
     pub draw: Box<dyn Fn(&mut Random) -> System + Send + Sync>,
 }
 
-/// A Hamiltonian with its parameters.
 pub struct System {
-    /// A description for messages.
     pub text: String,
-    /// ∂H/∂μ.
     pub velocity: Vec<Polynomial>,
     /// Whether H is homogeneous quadratic, so that |μ| may be of any size.
     pub homogeneous: bool,
-    /// The values of the symbols.
     pub symbols: Vec<f64>,
     /// I where steps with h|μ|/I < 1.5 must be accepted.
     pub promised: Option<f64>,
@@ -41,7 +35,6 @@ pub type Make = Box<dyn Fn(f64, &mut Random) -> Option<Made>>;
 
 /// Steps, and a judge of their own where S is not the model's series.
 pub struct Made {
-    /// The steps.
     pub steps: Box<dyn Steps>,
     /// The judge, the step size counted in it.
     pub judge: Option<Judge>,
@@ -57,11 +50,8 @@ impl Made {
 /// Makes steps from the algebra, the terms of S, and the step size that these have been folded for.
 pub type Maker = fn(&LieAlgebra, Terms, f64, &mut Random) -> Option<Made>;
 
-/// Systems of one kind.
 pub struct Family {
-    /// Its name.
     pub name: String,
-    /// Systems to draw from.
     pub models: Vec<Model>,
     /// How far log₁₀|μ| goes to either side of 0.
     pub decades: f64,
@@ -115,7 +105,6 @@ pub fn inertias(random: &mut Random) -> [i64; 3] {
     }
 }
 
-/// A Hamiltonian on this many coordinates.
 pub fn energy(kind: Energy, dim: usize, random: &mut Random) -> (Polynomial, Option<f64>) {
     let mut least = None;
     let product =
@@ -174,7 +163,6 @@ pub fn folded(orders: &[(u32, Polynomial)], h: f64, single: bool) -> Option<Term
 
 /// How a family of polynomial functions is made.
 pub struct Recipe {
-    /// The name of the family.
     pub name: &'static str,
     group: &'static str,
     energy: Energy,
@@ -182,13 +170,11 @@ pub struct Recipe {
     chart: Chart,
     /// How many Hamiltonians there are for each truncation.
     models: usize,
-    /// Whether numbers are `f32`.
     single: bool,
     /// Whether steps with h|μ|/I < 1.5, I the least moment of inertia, must be accepted for K ≥ 5.
     must_accept: bool,
     /// Whether only such are made.
     promise: bool,
-    /// See [`Family::weight`].
     weight: usize,
     /// How far log₁₀|μ| goes to either side of 0.
     decades: f64,
@@ -217,22 +203,18 @@ impl Recipe {
         }
     }
 
-    /// In the Cayley chart.
     pub fn cayley(self) -> Self {
         Self { chart: Chart::Cayley, ..self }
     }
 
-    /// This many Hamiltonians for each truncation.
     pub fn models(self, models: usize) -> Self {
         Self { models, ..self }
     }
 
-    /// See [`Family::weight`].
     pub fn weight(self, weight: usize) -> Self {
         Self { weight, ..self }
     }
 
-    /// Momenta of moderate size only.
     pub fn slow(self) -> Self {
         Self { decades: 1.0, ..self }
     }
@@ -247,13 +229,11 @@ impl Recipe {
         Self { must_accept: true, ..self }
     }
 
-    /// Only such steps are made.
     pub fn promise(self) -> Self {
         Self { promise: true, ..self.must() }
     }
 }
 
-/// The algebra of a name of the catalogue.
 pub fn algebra(name: &str) -> LieAlgebra {
     catalogue::lookup(name).expect("a group of the catalogue")
 }

@@ -86,7 +86,6 @@ fn model([arguments, function]: [&'static str; 2], must: bool, make: Make) -> Mo
     Model { judge, draw: Box::new(draw) }
 }
 
-/// All families whose names contain `only`.
 pub fn families(only: &str) -> Vec<Family> {
     let all: [(&str, usize, [&str; 2], bool, Make); 4] = [
         ("generated-fixed-7", 256, fixed::TEXT, true, in_lanes),

@@ -18,7 +18,6 @@ const PROMISED: f64 = 1.5;
 /// One in this number of right x is made wrong, to test the judge.
 const SPOILT: usize = 64;
 
-/// The case being judged, for messages.
 struct Case<'a> {
     family: &'a str,
     seed: u64,
@@ -89,7 +88,6 @@ fn setting(family: &Family, system: &System, random: &mut Random) -> Option<(f64
     None
 }
 
-/// |Ω| at μ.
 fn speed(system: &System, mu: &[f64]) -> f64 {
     system.velocity.iter().map(|v| v.evaluate(mu)).fold(0.0, f64::hypot)
 }
@@ -131,7 +129,6 @@ fn find_boundary(steps: &dyn Steps, ray: &[f64], longest: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// Momenta beyond all bounds.
 fn special(random: &mut Random, dim: usize) -> Vec<f64> {
     let sizes = [
         0.0,
@@ -160,7 +157,6 @@ fn special(random: &mut Random, dim: usize) -> Vec<f64> {
     mu
 }
 
-/// A double, exactly.
 fn hex(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return value.to_string();

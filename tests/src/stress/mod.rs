@@ -20,14 +20,11 @@ use std::time::Instant;
 
 use family::Family;
 
-/// The options of a run.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// Steps to make, about.
     pub steps: u64,
-    /// The seed of everything.
     pub seed: u64,
-    /// Families whose names contain this.
     pub only: String,
     /// Threads; the result does not depend on them.
     pub threads: usize,

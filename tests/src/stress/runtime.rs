@@ -11,10 +11,8 @@ pub use crate::matrix_free::MatrixFree;
 pub use coadjoint::groups::{Cayley, Exponential, Heisenberg, Power, SE2, SU2, SU3};
 pub use coadjoint::{SE3, SO3};
 
-/// By which function steps are made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Way {
-    /// `advance`.
     One,
     /// `advance_by`, this many steps.
     Many(u64),
@@ -23,29 +21,23 @@ pub enum Way {
 /// A state as numbers: the group element's matrix, row by row, and the momentum.
 #[derive(Clone, Debug)]
 pub struct State {
-    /// The matrix.
     pub element: Vec<f64>,
-    /// μ.
     pub momentum: Vec<f64>,
     /// Everything the runtime's own state holds, as text that tells every bit of finite numbers.
     pub text: String,
 }
 
 impl State {
-    /// Whether all numbers are finite.
     pub fn is_finite(&self) -> bool {
         self.element.iter().chain(&self.momentum).all(|v| v.is_finite())
     }
 }
 
-/// The outcome of some steps.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// The state before.
     pub before: State,
     /// The state after, whatever came.
     pub after: State,
-    /// The error, if it was refused.
     pub error: Option<String>,
 }
 

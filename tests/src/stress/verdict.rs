@@ -2,7 +2,6 @@
 
 use std::fmt::Write as _;
 
-/// A way in which a step can be wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Wrong {
     /// It does not solve its equation.
@@ -15,7 +14,6 @@ pub enum Wrong {
     Series,
     /// The state is not where the right solution leads.
     State,
-    /// A number is not finite.
     NotFinite,
     /// A refused step changed the state.
     Changed,
@@ -27,7 +25,6 @@ pub enum Wrong {
     Missed,
 }
 
-/// All kinds with their headings.
 pub const KINDS: [(Wrong, &str); 10] = [
     (Wrong::Residual, "residual"),
     (Wrong::Branch, "branch"),
@@ -41,30 +38,23 @@ pub const KINDS: [(Wrong, &str); 10] = [
     (Wrong::Missed, "missed"),
 ];
 
-/// The outcome of the steps of one family.
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
-    /// Steps that were accepted.
     pub accepted: u64,
-    /// Steps that were refused.
     pub refused: u64,
     /// Steps among them that must be accepted.
     pub promised: u64,
     /// Right x made wrong on purpose, by more than rounding.
     pub spoilt: u64,
-    /// Wrong ones by `KINDS`.
     pub wrong: [u64; KINDS.len()],
     /// Accepted ones of which the judge cannot tell.
     pub unsure: u64,
     /// The largest residual / bound of a step that is not wrong.
     pub residual: f64,
-    /// Where that was.
     pub worst: String,
     /// The largest deviation / bound of a state that is not wrong.
     pub deviation: f64,
-    /// How long it took.
     pub seconds: f64,
-    /// The first examples of each kind.
     pub examples: Vec<(Wrong, String)>,
 }
 
@@ -75,7 +65,6 @@ const REMARKABLE: f64 = 0.25;
 const EXAMPLES: usize = 3;
 
 impl Tally {
-    /// Counts a wrong step.
     pub fn note(&mut self, wrong: Wrong, example: impl FnOnce() -> String) {
         self.wrong[wrong as usize] += 1;
         if self.examples.iter().filter(|e| e.0 == wrong).count() < EXAMPLES {
@@ -83,7 +72,6 @@ impl Tally {
         }
     }
 
-    /// Adds what another run found.
     pub fn add(&mut self, other: Self) {
         self.accepted += other.accepted;
         self.refused += other.refused;
@@ -105,7 +93,6 @@ impl Tally {
         }
     }
 
-    /// How many were wrong.
     pub fn wrong(&self) -> u64 {
         self.wrong.iter().sum()
     }

@@ -83,7 +83,6 @@ impl Subject {
         Phase::<MatrixGroup>::new(self.group.exp(&x), mu)
     }
 
-    /// Makes `steps` steps of a state.
     fn advance(
         &self,
         stepper: &dyn Stepper,
@@ -100,7 +99,6 @@ impl Subject {
     }
 }
 
-/// Every law at two states.
 fn laws_hold(subject: &Subject, stepper: &dyn Stepper, random: &mut Random) {
     let Subject { name, group, .. } = subject;
     let (forward, backward) = (subject.slots(STEP), subject.slots(-STEP));
@@ -124,7 +122,6 @@ fn laws_hold(subject: &Subject, stepper: &dyn Stepper, random: &mut Random) {
     }
 }
 
-/// The order of the kernel's steps is K + 1.
 fn order_holds(subject: &Subject, stepper: &dyn Stepper, random: &mut Random) {
     let name = &subject.name;
     // Some motions are slow.

@@ -19,7 +19,6 @@ fn spin(mu: [f64; 3], field: f64) -> f64 {
     mu[0].powi(2) / 3.0 + mu[1].powi(4) / 8.0 + field * mu[2]
 }
 
-/// Two coupled spins.
 #[lie_poisson(group = SO3^2, truncation = 3)]
 fn spins(mu: [f64; 6], coupling: f64) -> f64 {
     coupling * (mu[0] * mu[3] + mu[1] * mu[4] + mu[2] * mu[5]) + mu[2] * mu[2] / 3.0
@@ -105,7 +104,6 @@ fn side_by_side(mu: [f64; 6]) -> f64 {
     a * a / 2.0 + b * b / 3.0 + c * c / 4.0 + x * x / 2.0 + y * y / 2.0 + z * z / 4.0
 }
 
-/// The first.
 #[lie_poisson(group = SO3, truncation = 5)]
 fn alone(mu: [f64; 3]) -> f64 {
     mu[0] * mu[0] / 2.0 + mu[1] * mu[1] / 3.0 + mu[2] * mu[2] / 4.0

@@ -17,7 +17,6 @@ pub(crate) struct Portable {
 }
 
 impl Portable {
-    /// The dialect for these names.
     pub(crate) fn new(names: &Names, places: BTreeMap<usize, usize>) -> Self {
         let restrict = format!("{}_RESTRICT", names.upper);
         let c = C {
@@ -33,7 +32,6 @@ impl Portable {
 }
 
 /// The shortest decimals that are read as this number.
-#[must_use]
 pub(crate) fn decimal(value: f64) -> String {
     if value.is_nan() {
         return "NAN".into();

@@ -41,9 +41,6 @@ fn read(programs: &[&Program]) -> BTreeSet<usize> {
 
 impl Folding {
     /// The coefficients that the programs of `step` read.
-    ///
-    /// # Errors
-    /// [`HeaderError::Degree`], [`HeaderError::Constant`].
     pub(super) fn new(origin: Origin<'_>, step: &Step) -> Result<Self, HeaderError> {
         let programs = &step.kernel().programs;
         let mut list = vec![&programs.guess, &programs.correct, &programs.accept];
@@ -92,7 +89,6 @@ impl Folding {
         self.places.len() - self.times
     }
 
-    /// The function that folds.
     pub(super) fn init(
         &self,
         origin: Origin<'_>,
@@ -238,7 +234,6 @@ fn declare(fold: &Fold<'_>, degrees: usize, text: &mut String) {
     }
 }
 
-/// A table of numbers.
 fn numbers(name: &str, list: impl ExactSizeIterator<Item = f64>, text: &mut String) {
     let _ = writeln!(text, "    static const double {name}[{}] = {{", list.len());
     let number = |value: f64| match value < 0.0 {
@@ -248,7 +243,6 @@ fn numbers(name: &str, list: impl ExactSizeIterator<Item = f64>, text: &mut Stri
     rows(list.map(number), 4, text);
 }
 
-/// A table of integers.
 fn integers(name: &str, list: impl ExactSizeIterator<Item = u32> + Clone, text: &mut String) {
     let short = list.clone().all(|value| u16::try_from(value).is_ok());
     let of = if short { "uint16_t" } else { "uint32_t" };

@@ -32,7 +32,6 @@ fn index(shape: &Shape, i: usize) -> String {
     }
 }
 
-/// A member of the structure of parameters.
 pub(crate) fn member(shape: &Shape, name: &str) -> String {
     match shape {
         Shape::Scalar => format!("double {name}"),

@@ -37,7 +37,6 @@ fn energy(step: &Step) -> Program {
     graph.finish(inputs, all.get(..1).unwrap_or(&[]))
 }
 
-/// How many Casimirs are watched.
 pub(super) fn casimirs(step: &Step) -> usize {
     step.kernel().programs.watch.outputs().len().saturating_sub(1)
 }
@@ -93,7 +92,6 @@ pub(super) fn functions(step: &Step, fold: &Folding, names: &Names) -> String {
     text
 }
 
-/// The functions that make steps.
 pub(super) fn drive(step: &Step, fold: &Folding, names: &Names) -> String {
     let kernel = step.kernel();
     let of = if kernel.flows().is_some() { "&c[flow * @P@_COEFFICIENTS]" } else { "c" };
@@ -126,7 +124,6 @@ if ((!@p@_internal_finite(g, @P@_ELEMENT)) || (!@p@_internal_finite(mu, @P@_DIME
     status = @P@_NOT_FINITE;
 }";
 
-/// The loop of steps.
 const DRIVE: &str = "
 /* Internal: copies a list. */
 static inline void @p@_internal_copy(double *to, const double *from, uint32_t length)

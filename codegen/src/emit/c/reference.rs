@@ -15,7 +15,6 @@ use crate::emit::c::{HeaderOptions, Language, parameter};
 use crate::emit::header;
 use crate::step::{Origin, Step};
 
-/// How many rows the matrix of an element has.
 fn rows(step: &Step) -> usize {
     step.kernel().programs.matrix.outputs().len().isqrt()
 }
@@ -219,7 +218,6 @@ pub(crate) fn class(origin: Origin<'_>, step: &Step, names: &Names) -> String {
 /// The name of the parameters in the class.
 const PARAMETERS: &str = "    typedef @p@_parameters Parameters;\n";
 
-/// The class of C++.
 const CLASS: &str = "
 /**
  * The same for C++11: a map with its functions. It allocates nothing and throws nothing.
@@ -275,7 +273,6 @@ private:
 };
 ";
 
-/// The Casimirs in the class.
 const CLASS_CASIMIRS: &str = "
     /** As @p@_casimirs. */
     static void casimirs(const State &state, double (&values)[@P@_CASIMIRS]) noexcept

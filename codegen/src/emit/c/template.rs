@@ -72,7 +72,6 @@ static inline double @p@_internal_radius(const double *last, const double *befor
 }
 ";
 
-/// The documentation of the function.
 pub(super) const ABOUT: &str = "
 /**
  * Folds the coefficients for steps of size h (negative: backwards in time). Call it once, and again whenever h or
@@ -130,7 +129,6 @@ pub(super) const LAST: &str =
             }
 ";
 
-/// The coefficients.
 pub(super) const LOOP: &str = "    power[0] = 1.0;
     for (i = 1u; i < /*POWERS*/; i++) {
         power[i] = power[i - 1u] * h;
@@ -275,7 +273,6 @@ pub(crate) const END_OF_C: &str = "
 #endif
 ";
 
-/// Attitudes and momenta of states.
 pub(crate) const STATE: &str = "
 /** The state at the group's identity with this momentum (@P@_DIMENSION numbers). */
 static inline void @p@_at_identity(@p@_state *state, const double *mu)
@@ -317,7 +314,6 @@ static inline double @p@_energy(const @p@_map *map, const @p@_state *state/*TIME
 }
 ";
 
-/// The Casimirs, where any of low degree are known.
 pub(crate) const CASIMIRS: &str = "
 /** The Casimirs (@P@_CASIMIRS numbers). Every step conserves them to rounding. */
 static inline void @p@_casimirs(const @p@_state *state, double *casimirs)
@@ -327,7 +323,6 @@ static inline void @p@_casimirs(const @p@_state *state, double *casimirs)
 }
 ";
 
-/// A status in words.
 pub(crate) const TEXT: &str = "
 /** A status in words. */
 static inline const char *@p@_status_text(@p@_status status)

@@ -20,11 +20,8 @@ pub(super) const DEEPEST_CALL: usize = 24;
 /// Why an expression has no value.
 #[derive(Debug)]
 pub(super) enum Flow {
-    /// `return`.
     Return(Value),
-    /// `break`.
     Break,
-    /// `continue`.
     Continue,
     /// An operand was wrong, which has been reported.
     Wrong,
@@ -121,7 +118,6 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// The value of an expression.
     pub(super) fn expression(&mut self, expression: &Expr) -> Result<Value, Flow> {
         let span = || Span::of(expression);
         match expression {
@@ -237,7 +233,6 @@ impl<'a> Evaluator<'a> {
     }
 }
 
-/// The visible variables.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Scopes {
     variables: Vec<(String, Value)>,
@@ -269,7 +264,6 @@ impl Scopes {
         self.variables.iter_mut().rev().find(|(known, _)| known == name).map(|(_, value)| value)
     }
 
-    /// All visible names.
     pub(super) fn names(&self) -> Vec<String> {
         let mut names: Vec<String> = Vec::new();
         for (name, _) in &self.variables {
@@ -522,9 +516,6 @@ impl Evaluator<'_> {
     }
 
     /// `i` or `(i, j)`, known.
-    ///
-    /// # Errors
-    /// [`Flow::Wrong`] where it is not.
     pub(super) fn index(&mut self, expression: &Expr) -> Result<Vec<usize>, Flow> {
         let parts = match self.expression(expression)? {
             Value::List(parts) => parts.to_vec(),
@@ -538,7 +529,6 @@ impl Evaluator<'_> {
         Ok(index)
     }
 
-    /// An entry of a value.
     pub(super) fn entry(&mut self, base: &Value, index: &[usize], span: Span) -> Value {
         match base.entry(index) {
             Ok(value) => value,
@@ -661,7 +651,6 @@ impl Evaluator<'_> {
         self.unsupported(span, &message, "write its value, or pass it as a parameter")
     }
 
-    /// `function(arguments)`.
     pub(super) fn call(&mut self, call: &ExprCall) -> Result<Value, Flow> {
         let span = Span::of(call);
         let mut arguments = Vec::new();

@@ -14,7 +14,6 @@ use crate::parse::rust::signature::sizes;
 /// A value of the function's world. Copies of lists and matrices share their entries.
 #[derive(Clone, Debug)]
 pub(super) enum Value {
-    /// An `f64`.
     Number(ExprId),
     /// An integer, known.
     Integer(i128),
@@ -26,7 +25,6 @@ pub(super) enum Value {
     Matrix(Matrix),
     /// A closure or a function of the body.
     Function(Rc<Callable>),
-    /// `()`.
     Unit,
     /// Something wrong that has been reported.
     Wrong,
@@ -240,7 +238,6 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Entry by entry.
     pub(super) fn zip(
         &mut self,
         a: Value,
@@ -306,7 +303,6 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Σ aᵢ bᵢ.
     pub(super) fn dot(&mut self, a: &[Value], b: &[Value], span: Span) -> Value {
         let mut sum: Option<Value> = None;
         for (a, b) in a.iter().zip(b) {
@@ -319,7 +315,6 @@ impl Evaluator<'_> {
         sum.unwrap_or_else(|| self.constant(integer(0), span))
     }
 
-    /// `value as type`.
     pub(super) fn cast(&mut self, value: Value, ty: &Type, span: Span) -> Value {
         let to_float =
             matches!(ty, Type::Path(p) if p.path.is_ident("f64") || p.path.is_ident("f32"));
@@ -351,7 +346,6 @@ fn is_assignment(op: &BinOp) -> bool {
 }
 
 impl Evaluator<'_> {
-    /// The integers of a range.
     pub(super) fn range(&mut self, range: &ExprRange) -> Result<Value, Flow> {
         let span = Span::of(range);
         let Some((start, end)) = self.bounds(range, None)? else { return Ok(Value::Wrong) };
@@ -386,7 +380,6 @@ impl Evaluator<'_> {
         Ok(start.zip(end))
     }
 
-    /// `base[start..end]`.
     pub(super) fn slice(&mut self, base: &Value, range: &ExprRange) -> Result<Value, Flow> {
         let Some(list) = base.iterated() else { return Ok(Value::Wrong) };
         let Some((start, end)) = self.bounds(range, Some(list.len()))? else {
@@ -402,7 +395,6 @@ impl Evaluator<'_> {
         })
     }
 
-    /// `for pattern in list { … }`.
     pub(super) fn for_loop(&mut self, for_loop: &syn::ExprForLoop) -> Result<Value, Flow> {
         let span = Span::of(&for_loop.expr);
         let list = self.expression(&for_loop.expr)?;
@@ -443,7 +435,6 @@ impl Evaluator<'_> {
         }
     }
 
-    /// `loop { … }`.
     pub(super) fn forever(&mut self, forever: &syn::ExprLoop) -> Result<Value, Flow> {
         loop {
             self.tick(Span::of(&forever.loop_token))?;
@@ -537,7 +528,6 @@ impl Evaluator<'_> {
         Ok(Some(Value::list(list)))
     }
 
-    /// The values of a function at items.
     fn mapped(
         &mut self,
         items: &[Value],
@@ -561,7 +551,6 @@ const KNOWN: &str = "powi, powf, mul_add, sqrt, sin, cos, tan, atan, tanh, exp, 
     component_mul, component_div, sum, iter, map, zip, enumerate, fold, transpose";
 
 impl Evaluator<'_> {
-    /// `receiver.method(arguments)`.
     pub(super) fn method_call(&mut self, call: &ExprMethodCall) -> Result<Value, Flow> {
         let span = Span::of(call);
         self.tick(span)?;

@@ -281,7 +281,6 @@ impl Built {
     }
 }
 
-/// A text, or that of a file.
 fn text(text: &str) -> String {
     match text.ends_with(".toml") {
         true => std::fs::read_to_string(root().join(text)).unwrap(),
