@@ -1,5 +1,6 @@
 //! The unknowns of a step: the velocities of the canonical coordinates at its nodes, times the step size.
 
+use crate::group::middle::add;
 use crate::linear::coordinates::Coordinates;
 use crate::number::Scalar;
 
@@ -8,19 +9,6 @@ use crate::number::Scalar;
 pub(super) struct Rates<V: Coordinates<f64>, const M: usize> {
     pub x: V::Rows<M>,
     pub p: V::Rows<M>,
-}
-
-/// a ← a + s·b at each node.
-#[inline(always)]
-pub(super) fn add<V, const M: usize>(dim: usize, a: &mut V::Rows<M>, s: f64, b: &V::Rows<M>)
-where
-    V: Coordinates<f64>,
-{
-    for k in 0..dim {
-        for i in 0..M {
-            a[k][i] = b[k][i].times_plus(s, a[k][i]);
-        }
-    }
 }
 
 /// start + Σⱼ weightsⱼᵢ rowsⱼ at each node i.
@@ -89,8 +77,8 @@ impl<V: Coordinates<f64>, const M: usize> Rates<V, M> {
 
     #[inline(always)]
     pub(super) fn add(&mut self, dim: usize, s: f64, other: &Self) {
-        add::<V, M>(dim, &mut self.x, s, &other.x);
-        add::<V, M>(dim, &mut self.p, s, &other.p);
+        add::<f64, V, M>(dim, &mut self.x, s, &other.x);
+        add::<f64, V, M>(dim, &mut self.p, s, &other.p);
     }
 
     /// The largest coordinate, those of p divided by `scale`.

@@ -3,8 +3,9 @@
 use coadjoint_program::collocation::{LARGEST_MODEL, MAX_SWEEPS, Nodes, ROUNDING, SOLVED, degree};
 
 use super::energy::Energy;
-use super::rates::{Rates, add, mixed, total};
+use super::rates::{Rates, mixed, total};
 use crate::group::LieGroup;
+use crate::group::middle::add;
 use crate::linear::coordinates::Coordinates;
 use crate::number::Scalar;
 
@@ -182,7 +183,7 @@ impl<V: Coordinates<f64>, const M: usize> Model<'_, V, M> {
         let x = mixed(&V::zeros(dim), &self.nodes.matrix, &change.x);
         let p = mixed(&middle, &self.nodes.matrix, &change.p);
         let mut mu = p.clone();
-        add::<V, M>(dim, &mut mu, 0.5, &group.ad_stars::<M>(&x, &here));
+        add::<f64, V, M>(dim, &mut mu, 0.5, &group.ad_stars::<M>(&x, &here));
         let mut velocity = V::zero_rows::<M>(dim);
         for k in 0..dim {
             let mut sum = [0.0; M];
@@ -194,9 +195,9 @@ impl<V: Coordinates<f64>, const M: usize> Model<'_, V, M> {
             velocity[k] = sum;
         }
         let mut force = V::zero_rows::<M>(dim);
-        add::<V, M>(dim, &mut force, 0.5, &group.ad_stars::<M>(&velocity, &here));
-        add::<V, M>(dim, &mut force, 0.5, &group.ad_stars::<M>(&rates.x, &p));
-        add::<V, M>(dim, &mut velocity, 0.5, &group.brackets::<M>(&x, &rates.x));
+        add::<f64, V, M>(dim, &mut force, 0.5, &group.ad_stars::<M>(&velocity, &here));
+        add::<f64, V, M>(dim, &mut force, 0.5, &group.ad_stars::<M>(&rates.x, &p));
+        add::<f64, V, M>(dim, &mut velocity, 0.5, &group.brackets::<M>(&x, &rates.x));
         Rates { x: velocity, p: force }
     }
 }

@@ -7,7 +7,7 @@ use crate::number::Scalar;
 
 /// a ← a + s·b at each node.
 #[inline(always)]
-fn add<T: Scalar, V: Coordinates<T>, const M: usize>(
+pub(crate) fn add<T: Scalar, V: Coordinates<T>, const M: usize>(
     dim: usize,
     a: &mut V::Rows<M>,
     s: T,

@@ -55,14 +55,12 @@ fn drop<T: Scalar>(x: &Vector6<T>) -> Vector3<T> {
     Vector3::from_fn(|i, _| x[PLACES[i]])
 }
 
-/// [`lift`] at each node.
 #[inline(always)]
 fn lift_rows<T: Scalar, const M: usize>(x: &Rows3<T, M>) -> Rows6<T, M> {
     let zero = [T::of(0.0); M];
     [zero, zero, x[0], x[1], x[2], zero]
 }
 
-/// [`drop`] at each node.
 #[inline(always)]
 fn drop_rows<T: Scalar, const M: usize>(x: &Rows6<T, M>) -> Rows3<T, M> {
     PLACES.map(|place| x[place])

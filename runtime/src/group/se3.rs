@@ -87,6 +87,14 @@ fn isometry<T: Scalar>(rotation: nalgebra::UnitQuaternion<T>, t: V<T>) -> Isomet
     Isometry3 { rotation, translation: Translation3 { vector: t } }
 }
 
+/// The square of the angle by a factor: only the rotation has imaginary eigenvalues, the rest must be finite.
+#[inline(always)]
+fn extent<T: Scalar>(x: &Vector6<T>, factor: f64) -> T {
+    let finite = (x[3] + x[4] + x[5]) * T::of(0.0);
+    let angle = x[2].times_plus(x[2], x[1].times_plus(x[1], x[0] * x[0]));
+    angle.times_plus(T::of(factor), finite)
+}
+
 impl<T: Scalar> LieGroup for SE3<T> {
     type Scalar = T;
     type Vector = Vector6<T>;
@@ -160,10 +168,7 @@ impl<T: Scalar> LieGroup for SE3<T> {
     }
 
     fn exp_extent(&self, x: &Self::Vector) -> T {
-        // Only the rotation has imaginary eigenvalues; the rest must be finite.
-        let finite = (x[3] + x[4] + x[5]) * T::of(0.0);
-        let angle = x[2].times_plus(x[2], x[1].times_plus(x[1], x[0] * x[0]));
-        angle.times_plus(T::of(1.0 / (core::f64::consts::PI * core::f64::consts::PI)), finite)
+        extent(x, 1.0 / (core::f64::consts::PI * core::f64::consts::PI))
     }
 
     // On SO(3) with dual numbers a + εb, f + εn, w + εv in the place of x, p, ω.
@@ -302,9 +307,7 @@ impl<T: Scalar> CayleyGroup for SE3<T> {
     }
 
     fn cayley_extent(&self, x: &Self::Vector) -> T {
-        let finite = (x[3] + x[4] + x[5]) * T::of(0.0);
-        let angle = x[2].times_plus(x[2], x[1].times_plus(x[1], x[0] * x[0]));
-        angle.times_plus(T::of(0.25), finite)
+        extent(x, 0.25)
     }
 
     fn cayley_inverse(&self, g: &Isometry3<T>) -> Option<Self::Vector> {

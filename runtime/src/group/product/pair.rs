@@ -67,7 +67,6 @@ where
     A: LieGroup<Scalar = T> + Default,
     B: LieGroup<Scalar = T> + Default,
 {
-    /// The coordinates of both factors.
     fn split(x: &SVector<T, N>) -> (A::Vector, B::Vector) {
         let (n, m) = (A::default().dim(), B::default().dim());
         (A::Vector::from_entries(n, |i| x[i]), B::Vector::from_entries(m, |i| x[n + i]))

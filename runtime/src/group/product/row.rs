@@ -212,12 +212,10 @@ impl<G: LieGroup> Row for Factors<G> {
 }
 
 impl<T: Scalar, R: Row<Group: LieGroup<Scalar = T>>> RowProduct<R> {
-    /// The end of the last factor.
     fn end(&self) -> Place {
         self.0.place(self.0.count())
     }
 
-    /// The coordinates of a factor.
     fn part(&self, at: usize, x: &R::Vector) -> VectorOf<R> {
         let start = self.0.place(at).coordinate;
         VectorOf::<R>::from_entries(self.0.group(at).borrow().dim(), |i| x[start + i])
@@ -305,7 +303,6 @@ impl<T: Scalar, R: Row<Group: LieGroup<Scalar = T>>> RowProduct<R> {
     }
 }
 
-/// Coordinates of a factor.
 type VectorOf<R> = <<R as Row>::Group as LieGroup>::Vector;
 /// Coordinates of the product at each node.
 type RowsOf<R, const M: usize> =
