@@ -219,15 +219,6 @@ where
     Phase::new(phase.group_element.clone(), nothing)
 }
 
-/// [`exact_flow`] of a momentum alone.
-pub fn exact_momentum_flow<G, H>(group: &G, hamiltonian: &H, mu: &G::Vector, time: f64) -> G::Vector
-where
-    G: LieGroup<Scalar = f64>,
-    H: MomentumFunction + ?Sized,
-{
-    exact_flow(group, hamiltonian, &Phase::new(group.identity(), mu.clone()), time).momentum
-}
-
 /// The same interval for every coordinate of the momentum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MomentumBox {

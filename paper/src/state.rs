@@ -113,6 +113,11 @@ pub fn exact_momenta(start: [f64; 3], h: f64, count: usize) -> Vec<State> {
     states.map(|state| State { matrix: Vec::new(), ..state }).collect()
 }
 
+/// A momentum of the paper's rigid body after this time.
+pub fn exact_momentum(mu: &Vector3<f64>, time: f64) -> Vector3<f64> {
+    exact_flow(&SO3::new(), &Separable::paper(), &Phase::<SO3>::at_identity(*mu), time).momentum
+}
+
 /// Phase points of the exact flow from the identity and this momentum, the start first.
 pub fn exact_phases<G: DataGroup>(
     group: &G,

@@ -7,7 +7,7 @@ use coadjoint_codegen::hamilton_jacobi::{GeneratingSeries, TermLimit, derive};
 use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::system::{Options as SystemOptions, read};
 use coadjoint_learn::polynomial::{Basis, PolynomialModel, Scaling};
-use coadjoint_learn::truth::{Separable, exact_momentum_flow};
+use coadjoint_learn::truth::Separable;
 use coadjoint_learn::{GaussNewton, MomentumFunction};
 use nalgebra::{DMatrix, DVector, Vector3};
 use rand::{RngExt, SeedableRng};
@@ -15,7 +15,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::poisson::map;
 use crate::outcome::{Curve, Fallible, Options, Report, Table, row};
-use crate::state::{RIGID_BODY, Steps};
+use crate::state::{RIGID_BODY, Steps, exact_momentum};
 
 /// The time T up to which S is fitted.
 const TIME: f64 = 0.5;
@@ -104,7 +104,6 @@ fn series(truncation: usize) -> Fallible<GeneratingSeries> {
 
 pub fn run(options: &Options) -> Fallible<Report> {
     let mut report = options.report("hamilton-jacobi");
-    let (group, body) = (SO3::new(), Separable::paper());
     let mut rng = ChaCha8Rng::seed_from_u64(options.seed(2));
     let tests: Vec<Vector3<f64>> =
         (0..100).map(|_| Vector3::from_fn(|_, _| 2.0 * rng.random::<f64>() - 1.0)).collect();
@@ -133,7 +132,7 @@ pub fn run(options: &Options) -> Fallible<Report> {
             let mut gradient = [0.0; 3];
             model.gradient(mu.as_slice(), &mut gradient);
             slopes += (0..3).map(|j| (gradient[j] - slope(mu, j)).powi(2)).sum::<f64>();
-            let exact = exact_momentum_flow(&group, &body, mu, TIME);
+            let exact = exact_momentum(mu, TIME);
             ours += (poisson_map(&learned, mu)? - exact).norm_squared();
             let (states, _) = steps.walk(TIME, 1, mu.as_slice()).ok_or("a step was refused")?;
             theirs += (Vector3::from_row_slice(&states[1].momentum) - exact).norm_squared();

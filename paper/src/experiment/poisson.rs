@@ -6,14 +6,12 @@ use coadjoint::{LieGroup, Phase, SO3};
 use coadjoint_learn::data::{RowPolicy, TOLERANCE, reduce};
 use coadjoint_learn::momentum::fit_poisson;
 use coadjoint_learn::polynomial::{PolynomialModel, fit_gradients};
-use coadjoint_learn::truth::{
-    MomentumBox, Separable, exact_momentum_flow, momentum_pairs, phase_pairs,
-};
+use coadjoint_learn::truth::{MomentumBox, Separable, momentum_pairs, phase_pairs};
 use coadjoint_learn::{Generating, MomentumFunction, Scaled, drifts, evaluate_momenta};
 use nalgebra::Vector3;
 
 use crate::outcome::{Curve, Fallible, Options, Report, Table, row};
-use crate::state::{Errors, START, State, exact_momenta, momenta};
+use crate::state::{Errors, START, State, exact_momenta, exact_momentum, momenta};
 
 /// Step, samples, and the paper's mean squared and largest errors.
 const TABLE_TWO: [(f64, usize, f64, f64); 6] = [
@@ -38,7 +36,7 @@ pub fn table_two(options: &Options) -> Fallible<Report> {
         options.pick(&TABLE_TWO[..], &TABLE_TWO[5..]).iter().enumerate()
     {
         eprintln!("  Δt = {step}, {samples} samples");
-        let flow = |mu: &_| exact_momentum_flow(&group, &body, mu, step);
+        let flow = |mu: &_| exact_momentum(mu, step);
         let seed = |k| options.seed(10 * number as u64 + k);
         let pairs = |count, k| momentum_pairs(&group, MomentumBox::UNIT, count, seed(k), flow);
         let (train, test) = (pairs(samples, 1), pairs(100, 2));
