@@ -65,9 +65,13 @@ pub fn numbers_of(
     group: &MatrixGroup,
     g: &<MatrixGroup as LieGroup>::Element,
 ) -> Vec<f64> {
+    step.element_of(&entries_of(group, g))
+}
+
+/// The matrix of a group element, row by row.
+pub fn entries_of<G: LieGroup<Scalar = f64>>(group: &G, g: &G::Element) -> Vec<f64> {
     let size = group.matrix_size();
-    let entry = |at: usize| group.matrix_entry(g, at / size, at % size);
-    step.element_of(&(0..size * size).map(entry).collect::<Vec<_>>())
+    (0..size * size).map(|at| group.matrix_entry(g, at / size, at % size)).collect()
 }
 
 /// The matrix, row by row, of an element given by the numbers that the programs have for it.

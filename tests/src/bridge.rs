@@ -2,11 +2,17 @@
 
 use coadjoint::LieGroup;
 use coadjoint::generating::PolynomialFunction;
-use coadjoint::groups::{Chart, TableError};
+use coadjoint::groups::{Chart, MatrixGroup, TableError};
 use coadjoint_codegen::hamilton_jacobi::GeneratingSeries;
+use coadjoint_codegen::lie::catalogue::lookup;
 use coadjoint_codegen::number::nearest_float;
 
 pub use coadjoint_learn::catalogue::matrix_group;
+
+/// The group of the catalogue, by its tables.
+pub fn named(name: &str) -> MatrixGroup {
+    matrix_group(&lookup(name).unwrap()).unwrap()
+}
 
 /// S_h = Σ h^k S_k as a generating function.
 pub fn series_function<G: LieGroup, C: Chart<G>>(

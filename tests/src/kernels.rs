@@ -44,7 +44,7 @@ pub fn limited(step: &Step, h: f64, radius: f64) -> Vec<f64> {
 }
 
 /// A system file on coordinates a, b, c, …, its integrator with these settings.
-fn text(group: &str, hamiltonian: &str, settings: &str) -> String {
+pub fn system(group: &str, hamiltonian: &str, settings: &str) -> String {
     let dim = lie::catalogue::lookup(group).unwrap().dim();
     let names: Vec<String> = ('a'..).take(dim).map(|name| format!("\"{name}\"")).collect();
     let names = names.join(", ");
@@ -55,7 +55,7 @@ fn text(group: &str, hamiltonian: &str, settings: &str) -> String {
 
 /// The problem of such a file.
 pub fn problem(group: &str, hamiltonian: &str, settings: &str, options: Options) -> Problem {
-    read(&text(group, hamiltonian, settings), options).unwrap().problem
+    read(&system(group, hamiltonian, settings), options).unwrap().problem
 }
 
 /// The integrator of a system of [`SYSTEMS`].
@@ -79,7 +79,7 @@ pub fn integrator_by(
 
 /// Any Hamiltonian in the coordinates a, b, …, for steps by collocation of the order `truncation` + 1.
 pub fn smooth(group: &str, hamiltonian: &str, truncation: usize) -> Smooth {
-    let text = text(group, hamiltonian, "method = \"collocation\"\n");
+    let text = system(group, hamiltonian, "method = \"collocation\"\n");
     let options = Options { truncation: Some(truncation), ..Options::default() };
     match read_either(&text, options, &[]).unwrap().problem {
         Hamiltonian::Smooth(smooth) => *smooth,

@@ -1,10 +1,9 @@
 //! The runtime's closed forms agree with table-driven groups of the same basis.
 #![allow(clippy::unwrap_used)]
 
-use coadjoint::groups::{Coordinates, MatrixGroup, SE2, SU2};
+use coadjoint::groups::{Coordinates, SE2, SU2};
 use coadjoint::{LieGroup, SE3, SO3};
-use coadjoint_codegen::lie::catalogue::lookup;
-use coadjoint_tests::bridge::matrix_group;
+use coadjoint_tests::bridge::named;
 use coadjoint_tests::stress::Random;
 use nalgebra::DVector;
 
@@ -14,7 +13,7 @@ fn gap(a: &impl Coordinates<f64>, b: &DVector<f64>) -> f64 {
 
 /// Compares along a direction, from 0 to beyond a full turn of its rotation part.
 fn agree<G: LieGroup<Scalar = f64>>(closed: &G, name: &str) {
-    let table: MatrixGroup = matrix_group(&lookup(name).unwrap()).unwrap();
+    let table = named(name);
     let n = table.dim();
     let fixed = |v: &[f64]| G::Vector::from_entries(n, |i| v[i]);
     let mut random = Random::new(7);

@@ -2,12 +2,10 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use coadjoint::collocation::{Collocation, Energy, Undefined};
-use coadjoint::groups::{
-    Aff1, Coordinates, Heisenberg, MatrixGroup, Power, Product, SE2, SL2, SO4, SU2, SU3,
-};
+use coadjoint::groups::{Aff1, Coordinates, Heisenberg, Power, Product, SE2, SL2, SO4, SU2, SU3};
 use coadjoint::laws::{Law, check_map};
 use coadjoint::{LieGroup, Phase, SE3, SO3, StepError};
-use coadjoint_tests::bridge::matrix_group;
+use coadjoint_tests::bridge::named;
 use coadjoint_tests::energies::{Any, Driven, Root, SIX, Six, Spin, THREE, Top};
 use coadjoint_tests::stress::{Drawn, Random};
 use nalgebra::{Vector3, Vector6};
@@ -160,10 +158,6 @@ where
             assert!(law.value <= 1e-13, "{name}, {nodes} nodes: {} {:.1e}", law.name, law.value);
         }
     }
-}
-
-fn named(name: &str) -> MatrixGroup {
-    matrix_group(&coadjoint_codegen::lie::catalogue::lookup(name).unwrap()).unwrap()
 }
 
 #[test]

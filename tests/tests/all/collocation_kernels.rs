@@ -2,15 +2,13 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use coadjoint::collocation::{Collocation, Energy};
-use coadjoint::groups::{
-    Coordinates, DirectProduct, Heisenberg, MatrixGroup, Product, SE2, SL2, SO4, SU2, SU3,
-};
+use coadjoint::groups::{Coordinates, DirectProduct, Heisenberg, Product, SE2, SL2, SO4, SU2, SU3};
 use coadjoint::{LieGroup, Phase, SE3, SO3};
-use coadjoint_codegen::lie::catalogue::lookup;
 use coadjoint_codegen::smooth::Smooth;
 use coadjoint_codegen::step::Origin;
 use coadjoint_program::{Precision, Stepper};
-use coadjoint_tests::bridge::matrix_group;
+use coadjoint_tests::backends::entries_of;
+use coadjoint_tests::bridge::named;
 use coadjoint_tests::kernels::smooth;
 use coadjoint_tests::stress::Random;
 
@@ -68,9 +66,7 @@ fn by_runtime<G: LieGroup<Scalar = f64>, const M: usize>(
     let mut step = Collocation::<_, _, M>::new(group.clone(), energy, h).unwrap();
     let mut state = Phase::<G>::new(group.identity(), vector::<G::Vector>(mu));
     let report = step.advance_by(&mut state, 0.3, steps).unwrap();
-    let size = group.matrix_size();
-    let entry = |at: usize| group.matrix_entry(&state.group_element, at / size, at % size);
-    ((0..size * size).map(entry).collect(), list(&state.momentum), report.iterations)
+    (entries_of(group, &state.group_element), list(&state.momentum), report.iterations)
 }
 
 fn compare_at<G: LieGroup<Scalar = f64>, const M: usize>(group: &G, name: &str, hamiltonian: &str) {
@@ -92,10 +88,6 @@ fn compare<G: LieGroup<Scalar = f64>>(group: &G, name: &str, hamiltonian: &str) 
     compare_at::<G, 1>(group, name, hamiltonian);
     compare_at::<G, 2>(group, name, hamiltonian);
     compare_at::<G, 4>(group, name, hamiltonian);
-}
-
-fn named(name: &str) -> MatrixGroup {
-    matrix_group(&lookup(name).unwrap()).unwrap()
 }
 
 #[test]

@@ -12,7 +12,7 @@ use coadjoint_codegen::system::{Options, Parameters, read};
 use coadjoint_program::Stepper;
 use coadjoint_tests::backends::{numbers_of, phase_of};
 use coadjoint_tests::bridge::matrix_group;
-use coadjoint_tests::kernels::unlimited;
+use coadjoint_tests::kernels::{self, unlimited};
 use nalgebra::DVector;
 
 const TWO_SPINS: &str = include_str!("../../systems/two_spins_in_a_field.toml");
@@ -22,25 +22,15 @@ const ROTATIONS: &str = "[A, B] = C\", \"[B, C] = A\", \"[C, A] = B";
 const BOOSTS: &str = "[A, B] = -C\", \"[B, C] = A\", \"[C, A] = B";
 
 fn problem(group: &str, hamiltonian: &str, frame: &str) -> Problem {
-    let (group, algebra, dim) = match group {
-        ROTATIONS | BOOSTS => {
-            let table = format!(
-                "[algebra]\ngenerators = [\"A\", \"B\", \"C\"]\nbrackets = [\"{group}\"]\n"
-            );
-            (String::new(), table, 3)
-        }
-        name => {
-            let dim = coadjoint_codegen::lie::catalogue::lookup(name).unwrap().dim();
-            (format!("group = \"{name}\"\n"), String::new(), dim)
-        }
-    };
-    let names: Vec<String> = ('a'..).take(dim).map(|name| format!("\"{name}\"")).collect();
+    let settings = format!("truncation = 5\nframe = {frame:?}\n");
+    if ![ROTATIONS, BOOSTS].contains(&group) {
+        return kernels::problem(group, hamiltonian, &settings, Options::default());
+    }
     let text = format!(
-        "{group}coordinates = [{}]\nhamiltonian = \"{hamiltonian}\"\n{algebra}\
-         [integrator]\ntruncation = 5\nframe = \"{frame}\"\n",
-        names.join(", ")
+        "coordinates = [\"a\", \"b\", \"c\"]\nhamiltonian = {hamiltonian:?}\n[algebra]\n\
+         generators = [\"A\", \"B\", \"C\"]\nbrackets = [\"{group}\"]\n[integrator]\n{settings}"
     );
-    read(&text, Options::default()).map_err(|m| m.render("system", &text)).unwrap().problem
+    read(&text, Options::default()).unwrap().problem
 }
 
 /// The state after steps of a kernel from the identity.

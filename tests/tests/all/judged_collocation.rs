@@ -4,33 +4,21 @@
 use coadjoint::collocation::{Collocation, Energy};
 use coadjoint::{LieGroup, Phase, SE3, SO3};
 use coadjoint_codegen::judge::{DoubleDouble, Judge, JudgeError, Motion};
-use coadjoint_codegen::lie::catalogue::lookup;
-use coadjoint_codegen::smooth::{Hamiltonian, Smooth};
-use coadjoint_codegen::system::{Options, read_either};
-use coadjoint_tests::bridge::matrix_group;
+use coadjoint_codegen::smooth::Smooth;
+use coadjoint_tests::bridge::named;
 use coadjoint_tests::energies::{Any, Driven, Root, SIX, Six, THREE};
+use coadjoint_tests::kernels::smooth;
 
-const ROOT: &str = "sqrt(1 + mu[0]^2/1.5 + mu[1]^2/2 + mu[2]^2/2.5) + mu[2]^3/10";
-const DRIVEN: &str = "sqrt(1 + mu[0]^2/1.5 + mu[1]^2/2 + mu[2]^2/2.5) + 3/10*cos(3*t)*mu[0] \
-    + sin(2*t)*mu[1]^2/4 + cos(t)*mu[2]^3/10";
-const ANY: &str = "sqrt(1 + mu[0]^2/3 + 2*mu[1]^2/3 + mu[2]^2) + exp(mu[0]/4)/3";
-const R: &str = "sqrt(1 + mu[3]^2 + 2*mu[4]^2/3 + 1.5*mu[5]^2)";
+const ROOT: &str = "sqrt(1 + a^2/1.5 + b^2/2 + c^2/2.5) + c^3/10";
+const DRIVEN: &str = "sqrt(1 + a^2/1.5 + b^2/2 + c^2/2.5) + 3/10*cos(3*t)*a \
+    + sin(2*t)*b^2/4 + cos(t)*c^3/10";
+const ANY: &str = "sqrt(1 + a^2/3 + 2*b^2/3 + c^2) + exp(a/4)/3";
+const R: &str = "sqrt(1 + d^2 + 2*e^2/3 + 1.5*f^2)";
 const START: f64 = 0.1;
 
-fn smooth(group: &str, energy: &str, nodes: usize) -> Smooth {
-    let text = format!(
-        "group = \"{group}\"\nhamiltonian = \"{energy}\"\n[integrator]\ntruncation = {}\n",
-        2 * nodes - 1
-    );
-    match read_either(&text, Options::default(), &[]).map(|system| system.problem) {
-        Ok(Hamiltonian::Smooth(smooth)) => *smooth,
-        other => panic!("{other:?}"),
-    }
-}
-
 fn six(nodes: usize) -> Smooth {
-    let squares = "mu[0]^2/3 + mu[1]^2/4 + mu[2]^2/5 + mu[0]*mu[3]/7";
-    smooth("SE3", &format!("{squares} + 2/3/{R} + exp(mu[5]/9 + mu[2]/11)*{R}"), nodes)
+    let squares = "a^2/3 + b^2/4 + c^2/5 + a*d/7";
+    smooth("SE3", &format!("{squares} + 2/3/{R} + exp(f/9 + c/11)*{R}"), 2 * nodes - 1)
 }
 
 /// The momentum that the judge's step leads to, in doubled precision.
@@ -46,10 +34,10 @@ fn end(judge: &Judge, h: f64, mu: &[f64]) -> Vec<DoubleDouble> {
 /// and 2 to 8 of all functions, of which shorter steps with five nodes err by the rounding of the judge.
 #[test]
 fn steps_of_the_judge_have_the_orders_of_their_nodes() {
-    let all = "exp(mu[0]/3) + ln(2 + mu[1]) + sin(mu[2])/2 + cos(mu[0] + t) + tan(mu[1]/4) + atan(mu[2]) + tanh(mu[0]) \
-        + (3 + mu[2])^(2/3)";
+    let all = "exp(a/3) + ln(2 + b) + sin(c)/2 + cos(a + t) + tan(b/4) + atan(c) + tanh(a) \
+        + (3 + c)^(2/3)";
     for (energy, most) in [(DRIVEN, 5), (all, 4)] {
-        let judge = |nodes| Judge::of_smooth(&smooth("SO3", energy, nodes)).unwrap();
+        let judge = |nodes| Judge::of_smooth(&smooth("SO3", energy, 2 * nodes - 1)).unwrap();
         let exact = judge(8);
         for nodes in 1..=most {
             let judge = judge(nodes);
@@ -95,16 +83,16 @@ fn steps_of_the_runtime_are_those_of_the_judge_to_rounding() {
     let within = |deviation: f64| assert!(deviation > 0.0 && deviation < 1.0, "{deviation}");
     for h in [0.05, 0.2, 0.5] {
         let case = (h, &THREE[..]);
-        let judge = Judge::of_smooth(&smooth("SO3", ROOT, 4)).unwrap();
+        let judge = Judge::of_smooth(&smooth("SO3", ROOT, 7)).unwrap();
         within(deviation::<SO3, Root, 4>(&SO3::new(), Root, &judge, case));
-        let judge = Judge::of_smooth(&smooth("SO3", DRIVEN, 3)).unwrap();
+        let judge = Judge::of_smooth(&smooth("SO3", DRIVEN, 5)).unwrap();
         within(deviation::<SO3, Driven, 3>(&SO3::new(), Driven, &judge, case));
         let judge = Judge::of_smooth(&six(4)).unwrap();
         within(deviation::<SE3, Six, 4>(&SE3::new(), Six, &judge, (h, &SIX)));
         // By tables.
-        let tables = matrix_group(&lookup("SL2").unwrap()).unwrap();
+        let tables = named("SL2");
         for (nodes, found) in [(2, 0), (4, 1)] {
-            let judge = Judge::of_smooth(&smooth("SL2", ANY, nodes)).unwrap();
+            let judge = Judge::of_smooth(&smooth("SL2", ANY, 2 * nodes - 1)).unwrap();
             let case = (0.5 * h, &THREE[..]);
             within(match found {
                 0 => deviation::<_, Any, 2>(&tables, Any, &judge, case),
@@ -116,7 +104,7 @@ fn steps_of_the_runtime_are_those_of_the_judge_to_rounding() {
 
 #[test]
 fn what_has_no_value_is_not_judged() {
-    let judge = smooth("SO3", "ln(mu[0]) + mu[1]^2", 2);
+    let judge = smooth("SO3", "ln(a) + b^2", 3);
     let judge = Judge::of_smooth(&judge).unwrap();
     let mut setting = judge.at(0.1, &[]).unwrap();
     assert!(setting.step(&[1.0, 0.2, 0.3]).unwrap().right_solution().is_ok());

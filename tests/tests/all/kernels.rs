@@ -13,6 +13,7 @@ use coadjoint_codegen::problem::Solver;
 use coadjoint_codegen::step::Step;
 use coadjoint_codegen::system::{Options, read};
 use coadjoint_program::Stepper;
+use coadjoint_tests::backends::entries_of;
 use coadjoint_tests::bridge::{matrix_group, series_function};
 use coadjoint_tests::kernels::{SYSTEMS, integrator, integrator_by, limited, unlimited};
 use nalgebra::{DMatrix, DVector};
@@ -36,12 +37,7 @@ fn compare<G, C>(
     let slots = unlimited(&step, h);
     let n = kernel.dim;
     let mut phase = Phase::<G>::new(group.identity(), DVector::from_vec(momentum(n, 0.9)));
-    let size = group.matrix_size();
-    let matrix = |phase: &Phase<G>| -> Vec<f64> {
-        let entry = |at: usize| group.matrix_entry(&phase.group_element, at / size, at % size);
-        (0..size * size).map(entry).collect()
-    };
-    let mut g = step.element_of(&matrix(&phase));
+    let mut g = step.element_of(&entries_of(&group, &phase.group_element));
     let mut mu = phase.momentum.as_slice().to_vec();
     const STEPS: u64 = 20;
     let outcome = kernel.advance(&slots, &mut g, &mut mu, STEPS);
@@ -57,7 +53,7 @@ fn compare<G, C>(
         assert!((found - wanted).abs() < 4e-14 * scale, "{name}: μ {found} for {wanted}");
     }
     let found = kernel.programs.matrix.run(&g, &[]);
-    let wanted = matrix(&phase);
+    let wanted = entries_of(&group, &phase.group_element);
     let largest = wanted.iter().fold(1.0_f64, |a, b| a.max(b.abs()));
     for (found, wanted) in found.iter().zip(&wanted) {
         assert!((found - wanted).abs() < 1e-13 * largest, "{name}: g {found} for {wanted}");

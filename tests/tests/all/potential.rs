@@ -12,6 +12,7 @@ use coadjoint_codegen::potential::{Force, Potential};
 use coadjoint_codegen::step::Step;
 use coadjoint_codegen::system::{Options, Parameters, System, read};
 use coadjoint_program::Stepper;
+use coadjoint_tests::backends::entries_of;
 use coadjoint_tests::bridge::matrix_group;
 use nalgebra::{DVector, UnitQuaternion, Vector3};
 
@@ -116,18 +117,15 @@ fn the_torque_is_minus_the_derivative_of_the_potential() {
     ] {
         let potential = of_file(file);
         let group = matrix_group(&potential.algebra).unwrap();
-        let (n, size) = (group.dim(), group.matrix_size());
+        let n = group.dim();
         let x = DVector::from_fn(n, |i, _| 0.3 - 0.17 * i as f64);
         let g = group.exp(&x);
-        let entries = |g: &_| -> Vec<f64> {
-            (0..size * size).map(|at| group.matrix_entry(g, at / size, at % size)).collect()
-        };
         let Force::Polynomial(energy) = &potential.force else { panic!("no polynomial") };
         for (k, torque) in potential.torque(energy).iter().enumerate() {
             let value = |s: f64| {
                 let mut turn = DVector::zeros(n);
                 turn[k] = s;
-                energy.evaluate(&entries(&group.compose(&g, &group.exp(&turn))))
+                energy.evaluate(&entries_of(&group, &group.compose(&g, &group.exp(&turn))))
             };
             // B. Fornberg, Math. Comp. 51 (1988) 699, table 1.
             let weights = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
@@ -137,7 +135,7 @@ fn the_torque_is_minus_the_derivative_of_the_potential() {
                 .zip(1..)
                 .map(|(w, j)| w * (value(h * f64::from(j)) - value(-h * f64::from(j))) / h)
                 .sum();
-            let exact = torque.evaluate(&entries(&g));
+            let exact = torque.evaluate(&entries_of(&group, &g));
             assert!((exact + slope).abs() < 1e-12, "{file}: component {k}: {exact} and {slope}");
         }
     }
