@@ -37,7 +37,7 @@ fn steps_of_the_judge_have_the_orders_of_their_nodes() {
     let all = "exp(a/3) + ln(2 + b) + sin(c)/2 + cos(a + t) + tan(b/4) + atan(c) + tanh(a) \
         + (3 + c)^(2/3)";
     for (energy, most) in [(DRIVEN, 5), (all, 4)] {
-        let judge = |nodes| Judge::of_smooth(&smooth("SO3", energy, 2 * nodes - 1)).unwrap();
+        let judge = |nodes: usize| Judge::of_smooth(&smooth("SO3", energy, 2 * nodes - 1)).unwrap();
         let exact = judge(8);
         for nodes in 1..=most {
             let judge = judge(nodes);
