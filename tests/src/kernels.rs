@@ -44,7 +44,7 @@ pub fn limited(step: &Step, h: f64, radius: f64) -> Vec<f64> {
 }
 
 /// A system file on coordinates a, b, c, …, its integrator with these settings.
-pub fn system(group: &str, hamiltonian: &str, settings: &str) -> String {
+fn system(group: &str, hamiltonian: &str, settings: &str) -> String {
     let dim = lie::catalogue::lookup(group).unwrap().dim();
     let names: Vec<String> = ('a'..).take(dim).map(|name| format!("\"{name}\"")).collect();
     let names = names.join(", ");
