@@ -155,7 +155,7 @@ pub enum HeaderError {
     TooLarge {
         /// Its operations.
         operations: usize,
-        /// [`MOST_OPERATIONS`].
+        /// The most that are written as C.
         limit: usize,
     },
     /// Steps depend on inputs, or on torques that move in time.
