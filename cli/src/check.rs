@@ -1,5 +1,6 @@
 //! `coadjoint check`: the laws of the method, tried on this system at random points.
 
+use coadjoint_codegen::integrator::Kicks;
 use coadjoint_codegen::smooth::Facts;
 use coadjoint_codegen::system::Parameters;
 use coadjoint_run::Derived;
@@ -25,6 +26,7 @@ pub(crate) fn run(options: &CheckOptions) -> Result<(), CliError> {
     let (group, label) = (algebra.name(), system.label());
     let chart = system.series().map(|series| series.integrator.problem.chart);
     let Trial { step, points, seed, .. } = trial;
+    let breaks = system.kicks().and_then(Kicks::torque).is_some() && !system.is_damped();
     if options.format == Format::Json {
         let mut object = json!({
             "system": name,
@@ -41,6 +43,9 @@ pub(crate) fn run(options: &CheckOptions) -> Result<(), CliError> {
                 "text": steep(ratio),
             })).collect::<Value>(),
         });
+        if breaks {
+            object["torque"] = json!("breaks the laws: they are those of the flow between kicks");
+        }
         if let Some(chart) = chart {
             object["chart"] = json!(chart.to_string());
         }
@@ -55,8 +60,7 @@ pub(crate) fn run(options: &CheckOptions) -> Result<(), CliError> {
             "{name}: group {group}, {method}, h = {step}, {points} random points {place} (seed {seed})"
         );
         ratio.iter().for_each(|&ratio| outln!("  warning: {}", steep(ratio)));
-        let torque = system.series().and_then(|series| series.integrator.torque());
-        if torque.is_some() && !system.is_damped() {
+        if breaks {
             outln!("  the flow between kicks, whose laws the torque breaks:");
         }
         laws.iter().for_each(|law| outln!("  {}", line(law)));

@@ -234,7 +234,7 @@ class Run:
         ``momentum`` (n,) is the change of the momentum at the start, ``group_element`` (n,) that of the attitude as
         ξ = g⁻¹δg in the basis of the Lie algebra, in radians for rotations; ``parameters`` has a number, or an array of its
         shape, for the name of each parameter that changes. They are derivatives of the steps themselves, to rounding. Records
-        between steps have none, nor have parameters of systems with a potential.
+        between steps have none, nor have runs with a torque or with damping.
 
         >>> import coadjoint as ca
         >>> body = ca.System("SO3", "x^2/(2*I) + y^2/4 + z^2/5", coordinates="x y z", parameters=dict(I=1.5))

@@ -45,7 +45,7 @@ class System:
     The other arguments are the keys of a system file: ``truncation`` K (odd; the method has order K + 1), ``chart``
     (``"exp"`` or ``"cayley"``), ``frame`` (``"auto"``, ``"fixed"`` or ``"comoving"``), ``solver``, ``method`` (``"series"`` or
     ``"collocation"``, if it is not to follow from the Hamiltonian), and for a ``potential`` V(g),
-    a polynomial in ``g[0][0]``, …, the ``splitting``. ``damping`` is that of the double bracket, a number or one for each
+    a function of ``g[0][0]``, …, the ``splitting``. ``damping`` is that of the double bracket, a number or one for each
     coordinate. ``momentum``, ``group_element``, ``step`` or ``tolerance``,
     ``region`` and ``time`` are defaults of runs.
 

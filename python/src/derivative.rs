@@ -42,10 +42,6 @@ fn derived(
     let frame = if comoving { FrameChoice::Comoving } else { FrameChoice::Fixed };
     let options = Options { truncation, frame: Some(frame), ..Options::default() };
     let system = core.again(options, &[])?;
-    if !parameters.is_empty() && system.potential.is_some() {
-        let what = "runs with a potential have no derivatives in parameters so far";
-        return Err(RunError::Option(what.to_owned()));
-    }
     let frame = if comoving { "comoving" } else { "fixed" };
     let purpose = (system.problem.facts().truncation, frame, Some(parameters.clone()));
     if let Some((_, known)) = last.as_ref().filter(|(known, _)| *known == purpose) {

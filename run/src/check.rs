@@ -11,7 +11,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::engine::{
-    self, Group, Interpreter, Map, Numbers, STEEP, advise, cayley_group, entries_of, phase_of,
+    Group, Interpreter, Motion, Numbers, STEEP, advise, cayley_group, entries_of, phase_of,
     product_group,
 };
 use crate::error::RunError;
@@ -109,19 +109,22 @@ pub fn check(system: &Derived, trial: &Trial) -> Result<(Vec<Law>, Option<f64>),
         return Ok((laws_of_steps(system, trial, &system.group()?)?, None));
     }
     let group = product_group(&system.file, system.facts().algebra)?;
-    match &system.flow {
-        Flow::Collocation(..) => Ok((laws_of_steps(system, trial, &group)?, None)),
-        Flow::Series(series) => {
-            let (mut laws, ratio) = match series.integrator.problem.chart {
-                lie::Chart::Exponential => laws_of::<_, Exponential>(series, trial, group)?,
-                lie::Chart::Cayley => {
-                    laws_of::<_, Cayley>(series, trial, cayley_group(&system.file, &group)?)?
-                }
-            };
-            laws.retain(|law| law.name != WHOLE_ORDER || unmeasured(system).is_none());
-            Ok((laws, ratio))
+    let (mut laws, ratio) = match &system.flow {
+        Flow::Collocation(..) => {
+            let alone = system.without_kicks();
+            (laws_of_steps(alone.as_ref().unwrap_or(system), trial, &group)?, None)
         }
+        Flow::Series(series) => match series.integrator.problem.chart {
+            lie::Chart::Exponential => laws_of::<_, Exponential>(series, trial, group)?,
+            lie::Chart::Cayley => {
+                laws_of::<_, Cayley>(series, trial, cayley_group(&system.file, &group)?)?
+            }
+        },
+    };
+    if let Some(kicks) = system.kicks() {
+        laws.extend(kicked(system, kicks.torque().is_none(), trial)?);
     }
+    Ok((laws, ratio))
 }
 
 /// The laws of [`coadjoint::laws::check_map`] that are printed: its name, ours, and what it says.
@@ -158,12 +161,6 @@ fn laws_of<G: Group, C: Chart<G> + Send + Sync>(
         let map = make(h)?;
         (0..steps).try_for_each(|_| advance(&map, state).map(|_| ()))
     }));
-    if let Some(kicks) = &integrator.kicks {
-        let make = |h| engine::kicked::<G, C>(integrator, kicks, &group, h);
-        let expected = kicks.splitting.order().min(integrator.order() as u32);
-        let tried = (integrator.torque().is_none(), &points[..], &starts[..]);
-        laws.extend(kicked(h, make, expected.into(), &group, tried).map_err(RunError::at_start)?);
-    }
     Ok((laws, ratio))
 }
 
@@ -186,12 +183,7 @@ fn laws_of_steps(
     let h = trial.step;
     let (points, starts) = trial.states(group);
     let step = |h: f64, count: u32, phase: &mut Phase<DirectProduct<MatrixGroup>>| {
-        let motion = system.steps(h, None)?;
-        let g = motion.space().numbers(&entries_of(group, &phase.group_element));
-        let mut state = Numbers { g, mu: phase.momentum.as_slice().to_vec() };
-        motion.advance(&mut state, 0, count.into()).map_err(|(_, error)| error)?;
-        *phase = phase_of(group, &motion.space().matrix(&state.g), &state.mu);
-        Ok(())
+        advanced(system, group, phase, (h, count))
     };
     let (mut there, mut back) =
         (|phase: &mut _| step(h, 1, phase), |phase: &mut _| step(-h, 1, phase));
@@ -212,16 +204,23 @@ fn laws_of_steps(
         laws.iter_mut().filter(|law| law.name == "order").for_each(|law| {
             law.statement = "steps and damping: error ∝ h²";
         });
-        if let Some(energy) = &system.invariants.hamiltonian {
+        let energy = |state: &Phase<DirectProduct<MatrixGroup>>| {
+            let matrix = || entries_of(group, &state.group_element);
+            system.invariants.conserved(state.momentum.as_slice(), &[], matrix).energy
+        };
+        if points.first().and_then(energy).is_some() {
             let mut rise = f64::NEG_INFINITY;
             for point in &points {
                 let mut end = point.clone();
                 step(h, 1, &mut end).map_err(RunError::at_start)?;
-                let [before, after] =
-                    [point, &end].map(|state| energy.value(state.momentum.as_slice()));
+                let [before, after] = [point, &end].map(|state| energy(state).unwrap_or(f64::NAN));
                 rise = maximum(rise, (after - before) / before.abs());
             }
-            let (name, statement) = ("dissipative", "H(Φ(α)) ≤ H(α)");
+            let statement = match system.invariants.potential {
+                Some(_) => "(H + V)(Φ(α)) ≤ (H + V)(α)",
+                None => "H(Φ(α)) ≤ H(α)",
+            };
+            let name = "dissipative";
             laws.push(Law { name, statement, value: rise, bound: 1e-14, pass: rise <= 1e-14 });
         }
     }
@@ -231,22 +230,23 @@ fn laws_of_steps(
 
 /// The laws that are left to the whole step where a potential breaks the symmetry; where a torque does that is not Hamiltonian,
 /// the order alone.
-fn kicked<'a, G: Group>(
-    h: f64,
-    make: impl Fn(f64) -> Result<Map<'a, G>, StepError>,
-    expected: f64,
-    group: &G,
-    (hamiltonian, points, starts): (bool, &[Phase<G>], &[Phase<G>]),
-) -> Result<Vec<Law>, StepError> {
-    let (there, back) = (make(h)?, make(-h)?);
+fn kicked(system: &Derived, hamiltonian: bool, trial: &Trial) -> Result<Vec<Law>, RunError> {
+    let (h, group) = (trial.step, system.group()?);
+    let (points, starts) = trial.states(&group);
+    let [there, back] = [h, -h].map(|h| system.steps(h, None).map_err(RunError::at_start));
+    let (there, back) = (there?, back?);
+    let made = |motion: &dyn Motion, state: &mut Phase<_>, time| {
+        moved(motion, &group, state, |motion, state| motion.one_at(state, time))
+    };
     let (mut symplectic, mut symmetric) = (None, 0.0_f64);
     for point in points.iter().filter(|_| hamiltonian) {
-        let defect =
-            laws::symplectic_defect_of(group, point, &mut |state| there(state, 0.0).map(drop))?;
+        let mut step = |state: &mut _| made(&*there, state, 0.0);
+        let defect = laws::symplectic_defect_of(&group, point, &mut step);
+        let defect = defect.map_err(RunError::at_start)?;
         symplectic = defect.map(|defect| maximum(symplectic.unwrap_or(0.0), defect));
         let mut state = point.clone();
-        there(&mut state, 0.0)?;
-        back(&mut state, h)?;
+        made(&*there, &mut state, 0.0).map_err(RunError::at_start)?;
+        made(&*back, &mut state, h).map_err(RunError::at_start)?;
         let difference = (&state.momentum - &point.momentum).amax() / point.momentum.amax();
         symmetric = maximum(symmetric, difference);
     }
@@ -258,18 +258,44 @@ fn kicked<'a, G: Group>(
     let symplectic = symplectic.map(|value| law("symplectic+V", statement, value, 1e-9));
     let statement = "flows and kicks: Φ₋ₕ(Φₕ(α)) = α";
     let symmetric = law("symmetric+V", statement, symmetric, 1e-11);
-    let order = measured(h, expected, group, starts, |h, steps, state| {
-        let step = make(h)?;
-        (0..steps).try_for_each(|number| step(state, f64::from(number) * h).map(drop))
+    let expected = f64::from(system.order());
+    let order = unmeasured(system).is_none().then(|| {
+        let order = measured(h, expected, &group, &starts, |h, steps, state| {
+            advanced(system, &group, state, (h, steps))
+        });
+        let statement = "flows and kicks: that of the splitting";
+        Law { name: "order+V", statement, ..order }
     });
-    let statement = "flows and kicks: that of the splitting";
-    let order = Law { name: WHOLE_ORDER, statement, ..order };
     let symmetric = hamiltonian.then_some(symmetric);
-    Ok(symplectic.into_iter().chain(symmetric).chain([order]).collect())
+    Ok(symplectic.into_iter().chain(symmetric).chain(order).collect())
 }
 
-/// The law of the order of flows and kicks.
-const WHOLE_ORDER: &str = "order+V";
+/// Makes steps of this size and number of a state from time 0 on.
+fn advanced(
+    system: &Derived,
+    group: &DirectProduct<MatrixGroup>,
+    state: &mut Phase<DirectProduct<MatrixGroup>>,
+    (size, steps): (f64, u32),
+) -> Result<(), StepError> {
+    moved(&*system.steps(size, None)?, group, state, |motion, state| {
+        motion.advance(state, 0, steps.into()).map(drop).map_err(|(_, error)| error)
+    })
+}
+
+/// Moves a state by steps of a motion.
+fn moved(
+    motion: &dyn Motion,
+    group: &DirectProduct<MatrixGroup>,
+    phase: &mut Phase<DirectProduct<MatrixGroup>>,
+    by: impl Fn(&dyn Motion, &mut Numbers) -> Result<(), StepError>,
+) -> Result<(), StepError> {
+    let g = motion.space().numbers(&entries_of(group, &phase.group_element));
+    let mut state = Numbers { g, mu: phase.momentum.as_slice().to_vec() };
+    by(motion, &mut state)?;
+    *phase = phase_of(group, &motion.space().matrix(&state.g), &state.mu);
+    Ok(())
+}
+
 /// Steps of the coarsest run.
 const STEPS: u32 = 4;
 /// How far the measured order may fall below K + 1.

@@ -60,7 +60,7 @@ pub(crate) fn fill(system: &Path, read: &mut System<Hamiltonian>) -> Result<(), 
         of_file.entry(columns.values.clone()).or_default();
     }
     for (path, columns) in &mut files {
-        fill_columns(path, columns)?;
+        fill_columns(system, path, columns)?;
     }
     for signal in of_energy.iter_mut().chain(of_torque) {
         if let (Some(columns), [[], _]) = (signal.columns.clone(), signal.table()) {
@@ -73,15 +73,16 @@ pub(crate) fn fill(system: &Path, read: &mut System<Hamiltonian>) -> Result<(), 
     Ok(())
 }
 
-fn fill_columns(path: &Path, columns: &mut Read) -> Result<(), RunError> {
+fn fill_columns(system: &Path, path: &Path, columns: &mut Read) -> Result<(), RunError> {
     let refuse = |what: String| RunError::of(path)(what);
-    let mut table = Table::open(path)?;
+    let unread = |error| RunError::of(system)(format!("`table` of [inputs]: {error}"));
+    let mut table = Table::open(path).map_err(unread)?;
     let names = table.names().to_vec();
     if let Some(name) = columns.keys().find(|name| !names.contains(name)) {
         return Err(refuse(format!("column {name} is missing; there are {}", names.join(", "))));
     }
     let mut row = Row::default();
-    while table.read(&mut row)? {
+    while table.read(&mut row).map_err(unread)? {
         for (place, column) in names.iter().enumerate() {
             let Some(numbers) = columns.get_mut(column) else { continue };
             match row.number(place) {

@@ -54,11 +54,6 @@ pub fn read_given(
     let read = system::read_given(text, options, varied, given);
     let mut read = read.map_err(|mistakes| RunError::Input(mistakes.render(name, text)))?;
     inputs::fill(Path::new(name), &mut read)?;
-    if let (Some(parameter), true) = (varied.first(), read.potential.is_some()) {
-        let what =
-            "parameters of a system with a potential or a torque do not vary from row to row";
-        return Err(RunError::Input(format!("{name}: column {parameter}: {what}")));
-    }
     Ok(read)
 }
 
@@ -123,18 +118,17 @@ pub(crate) fn integrator(path: &Path, problem: Problem) -> Result<Integrator, Ru
     Integrator::build(problem, TermLimit::default()).map_err(RunError::of(path))
 }
 
-/// Derives and lowers a problem, with the kicks of a potential between flows.
+/// A flow with the kicks of a potential, if there is one, which `kicked` composes it with.
 ///
 /// # Errors
-/// As [`integrator`].
-fn with_kicks(
-    path: &Path,
-    problem: Problem,
+/// Where the potential has other parameters than the flow.
+fn with_kicks<T>(
+    flow: T,
     potential: Option<(Potential, Splitting)>,
-) -> Result<Integrator, RunError> {
-    let integrator = integrator(path, problem)?;
-    let Some((potential, splitting)) = potential else { return Ok(integrator) };
-    integrator.with_kicks(Kick::build(potential), splitting).ok_or_else(|| {
+    kicked: fn(T, Kick, Splitting) -> Option<T>,
+) -> Result<T, RunError> {
+    let Some((potential, splitting)) = potential else { return Ok(flow) };
+    kicked(flow, Kick::build(potential), splitting).ok_or_else(|| {
         RunError::Option("the potential has other parameters than the Hamiltonian".to_owned())
     })
 }
@@ -155,16 +149,16 @@ pub struct Derived {
 /// The means by which the steps of a system are made.
 #[derive(Debug)]
 pub(crate) enum Flow {
-    /// The series of a polynomial, as programs.
+    /// The series of a polynomial, as programs, with kicks between flows if there are any.
     Series(Box<Expansion>),
-    /// Collocation on a group, and the programs compiled so far.
+    /// Collocation on a group, with kicks between flows if there are any, and the programs compiled so far.
     Collocation(Box<Smooth>, Arc<DirectProduct<MatrixGroup>>, Kept),
 }
 
-/// The series of a polynomial as programs, with the kicks of a potential between flows.
+/// The series of a polynomial as programs, with the kicks of a potential between flows if there are any.
 #[derive(Debug)]
 pub struct Expansion {
-    /// The flow, with the kicks.
+    /// The flow and the kicks.
     pub integrator: Integrator,
     /// The group with the chart of the steps.
     group: Charted,
@@ -200,22 +194,22 @@ impl Derived {
         if damping.is_some() {
             invariants.no_energy.get_or_insert("falls: damping acts");
         }
+        // Kicks look at the matrices of the whole group; a flow alone goes factor by factor.
+        let group = match &potential {
+            Some(_) => whole_group(file, problem.facts().algebra)?,
+            None => product_group(file, problem.facts().algebra)?,
+        };
+        let kept = Kept::default();
         let flow = match problem {
             Hamiltonian::Polynomial(problem) => {
-                let integrator = with_kicks(file, *problem, potential)?;
-                let Problem { algebra, chart, .. } = &integrator.problem;
-                // Kicks look at the matrices of the whole group; a flow alone goes factor by factor.
-                let group = match &integrator.kicks {
-                    Some(_) => whole_group(file, algebra)?,
-                    None => product_group(file, algebra)?,
-                };
-                let group = Charted::new(file, group, *chart)?;
-                let kept = Kept::default();
+                let flow = integrator(file, *problem)?;
+                let integrator = with_kicks(flow, potential, Integrator::with_kicks)?;
+                let group = Charted::new(file, group, integrator.problem.chart)?;
                 Flow::Series(Box::new(Expansion { integrator, group, kept }))
             }
             Hamiltonian::Smooth(smooth) => {
-                let group = Arc::new(product_group(file, &smooth.algebra)?);
-                Flow::Collocation(smooth, group, Kept::default())
+                let smooth = with_kicks(*smooth, potential, Smooth::with_kicks)?;
+                Flow::Collocation(Box::new(smooth), Arc::new(group), kept)
             }
         };
         let mut derived = Self { file: file.to_owned(), flow, damping: None, invariants };
@@ -228,8 +222,9 @@ impl Derived {
     /// The inputs u(t).
     pub fn signals(&self) -> &[Signal] {
         match &self.flow {
-            Flow::Series(series) => {
-                series.integrator.torque().map_or(&[], |torque| &torque.signals)
+            Flow::Series(_) => {
+                let torque = self.kicks().and_then(Kicks::torque);
+                torque.map_or(&[], |torque| &torque.signals)
             }
             Flow::Collocation(smooth, ..) => &smooth.signals,
         }
@@ -264,8 +259,26 @@ impl Derived {
         self.damping.is_some()
     }
 
-    fn kicks(&self) -> Option<&Kicks> {
-        self.series()?.integrator.kicks.as_ref()
+    /// The flows by collocation between kicks, where there are kicks, as a system without them.
+    pub(crate) fn without_kicks(&self) -> Option<Self> {
+        let Flow::Collocation(smooth, group, _) = &self.flow else { return None };
+        smooth.kicks.as_ref()?;
+        let smooth = Smooth { kicks: None, ..(**smooth).clone() };
+        let flow = Flow::Collocation(Box::new(smooth), group.clone(), Kept::default());
+        Some(Self {
+            flow,
+            damping: None,
+            file: self.file.clone(),
+            invariants: Invariants::default(),
+        })
+    }
+
+    /// The kicks between flows, where there are any.
+    pub fn kicks(&self) -> Option<&Kicks> {
+        match &self.flow {
+            Flow::Series(series) => series.integrator.kicks.as_ref(),
+            Flow::Collocation(smooth, ..) => smooth.kicks.as_ref(),
+        }
     }
 
     /// Whether states move by programs alone, so that many may move side by side.
@@ -361,7 +374,8 @@ impl Derived {
             Flow::Series(series) => Source::Polynomial(&series.integrator.problem),
             Flow::Collocation(smooth, ..) => Source::Smooth(smooth),
         };
-        Box::new(Damped::new(motion, size, damper, energy, parameters))
+        let kick = self.kicks().map(|kicks| &kicks.kick);
+        Box::new(Damped::new(motion, size, damper, (energy, kick), parameters))
     }
 
     /// The same for another size or other values of the parameters that are kept, by the same programs.
@@ -403,13 +417,13 @@ impl Derived {
                 if problem.comoving.is_some() {
                     label.push_str(", comoving");
                 }
-                if let Some(kicks) = &series.integrator.kicks {
-                    label = format!("{label}, {}", kicks.splitting.name());
-                }
                 label
             }
             Flow::Collocation(smooth, ..) => format!("collocation, {} nodes", smooth.nodes()),
         };
+        if let Some(kicks) = self.kicks() {
+            label = format!("{label}, {}", kicks.splitting.name());
+        }
         if self.damping.is_some() {
             label.push_str(", damped");
         }

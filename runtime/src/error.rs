@@ -68,7 +68,7 @@ pub enum StepError {
         argument: f64,
         /// The time.
         time: f64,
-        /// The circumstances of the step; none where the energy is not defined at the momentum that the step starts from.
+        /// The circumstances of the step; none where the energy or the torque is not defined in the state that the step starts from.
         at: Option<Circumstances>,
     },
     /// A coordinate of the momentum is infinite or not a number.

@@ -3,7 +3,7 @@
 pub use crate::error::{Circumstances, Stopped};
 pub use crate::step::{
     StepReport, advance, advance_by,
-    kicked::{Flows, Kicked},
+    kicked::{Flows, Kicked, Piece, compose},
     monitor::{Drift, Monitor},
     poisson_map, reconstruct,
 };

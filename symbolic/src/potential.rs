@@ -11,7 +11,6 @@ use crate::number::{Rational, integer};
 use crate::poly::{Numeric, Polynomial};
 use crate::problem::{Parameter, Symbol, values};
 use crate::signal::{self, Signal};
-use crate::smooth::undefined;
 
 /// A force, as its kicks are made.
 #[derive(Clone, Debug)]
@@ -33,7 +32,8 @@ pub struct Programs {
     pub value: Option<Program>,
     /// The body torque.
     pub torque: Program,
-    /// As [`Smooth::watched`](crate::smooth::Smooth::watched).
+    /// For each of the expressions watched two outputs: its argument, and a number that is finite where the expression
+    /// is differentiable in it.
     pub watched: Program,
     /// The texts of the expressions watched.
     pub expressions: Vec<String>,
@@ -124,6 +124,15 @@ impl Programs {
         let arguments: Vec<Argument> = (0..entries).map(Argument::Input).collect();
         Some(self.value.as_ref()?.gradient(&arguments))
     }
+}
+
+/// The first expression that is not defined, or has no derivative, by its number, and its argument, from the outputs of
+/// [`Programs::watched`].
+pub(crate) fn undefined(watched: &[f64]) -> Option<(usize, f64)> {
+    let (pairs, _) = watched.as_chunks::<2>();
+    let found =
+        pairs.iter().position(|[argument, test]| argument.is_finite() && !test.is_finite())?;
+    Some((found, pairs[found][0]))
 }
 
 /// A potential on a Lie group, or a torque without one.

@@ -2,10 +2,13 @@
 
 use std::sync::Arc;
 
-use coadjoint_program::Program;
+use coadjoint_program::splitting::Splitting;
+use coadjoint_program::{Argument, Node, Program};
 use num_traits::ToPrimitive;
 
+use crate::integrator::{Kick, Kicks};
 use crate::lie::LieAlgebra;
+use crate::potential::undefined;
 use crate::problem::{Parameter, Problem, Symbol};
 use crate::signal::{self, Signal};
 
@@ -29,8 +32,7 @@ pub struct Smooth {
     pub value: Program,
     /// ∂H/∂μ, n outputs.
     pub gradient: Program,
-    /// For each of the expressions watched two outputs: its argument, and a number that is finite where the expression
-    /// is differentiable in it.
+    /// As [`Programs::watched`](crate::potential::Programs::watched).
     pub watched: Program,
     /// The texts of these expressions.
     pub expressions: Vec<String>,
@@ -44,6 +46,8 @@ pub struct Smooth {
     pub truncation: usize,
     /// A function in place of the programs, which are then empty.
     pub given: Option<Given>,
+    /// The kicks between flows, where there are any; the symbols of their potential are then the last ones.
+    pub kicks: Option<Kicks>,
 }
 
 /// A Hamiltonian that is a function of the user's.
@@ -113,6 +117,28 @@ impl Smooth {
         Facts { name, algebra, coordinates, parameters, truncation: *truncation }
     }
 
+    /// The same with kicks between flows; `None` where the potential has other parameters than the Hamiltonian.
+    pub fn with_kicks(mut self, kick: Kick, splitting: Splitting) -> Option<Self> {
+        if kick.potential.parameters != self.parameters {
+            return None;
+        }
+        self.symbols.extend(kick.potential.symbols.iter().cloned());
+        // After the symbols comes the step size.
+        let first = self.symbols.len() + 1;
+        self.kicks = Some(Kicks { kick, first, splitting });
+        Some(self)
+    }
+
+    /// Whether H is known to be of degree at most two in the momentum.
+    pub fn is_quadratic(&self) -> bool {
+        if self.given.is_some() {
+            return false;
+        }
+        let momentum: Vec<Argument> = (0..self.algebra.dim()).map(Argument::Input).collect();
+        let bent = self.gradient.push_forward(&momentum).push_forward(&momentum);
+        bent.outputs().iter().all(|id| bent.nodes()[id.index()] == Node::Zero)
+    }
+
     /// The nodes of a step of collocation, (K + 1)/2: its order is twice their number.
     pub fn nodes(&self) -> usize {
         self.truncation.div_ceil(2)
@@ -155,15 +181,6 @@ impl Smooth {
     }
 }
 
-/// The first expression that is not defined, or has no derivative, by its number, and its argument, from the outputs of
-/// [`Smooth::watched`].
-pub(crate) fn undefined(watched: &[f64]) -> Option<(usize, f64)> {
-    let (pairs, _) = watched.as_chunks::<2>();
-    let found =
-        pairs.iter().position(|[argument, test]| argument.is_finite() && !test.is_finite())?;
-    Some((found, pairs[found][0]))
-}
-
 /// A system as its Hamiltonian is.
 #[derive(Clone, Debug)]
 pub enum Hamiltonian {
@@ -179,6 +196,14 @@ impl Hamiltonian {
         match self {
             Self::Polynomial(problem) => problem.facts(),
             Self::Smooth(smooth) => smooth.facts(),
+        }
+    }
+
+    /// Whether it is known to be of degree at most two in the momentum.
+    pub fn is_quadratic(&self) -> bool {
+        match self {
+            Self::Polynomial(problem) => problem.is_quadratic(),
+            Self::Smooth(smooth) => smooth.is_quadratic(),
         }
     }
 

@@ -189,14 +189,14 @@ impl Header {
                     ("frame", json!(problem.frame_name())),
                     ("solver", json!(solver)),
                 ]);
-                let splitting = series.integrator.kicks.as_ref().map(|own| own.splitting.name());
-                own.extend(splitting.map(|splitting| ("splitting", json!(splitting))));
             }
             None => own.extend([
                 ("method", json!("collocation")),
                 ("nodes", json!(truncation.div_ceil(2))),
             ]),
         }
+        let splitting = system.kicks().map(|kicks| kicks.splitting.name());
+        own.extend(splitting.map(|splitting| ("splitting", json!(splitting))));
         own.extend(inputs_hash(system.signals()).map(|hash| ("inputs_sha256", json!(hash))));
         Self::of(settings, ["system", "system_sha256"], own)
     }

@@ -24,6 +24,43 @@ fn a_damped_body_moves_as_its_own_equations_say() {
     assert!(fine < 2e-6 && (coarse / fine - 4.0).abs() < 0.1, "{coarse:e} {fine:e}");
 }
 
+/// Π' = Π × (ω + x) + τ and r' = r × (ω + x) with x = α (Π × ω + τ), τ = r × ∇V and the last row r of R; for H with and without
+/// a root. The sum of both energies falls, and the momentum about the vertical stays.
+#[test]
+fn damping_beside_a_potential_takes_from_both_energies() {
+    for (hamiltonian, root) in [("H", 0.0), ("sqrt(1 + 2*H)", 1.0)] {
+        let hamiltonian = hamiltonian.replace('H', "(x^2/2 + y^2/4 + z^2/6)");
+        let folder = Folder::with(&format!(
+            "group = \"SO3\"\ncoordinates = \"x y z\"\nhamiltonian = \"{hamiltonian}\"\n\
+             potential = \"1.3*(g[2][2] + g[2][0]^2/3)\"\ndamping = 0.2\n[integrator]\nstep = 0.1\n\
+             [initial]\nmomentum = [0.6, -0.4, 1.0]\n[run]\ntime = 3\n"
+        ));
+        let start = [0.6, -0.4, 1.0, 0.0, 0.0, 1.0];
+        let expected = runge_kutta(start, (3.0, 30_000), |_, state| {
+            let (mu, r) = (&state[..3], &state[3..]);
+            let free: [f64; 3] = std::array::from_fn(|i| mu[i] / [1.0, 2.0, 3.0][i]);
+            let twice: f64 = (0..3).map(|i| mu[i] * free[i]).sum();
+            let omega = free.map(|own| own / (1.0 + root * twice).sqrt());
+            let torque = cross(r, &[1.3 * 2.0 / 3.0 * r[0], 0.0, 1.3]);
+            let own = cross(mu, &omega);
+            let turn: [f64; 3] = std::array::from_fn(|i| omega[i] + 0.2 * (own[i] + torque[i]));
+            let (moved, turned) = (cross(mu, &turn), cross(r, &turn));
+            std::array::from_fn(|i| if i < 3 { moved[i] + torque[i] } else { turned[i - 3] })
+        });
+        let error = |step: f64| {
+            let report = folder.json(&format!("simulate system.toml --step {step}"));
+            assert!(report["drift"]["spatial_momentum"].as_f64().unwrap() < 1e-13, "{report}");
+            let rows = report["group_element_blocks"][0]["matrix"].as_array().unwrap();
+            distance(&[numbers(&report["momentum"]), numbers(&rows[2])].concat(), &expected)
+        };
+        let [coarse, fine] = [error(0.05), error(0.025)];
+        assert!(fine < 1e-4 && (coarse / fine - 4.0).abs() < 0.3, "{coarse:e} {fine:e}");
+        let report = folder.json("check system.toml");
+        let laws = report["laws"].as_array().unwrap();
+        assert!(laws.len() == 2 && laws.iter().all(|law| law["pass"] == true), "{report}");
+    }
+}
+
 #[test]
 fn a_damped_body_ends_about_its_major_axis() {
     let folder = Folder::with(&text_of("examples/damped_body.toml"));
@@ -118,7 +155,11 @@ fn damping_goes_through_every_door() {
         ("[0.1, 0.2]", "", "2"),
         ("\"b\"", "", "unknown variable `b`"),
         ("true", "", "a number"),
-        ("0.1", "potential = \"g[2][2]\"\n", "`damping` is not for a system with a potential"),
+        (
+            "0.1",
+            "potential = \"g[2][2]\"\ntorque = [\"t\", \"0\", \"0\"]\n",
+            "`damping` is not for a system with a potential and a torque",
+        ),
     ] {
         let own = format!("{more}damping = {damping}");
         Folder::with(&text.replace("damping = \"a\"", &own))

@@ -1,5 +1,7 @@
 //! `simulate` with a potential: the reference of the satellite, what is conserved, mistakes.
 
+use std::f64::consts::TAU;
+
 use crate::smooth_examples::{cross, runge_kutta};
 use crate::support::{Folder, distance, json, numbers, text_of};
 use serde_json::Value;
@@ -192,6 +194,7 @@ fn torques_without_potential() {
     assert!(distance(&row, &single) < 1e-13, "{row:?} {single:?}");
     rubbed.run("check system.toml").ok().prints(&["whose laws the torque breaks"]);
     let laws = rubbed.json("check system.toml");
+    assert!(laws["torque"].as_str().unwrap().contains("breaks the laws"), "{laws}");
     let laws = laws["laws"].as_array().unwrap();
     assert!(
         laws.iter().all(|law| law["pass"] == true && law["name"] != "symplectic+V"),
@@ -215,8 +218,6 @@ fn torques_without_potential() {
     folder
         .run("simulate system.toml")
         .fails(2, &["for torques that do not depend on the momentum"]);
-    let folder = Folder::with(&order.replace("x^2 +", "sqrt(1 + x^2) +"));
-    folder.run("simulate system.toml").fails(2, &["`torque`: steps are made by collocation"]);
     let left = system("[\"ln(g[2][2] - 0.9)\", \"0\", \"0\"]", "");
     left.run("simulate system.toml").fails(1, &["ln(g[2][2] - 9/10)"]);
 }
@@ -339,4 +340,147 @@ fn a_charge_in_a_magnetic_bottle_moves_as_its_own_equations_say() {
     };
     let [coarse, fine] = [error(0.001), error(0.0005)];
     assert!(fine < 2e-4 && (coarse / fine - 4.0).abs() < 0.2, "{coarse:e} {fine:e}");
+}
+
+/// A body whose energy has a root, in a potential: `more` stands before the tables, `split` in that of the integrator.
+fn root_body(more: &str, split: &str) -> Folder {
+    Folder::with(&format!(
+        "group = \"SO3\"\ncoordinates = \"x y z\"\n{more}\n[parameters]\nw = 1.3\n[integrator]\ntruncation = 7\nstep = 0.1\n\
+         {split}\n[initial]\nmomentum = [0.6, -0.4, 1.0]\n[run]\ntime = 2\n"
+    ))
+}
+
+const ROOT: &str = "hamiltonian = \"sqrt(1 + x^2/1.5 + y^2/2 + z^2/2.5)\"\npotential = \"w*(g[2][2] + g[2][0]^2/3)\"";
+
+/// μ' = μ × ω + r × ∇V and r' = r × ω with the last row r of g, of a body with a root, and of one that time and a table move beside
+/// a torque that time moves: the order is that of the splitting, and what the potential leaves is kept.
+#[test]
+fn any_hamiltonian_is_kicked_as_its_own_equations_say() {
+    let u = |t: f64| 1.0 + t * t;
+    let driven = "hamiltonian = \"sqrt(1 + x^2/1.5 + y^2/2 + z^2/2.5) + 0.3*u*x*cos(t)\"\n\
+        potential = \"w*(g[2][2] + g[2][0]^2/3)\"\ntorque = [\"0\", \"u*sin(t)/4\", \"0\"]\n\
+        [inputs]\ntimes = [0, 1, 2]\nu = [1, 2, 5]";
+    for (text, moves) in [(ROOT, 0.0), (driven, 1.0)] {
+        let start = [0.6, -0.4, 1.0, 0.0, 0.0, 1.0];
+        let expected = runge_kutta(start, (2.0, 40_000), |t, state| {
+            let (mu, r) = (&state[..3], &state[3..]);
+            let energy =
+                (1.0 + mu[0].powi(2) / 1.5 + mu[1].powi(2) / 2.0 + mu[2].powi(2) / 2.5).sqrt();
+            let mut omega: [f64; 3] = std::array::from_fn(|i| mu[i] / [1.5, 2.0, 2.5][i] / energy);
+            omega[0] += moves * 0.3 * u(t) * t.cos();
+            let torque = cross(r, &[1.3 * 2.0 / 3.0 * r[0], 0.0, 1.3]);
+            let (own, turned) = (cross(mu, &omega), cross(r, &omega));
+            let pushed = [0.0, moves * u(t) * t.sin() / 4.0, 0.0];
+            std::array::from_fn(|i| match i {
+                0..3 => own[i] + torque[i] + pushed[i],
+                _ => turned[i - 3],
+            })
+        });
+        for (splitting, order, step, bound) in
+            [("strang", 2.0, 0.1, 1e-3), ("prk4", 4.0, 0.2, 1e-6), ("prk6", 6.0, 0.4, 1e-9)]
+        {
+            let folder = root_body(text, &format!("splitting = \"{splitting}\""));
+            let run = |step: f64| {
+                let report = folder.json(&format!("simulate system.toml --step {step}"));
+                let found = end(&report);
+                (distance(&[&found[..3], &found[9..]].concat(), &expected), report)
+            };
+            let ([coarse, fine], report) = ([run(step).0, run(step / 2.0).0], run(step / 2.0).1);
+            let found = (coarse / fine).log2();
+            assert!(
+                fine < bound && (found - order).abs() < 0.4,
+                "{text}: {coarse:e} {fine:e} {found}"
+            );
+            assert_eq!(report["method"], format!("collocation, 4 nodes, {splitting}"));
+            let drift = |name: &str| report["drift"][name].as_f64();
+            if moves == 0.0 {
+                assert_eq!((&report["conserved_momenta"], drift("casimirs")), (&1.into(), None));
+                assert!(drift("spatial_momentum").unwrap() < 1e-13, "{report}");
+                assert!(drift("energy").unwrap() < bound, "{report}");
+            } else {
+                assert!(
+                    drift("energy").is_none() && drift("spatial_momentum").is_none(),
+                    "{report}"
+                );
+            }
+        }
+    }
+}
+
+/// The laws and the kicks that a series has, through the same doors.
+#[test]
+fn kicks_of_any_hamiltonian_pass_every_door() {
+    let folder = root_body(ROOT, "");
+    let laws = folder.json("check system.toml --points 2 --truncation 3");
+    let laws = laws["laws"].as_array().unwrap();
+    assert!(laws.iter().all(|law| law["pass"] == true), "{laws:?}");
+    let value = |name: &str| laws.iter().find(|law| law["name"] == name).unwrap()["value"].as_f64();
+    assert!(value("symplectic+V").unwrap() < 1e-9 && value("symmetric+V").unwrap() < 1e-11);
+    assert!((value("order+V").unwrap() - 4.0).abs() < 0.3, "{laws:?}");
+    assert!((value("order").unwrap() - 4.0).abs() < 0.3, "{laws:?}");
+    let rows = |backend: &str| {
+        folder.run(&format!("simulate system.toml --backend {backend} --out {backend}.csv")).ok();
+        folder.text(&format!("{backend}.csv"))
+    };
+    let by_interpreter = rows("interpreter");
+    assert!(by_interpreter.contains("splitting"));
+    if cfg!(unix) {
+        assert_eq!(by_interpreter, rows("c"));
+    }
+    let single = |w: f64| {
+        let system = folder.text("system.toml").replace("w = 1.3", &format!("w = {w}"));
+        numbers(&Folder::with(&system).json("simulate system.toml")["momentum"])
+    };
+    // Rows side by side, and rows each with its own parameters.
+    folder.write("in.csv", "mu_1,mu_2,mu_3\n0.6,-0.4,1\n1e4,2e4,3e4\n");
+    folder.write("varied.csv", "mu_1,mu_2,mu_3,w\n0.6,-0.4,1,1.3\n0.6,-0.4,1,0.4\n");
+    for (given, failed, parameters) in [("in", 0, &[1.3][..]), ("varied", 0, &[1.3, 0.4])] {
+        let run = format!("ensemble system.toml --initial {given}.csv --out {given}_out.csv");
+        let report = folder.json(&run);
+        assert_eq!(report["failed"], failed, "{report}");
+        for (row, &w) in folder.table(&format!("{given}_out.csv"))[1..].iter().zip(parameters) {
+            let row: Vec<f64> = row[..3].iter().map(|x| x.parse().unwrap()).collect();
+            assert!(distance(&row, &single(w)) < 1e-12, "{row:?} {w}");
+        }
+    }
+    for (language, word) in [
+        ("c", "Splitting: prk4"),
+        ("opencl", "collocation, 4 nodes, prk4"),
+        ("rust", "SystemPotential"),
+    ] {
+        folder.run(&format!("emit system.toml --language {language}")).ok().prints(&[word]);
+    }
+    folder.run("simulate system.toml --tolerance 1e-6").fails(2, &["the kicks of a potential"]);
+    let pole = ROOT.replace("g[2][0]^2/3", "ln(g[2][2] - 2)");
+    let left = root_body(&pole, "").run("simulate system.toml");
+    left.fails(1, &["is not defined at time 0: ln(g[2][2] - 2) of -1"]);
+    // A quadratic energy may be moved by collocation, and takes the splittings that it allows.
+    let method = "method = \"collocation\"\nsplitting = \"rkn6\"";
+    let quadratic =
+        ROOT.replace("sqrt(1 + x^2/1.5 + y^2/2 + z^2/2.5)", "x^2/1.5 + y^2/2 + z^2/2.5");
+    let by = |method: &str| end(&root_body(&quadratic, method).json("simulate system.toml"));
+    assert!(distance(&by(method), &by("splitting = \"rkn6\"")) < 1e-9);
+    let left = root_body(ROOT, "splitting = \"rkn4\"").run("simulate system.toml");
+    left.fails(2, &["of degree at most two"]);
+}
+
+/// The inverse distance from the charge at the angle in the orbit by A. Sommerfeld's formula, whatever the turns.
+#[test]
+fn an_orbit_near_the_speed_of_light_is_the_ellipse_of_sommerfeld() {
+    let (energy, spin, k) = (1.81_f64.sqrt() - 0.5, 0.9, 0.5);
+    let (middle, factor) =
+        (k * energy / (spin * spin - k * k), (1.0 - k * k / (spin * spin)).sqrt());
+    let error = |step: f64| {
+        let report = json(&format!("simulate examples/relativistic_orbit.toml --step {step}"));
+        assert_eq!(report["conserved_momenta"], 3);
+        let drift = |name: &str| report["drift"][name].as_f64().unwrap();
+        assert!(drift("spatial_momentum") < 1e-13 && drift("energy") < 1e-8, "{report}");
+        let end = end(&report);
+        let (x, y) = (end[9], end[13]);
+        let angles = (0..12).map(|turns| y.atan2(x) + TAU * f64::from(turns));
+        let inverse = angles.map(|angle| middle + (1.0 - middle) * (factor * angle).cos());
+        inverse.map(|inverse| (inverse - 1.0 / x.hypot(y)).abs()).fold(f64::INFINITY, f64::min)
+    };
+    let [coarse, fine] = [error(0.2), error(0.1)];
+    assert!(fine < 1e-10 && ((coarse / fine).log2() - 6.0).abs() < 0.2, "{coarse:e} {fine:e}");
 }

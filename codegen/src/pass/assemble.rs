@@ -179,6 +179,7 @@ fn assemble_smooth(
         source: energy.source,
         truncation: choice.truncation?,
         given,
+        kicks: None,
     })
 }
 

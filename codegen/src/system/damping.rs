@@ -10,10 +10,9 @@ const EXAMPLE: &str = "damping = \"1/100\"";
 /// Reads `damping`: a number, or a list of one for each coordinate. None where all of them are 0.
 pub(super) fn read(root: &Table<'_>, algebra: Option<&LieAlgebra>) -> Option<Vec<f64>> {
     let value = root.get("damping")?;
-    if let Some(potential) = root.get("potential") {
-        let message = "`damping` is not for a system with a potential: it moves the body, along which the potential may rise";
-        let help = "write the force into the Hamiltonian on a larger group, such as gravity on SE3, or leave `damping` out";
-        root.diagnostics.report_other(span(potential), message, help);
+    if let (Some(potential), true) = (root.get("potential"), root.has("torque")) {
+        let message = "`damping` is not for a system with a potential and a torque: it is not known which energy falls";
+        root.diagnostics.report_other(span(potential), message, "leave one of the three out");
     }
     let numbers = match value.get_ref().as_array() {
         Some(_) => coordinates(root, "damping", EXAMPLE, algebra)?.0,

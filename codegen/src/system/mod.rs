@@ -162,13 +162,18 @@ pub(crate) fn read_varying(
     varied: &[String],
 ) -> Result<System, Diagnostics> {
     let given = &Functions::default();
-    let kind = Kind { assemble: &assemble, polynomial: |problem| Some(problem), given };
+    let kind = Kind {
+        assemble: &assemble,
+        polynomial: |problem| Some(problem),
+        quadratic: Problem::is_quadratic,
+        given,
+    };
     read_by(text, |document, diagnostics| {
         system((document, text), (options, varied), &kind, diagnostics)
     })
 }
 
-/// The same for a Hamiltonian that need not be a polynomial; one that is none has neither potential nor angular velocity.
+/// The same for a Hamiltonian that need not be a polynomial; one that is none has no angular velocity.
 ///
 /// # Errors
 /// As [`read`], and where other numbers of the file follow from a parameter that stays one.
@@ -194,7 +199,8 @@ pub fn read_given(
         Some((_, function)) => assemble_given(draft, function.clone(), diagnostics),
         None => assemble_either(draft, diagnostics),
     };
-    let kind = Kind { assemble: &assemble, polynomial: Hamiltonian::polynomial, given };
+    let (polynomial, quadratic) = (Hamiltonian::polynomial, Hamiltonian::is_quadratic);
+    let kind = Kind { assemble: &assemble, polynomial, quadratic, given };
     read_by(text, |document, diagnostics| {
         system((document, text), (options, varied), &kind, diagnostics)
     })
@@ -219,6 +225,8 @@ struct Kind<'a, H> {
     assemble: &'a dyn Fn(Draft, &Diagnostics) -> Option<H>,
     /// The polynomial that it has if it has one.
     polynomial: fn(&H) -> Option<&Problem>,
+    /// Whether it is known to be of degree at most two.
+    quadratic: fn(&H) -> bool,
     /// What is given in place of keys.
     given: &'a Functions,
 }
@@ -322,26 +330,18 @@ fn system<H>(
     let draft =
         Draft { name, algebra, coordinates, coordinates_span, hamiltonian, signals, choice };
     let problem = (kind.assemble)(draft, diagnostics)?;
-    let Some(known) = (kind.polynomial)(&problem) else {
-        let what = "steps are made by collocation, and with it there is none";
-        let potential = root.get("potential").map(table::span);
-        let velocity = velocity.map(|(_, place)| place);
-        let torque = root.get("torque").map(table::span);
-        let keys = [("potential", potential), ("torque", torque), ("angular_velocity", velocity)];
-        for (key, place) in keys {
-            if let Some(place) = place {
-                let help = format!("leave `{key}` out");
-                diagnostics.report_other(place, format!("`{key}`: {what}"), &help);
-            }
+    match (velocity, (kind.polynomial)(&problem)) {
+        (Some(velocity), Some(known)) => run.momentum = initial::momentum(known, &velocity, &root),
+        (Some((_, place)), None) => {
+            let what =
+                "`angular_velocity`: steps are made by collocation, and with it there is none";
+            diagnostics.report_other(place, what, "leave `angular_velocity` out");
         }
-        let parameters = parameters.all();
-        return Some(System { problem, potential: None, damping, run, units, parameters });
-    };
-    if let Some(velocity) = velocity {
-        run.momentum = initial::momentum(known, &velocity, &root);
+        (None, _) => {}
     }
+    let quadratic = (kind.quadratic)(&problem);
     let potential = potential.map(|potential| {
-        let splitting = splitting::choose(splitting, known, &potential, diagnostics);
+        let splitting = splitting::choose(splitting, quadratic, &potential, diagnostics);
         (potential, splitting)
     });
     Some(System { problem, potential, damping, run, units, parameters: parameters.all() })

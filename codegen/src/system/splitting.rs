@@ -5,7 +5,6 @@ use coadjoint_program::splitting::Splitting;
 use super::table::Table;
 use crate::diagnostic::{Diagnostics, Span, nearest};
 use crate::potential::Potential;
-use crate::problem::Problem;
 
 /// Reads `splitting`; it means nothing without a potential, which is a mistake.
 pub(super) fn read(root: &Table<'_>, integrator: Option<&Table<'_>>) -> Option<(Splitting, Span)> {
@@ -26,15 +25,14 @@ pub(super) fn read(root: &Table<'_>, integrator: Option<&Table<'_>>) -> Option<(
     Some((found?, place))
 }
 
-/// The splitting asked for, if the Hamiltonian and the kicks allow it, or else the one of order 4 that they allow; Strang's
-/// where kicks depend on the momentum.
+/// The splitting asked for, if the Hamiltonian, which may be known to be of degree at most two, and the kicks allow it, or else
+/// the one of order 4 that they allow; Strang's where kicks depend on the momentum.
 pub(super) fn choose(
     asked: Option<(Splitting, Span)>,
-    problem: &Problem,
+    quadratic: bool,
     potential: &Potential,
     diagnostics: &Diagnostics,
 ) -> Splitting {
-    let quadratic = problem.is_quadratic();
     if potential.alone().is_some_and(|torque| torque.of_momentum) {
         if let Some((splitting, place)) = asked.filter(|(asked, _)| *asked != Splitting::Strang) {
             let name = splitting.name();

@@ -25,7 +25,7 @@ const BODY: Case = Case {
     step: 0.25,
 };
 
-const CASES: [Case; 8] = [
+const CASES: [Case; 10] = [
     BODY,
     Case {
         text: "group = 'SE3'\nhamiltonian = 'mu[0]^2/2 + mu[1]^2/3 + mu[2]^2 + f*mu[5] + mu[3]*mu[4]/5'\n\
@@ -51,10 +51,25 @@ const CASES: [Case; 8] = [
         step: 0.25,
     },
     Case {
-        text: "group = 'SO3'\nhamiltonian = 'mu[0]^2/2 + mu[1]^2/3 + mu[2]^2/4'\npotential = 'g[2][2] + g[0][1]^2/3'\n\
-               [integrator]\ntruncation = 5",
-        varied: &[],
+        text: "group = 'SO3'\nhamiltonian = 'mu[0]^2/2 + mu[1]^2/b + mu[2]^2/4'\npotential = 'w*g[2][2] + sqrt(b)*w^2*g[0][1]^2/3'\n\
+               [parameters]\nb = 3\nw = 0.75\n[integrator]\ntruncation = 5",
+        varied: &["b", "w"],
         momentum: &[0.5, 0.25, 1.0],
+        step: 0.25,
+    },
+    // Kicks of functions, and flows by collocation between kicks.
+    Case {
+        text: "group = 'SO3'\nhamiltonian = 'mu[0]^2/2 + mu[1]^2/b + mu[2]^2/4'\npotential = 'b*sqrt(2 + w*g[2][2])'\n\
+               [parameters]\nb = 3\nw = 0.75\n[integrator]\ntruncation = 5",
+        varied: &["b", "w"],
+        momentum: &[0.5, 0.25, 1.0],
+        step: 0.25,
+    },
+    Case {
+        text: "group = 'SO3'\nhamiltonian = 'sqrt(1 + a*mu[0]^2 + mu[1]^2/3 + exp(u*mu[2]))'\npotential = 'w*g[2][2] + a*g[0][1]^2/3'\n\
+               [parameters]\na = 0.5\nw = 0.75\n[inputs]\ntimes = [-9, 9, 40]\nu = [0.2, 0.3, 0.1]",
+        varied: &["a", "w"],
+        momentum: &[2.0, 0.5, 1.0],
         step: 0.25,
     },
     // By collocation at four nodes, at one, and at three on a product.

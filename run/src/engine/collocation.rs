@@ -5,18 +5,21 @@ use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use coadjoint::collocation::{Collocation, Energy, Undefined};
 use coadjoint::groups::{DirectProduct, Exponential, MatrixGroup};
-use coadjoint::steps::StepReport;
-use coadjoint::{LieGroup, Phase, StepError};
+use coadjoint::steps::{Piece, Splitting, compose};
+use coadjoint::{Phase, StepError};
 use coadjoint_codegen::cancel;
+use coadjoint_codegen::integrator::Kicks;
 use coadjoint_codegen::smooth::Smooth;
 use coadjoint_codegen::step::Origin;
 use nalgebra::DVector;
 
 use super::compiled::{Compiled, Folded, Numbers, Solves};
+use super::kick::Torque;
 use super::linear::{Differentiable, Linear};
 use super::motion::{Motion, Varied, advise, one_by_one};
 use super::response::Response;
 use super::space::{Elements, Space};
+use super::tangent::{KickSlope, moved};
 use crate::error::kept;
 
 /// The steps of this size of a smooth system, for these values of the parameters that it keeps.
@@ -86,12 +89,33 @@ impl Energy<DVector<f64>> for Interpreted<'_> {
 /// The group of all steps by collocation.
 pub(crate) type Group = DirectProduct<MatrixGroup>;
 
+/// The kicks between the flows of a step.
+#[derive(Debug)]
+struct Kicked<'a> {
+    splitting: Splitting,
+    torque: Torque<'a, Group>,
+}
+
+impl<'a> Kicked<'a> {
+    /// Those of a system, for these values of the parameters that it keeps.
+    fn new(
+        smooth: &'a Smooth,
+        group: &Group,
+        parameters: &[f64],
+    ) -> Result<Option<Self>, StepError> {
+        let Some(Kicks { kick, splitting, .. }) = &smooth.kicks else { return Ok(None) };
+        let torque = Torque::new(kick, group.clone(), parameters)?;
+        Ok(Some(Self { splitting: *splitting, torque }))
+    }
+}
+
 /// Steps of one size at `M` nodes.
 struct Collocated<'a, const M: usize> {
     elements: Elements<Group>,
     step: Mutex<Collocation<Group, Interpreted<'a>, M>>,
-    /// The second derivatives, once they were asked for.
-    response: OnceLock<Response<'a>>,
+    kicks: Option<Kicked<'a>>,
+    /// The second derivatives, and those of kicks, once they were asked for.
+    response: OnceLock<(Response<'a>, Option<KickSlope<'a, Group>>)>,
 }
 
 impl<'a, const M: usize> Collocated<'a, M> {
@@ -100,8 +124,10 @@ impl<'a, const M: usize> Collocated<'a, M> {
         energy: Interpreted<'a>,
         size: f64,
     ) -> Result<Self, StepError> {
-        let step = Mutex::new(Collocation::new((*elements.group).clone(), energy, size)?);
-        Ok(Self { elements, step, response: OnceLock::new() })
+        let group = &*elements.group;
+        let kicks = Kicked::new(energy.smooth, group, &energy.parameters)?;
+        let step = Mutex::new(Collocation::new(group.clone(), energy, size)?);
+        Ok(Self { elements, step, kicks, response: OnceLock::new() })
     }
 
     fn step(&self) -> MutexGuard<'_, Collocation<Group, Interpreted<'a>, M>> {
@@ -114,25 +140,37 @@ impl<'a, const M: usize> Collocated<'a, M> {
     fn rescue(&self, state: &mut Numbers, time: f64, size: f64) -> Result<Solves, StepError> {
         let step = self.step();
         let mut phase = self.elements.phase(state);
-        let made = Self::alone(&step, &mut phase, time, size);
-        let report = made.map_err(|error| {
+        let made = self.alone(&step, &mut phase, time, size);
+        let solves = made.map_err(|error| {
             let works =
-                |size| Self::alone(&step, &mut self.elements.phase(state), time, size).is_ok();
+                |size| self.alone(&step, &mut self.elements.phase(state), time, size).is_ok();
             advise(error, size, works)
         })?;
         *state = self.elements.state(&phase);
-        Ok(Some((report.iterations, report.residual)))
+        Ok(solves)
     }
 
     /// One step of another size from this time, which knows no steps before it.
     fn alone(
+        &self,
         step: &Collocation<Group, Interpreted<'a>, M>,
         phase: &mut Phase<Group>,
         time: f64,
         size: f64,
-    ) -> Result<StepReport<f64>, StepError> {
-        let (group, energy) = (step.group().clone(), step.energy().clone());
-        Collocation::<_, _, M>::new(group, energy, size)?.advance(phase, time)
+    ) -> Result<Solves, StepError> {
+        let flow = |phase: &mut Phase<Group>, time, size| {
+            let (group, energy) = (step.group().clone(), step.energy().clone());
+            Collocation::<_, _, M>::new(group, energy, size)?.advance(phase, time)
+        };
+        let Some(Kicked { splitting, torque }) = &self.kicks else {
+            let report = flow(phase, time, size)?;
+            return Ok(Some((report.iterations, report.residual)));
+        };
+        compose(*splitting, phase, [time, size], |piece, phase, time, length| match piece {
+            Piece::Kick => torque.kick(phase, time, length),
+            Piece::Flow(_) => flow(phase, time, length).map(drop),
+        })?;
+        Ok(None)
     }
 }
 
@@ -155,7 +193,7 @@ impl<const M: usize> Motion for Collocated<'_, M> {
             return Ok(Some((made.corrections, made.residual)));
         }
         // Steps of a system too large for programs begin anew: so their bits do not depend on how a run is cut.
-        let remembers = self.step().energy().smooth.given.is_some();
+        let remembers = self.kicks.is_none() && self.step().energy().smooth.given.is_some();
         let mut numbers = (first..).map(|number| number as f64 * size);
         one_by_one(count, || {
             let time = numbers.next().unwrap_or(size);
@@ -201,18 +239,21 @@ impl<const M: usize> Motion for Collocated<'_, M> {
         0.0
     }
 
-    /// Of a function of the user's there is no Hessian.
+    /// Of a function of the user's there is no Hessian, and of torques without potential no derivatives are known.
     fn differentiable(&self) -> Option<&dyn Differentiable> {
-        let step = self.step();
-        step.energy().smooth.given.is_none().then_some(self)
+        let Smooth { given, kicks, .. } = self.step().energy().smooth;
+        let torque = kicks.as_ref().and_then(Kicks::torque);
+        (given.is_none() && torque.is_none()).then_some(self)
     }
 
     fn defined(&self, state: &Numbers) -> Result<(), StepError> {
         let step = self.step();
         let found = step.energy().undefined(0.0, &DVector::from_column_slice(&state.mu));
-        found.map_or(Ok(()), |Undefined { expression, argument }| {
-            Err(StepError::Undefined { expression, argument, time: 0.0, at: None })
-        })
+        if let Some(Undefined { expression, argument }) = found {
+            return Err(StepError::Undefined { expression, argument, time: 0.0, at: None });
+        }
+        let kicks = self.kicks.as_ref();
+        kicks.map_or(Ok(()), |kicks| kicks.torque.defined(&self.elements.phase(state)))
     }
 }
 
@@ -226,6 +267,9 @@ impl<const M: usize> Varied for Collocated<'_, M> {
         let (group, size) = (step.group().clone(), step.step());
         let energy = Interpreted::new(step.energy().smooth, parameters);
         self.response = OnceLock::new();
+        if let Some(kicks) = &mut self.kicks {
+            kicks.torque.vary(parameters);
+        }
         if let Ok(varied) = Collocation::new(group, energy, size) {
             *step = varied;
         }
@@ -241,16 +285,41 @@ impl<const M: usize> Differentiable for Collocated<'_, M> {
     fn linear(&self, state: &Numbers, first: u64) -> Result<Linear, StepError> {
         let step = self.step();
         let (group, place) = (step.group(), (Exponential, step.group()));
-        let response = self.response.get_or_init(|| {
-            let Interpreted { smooth, symbols, parameters } = step.energy().clone();
-            Response::new(smooth, symbols, &parameters)
-        });
-        let mu = DVector::from_column_slice(&state.mu);
-        let solution = step.solution(&mu, first as f64 * step.step())?;
-        let [hessian, mixed] = response.of(group, &solution, step.step())?;
-        let of_momentum = Linear::response(place, &solution.x, &mu, [&hessian, &mixed])?;
-        // In the chart of tables, which is exp.
-        let after = group.exp_transport(&solution.x, &mu).1;
-        Ok(Linear::of_motion(place, &solution.x, &after, &of_momentum))
+        let Interpreted { smooth, symbols, parameters } = step.energy().clone();
+        let (response, slope) = match self.response.get() {
+            Some(made) => made,
+            None => {
+                let kick = smooth.kicks.as_ref().map(|kicks| &kicks.kick);
+                let slope =
+                    kick.map(|kick| KickSlope::new(kick, group, &parameters)).transpose()?;
+                let made = (Response::new(smooth, symbols, &parameters), slope);
+                self.response.get_or_init(|| made)
+            }
+        };
+        let (mut phase, size) = (self.elements.phase(state), step.step());
+        let time = first as f64 * size;
+        let flow = |phase: &mut Phase<Group>, time, size| {
+            let energy = step.energy().clone();
+            let step = Collocation::<_, _, M>::new(group.clone(), energy, size)?;
+            let solution = step.solution(&phase.momentum, time)?;
+            let [hessian, mixed] = response.of(group, &solution, size)?;
+            let (x, mu) = (&solution.x, &phase.momentum);
+            let of_momentum = Linear::response(place, x, mu, [&hessian, &mixed])?;
+            // In the chart of tables, which is exp.
+            Ok(moved(place, x, phase, &of_momentum))
+        };
+        let (Some(kicks), Some(slope)) = (&self.kicks, slope) else {
+            return flow(&mut phase, time, size);
+        };
+        let mut total = Linear::identity(phase.momentum.len(), parameters.len());
+        compose(kicks.splitting, &mut phase, [time, size], |piece, phase, time, length| {
+            let next = match piece {
+                Piece::Kick => slope.linear(phase, length)?,
+                Piece::Flow(_) => flow(phase, time, length)?,
+            };
+            total = total.then(&next);
+            Ok(())
+        })?;
+        Ok(total)
     }
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use coadjoint::collocation::{Damping, Energy, Undefined};
 use coadjoint::{Phase, StepError};
+use coadjoint_codegen::integrator::Kick;
 use coadjoint_codegen::poly::Numeric;
 use coadjoint_codegen::problem::Problem;
 use coadjoint_codegen::smooth::Smooth;
@@ -12,6 +13,7 @@ use nalgebra::DVector;
 use super::collocation::{Group, Interpreted};
 use super::compiled::{Folded, Numbers, Solves};
 use super::interpreter::symbols;
+use super::kick::Torque;
 use super::motion::{Motion, Varied, advise, one_by_one};
 use super::space::{Space, entries_of, phase_of};
 
@@ -88,19 +90,21 @@ pub(crate) struct Damped<'a> {
     size: f64,
     damper: &'a Damper,
     energy: Source<'a>,
+    kick: Option<&'a Kick>,
     damp: Result<Damp<'a>, StepError>,
 }
 
 impl<'a> Damped<'a> {
-    /// Of these steps, of this size, for these values of the parameters that are kept.
+    /// Of these steps, of this size, with these kicks if there are any, for these values of the parameters that are kept.
     pub(crate) fn new(
         motion: Box<dyn Varied + 'a>,
         size: f64,
         damper: &'a Damper,
-        energy: Source<'a>,
+        (energy, kick): (Source<'a>, Option<&'a Kick>),
         parameters: &[f64],
     ) -> Self {
-        Self { motion, size, damper, energy, damp: damp(damper, energy, parameters) }
+        let damp = damp(damper, (energy, kick), parameters);
+        Self { motion, size, damper, energy, kick, damp }
     }
 
     /// `step` from this time, of this size, between halves of damping.
@@ -132,22 +136,33 @@ impl<'a> Damped<'a> {
     }
 }
 
-/// The damping of this Hamiltonian: its mean slope is that in the middle where it is quadratic.
+/// The damping of this Hamiltonian and of the potential of kicks: the mean slope of H is that in the middle where it is quadratic.
 fn damp<'a>(
     damper: &Damper,
-    energy: Source<'a>,
+    (energy, kick): (Source<'a>, Option<&'a Kick>),
     parameters: &[f64],
 ) -> Result<Damp<'a>, StepError> {
     let (group, given) = ((*damper.group).clone(), energy.given(parameters));
     let rates = DVector::from_column_slice(&damper.rates);
+    // A torque without potential has no energy that could fall.
+    let kick = kick.filter(|kick| kick.potential.alone().is_none());
+    let torque = kick.map(|kick| Torque::new(kick, group.clone(), parameters)).transpose()?;
+    let beside = move |g: &_, mu: &DVector<f64>| match &torque {
+        Some(torque) => torque.torque(g, mu, 0.0),
+        None => Ok(DVector::zeros(mu.len())),
+    };
     if matches!(energy, Source::Polynomial(problem) if problem.is_quadratic()) {
         let damping = Damping::<_, _, 1>::new(group, given, rates)?;
         return Ok(Box::new(move |phase, time, length| {
-            damping.advance(phase, time, length).map(drop)
+            let mu = phase.momentum.clone();
+            damping.advance_beside(phase, time, length, |g| beside(g, &mu)).map(drop)
         }));
     }
     let damping = Damping::<_, _, 8>::new(group, given, rates)?;
-    Ok(Box::new(move |phase, time, length| damping.advance(phase, time, length).map(drop)))
+    Ok(Box::new(move |phase, time, length| {
+        let mu = phase.momentum.clone();
+        damping.advance_beside(phase, time, length, |g| beside(g, &mu)).map(drop)
+    }))
 }
 
 impl Motion for Damped<'_> {
@@ -197,6 +212,6 @@ impl Motion for Damped<'_> {
 impl Varied for Damped<'_> {
     fn vary(&mut self, parameters: &[f64], folded: Option<Folded>) {
         self.motion.vary(parameters, folded);
-        self.damp = damp(self.damper, self.energy, parameters);
+        self.damp = damp(self.damper, (self.energy, self.kick), parameters);
     }
 }

@@ -6,7 +6,6 @@ use coadjoint::{Phase, Scalar, StepError};
 use coadjoint_codegen::graph::Program;
 use coadjoint_codegen::integrator::{FoldTable, Integrator, Kick, Kicks};
 use coadjoint_codegen::potential::Force;
-use coadjoint_codegen::problem::values;
 use nalgebra::{DMatrix, DVector};
 
 use super::compiled::Solves;
@@ -26,13 +25,19 @@ pub(crate) fn map<'a, G: Group + 'a, C: Chart<G> + Send + Sync + 'a>(
     size: f64,
     parameters: &[f64],
 ) -> Result<Map<'a, G>, StepError> {
-    if let Some(kicks) = &integrator.kicks {
-        return kicked::<G, C>(integrator, kicks, group, size);
-    }
-    let step = Interpreter::<G, C>::new(integrator, group.clone(), size, parameters)?;
-    Ok(Box::new(move |phase, _| {
-        let report = advance(&step, phase)?;
-        Ok(Some((report.iterations, report.residual)))
+    let flow = |part| Interpreter::<G, C>::new(integrator, group.clone(), part, parameters);
+    let Some(Kicks { kick, splitting, .. }) = &integrator.kicks else {
+        let step = flow(size)?;
+        return Ok(Box::new(move |phase, _| {
+            let report = advance(&step, phase)?;
+            Ok(Some((report.iterations, report.residual)))
+        }));
+    };
+    let torque = Torque::new(kick, group.clone(), parameters)?;
+    let flows = Flows::new(*splitting, size, flow)?;
+    Ok(Box::new(move |phase, time| {
+        let kick = |state: &mut _, time, length| torque.kick(state, time, length);
+        flows.advance(phase, time, kick).map(|()| None)
     }))
 }
 
@@ -40,22 +45,6 @@ pub(crate) fn map<'a, G: Group + 'a, C: Chart<G> + Send + Sync + 'a>(
 pub(crate) fn longest_flow(kicks: &Kicks) -> f64 {
     let longer = |longest: f64, part: f64| if part.abs() > longest.abs() { part } else { longest };
     kicks.splitting.flows().fold(0.0, longer)
-}
-
-/// The step of flows and kicks.
-pub(crate) fn kicked<'a, G: Group + 'a, C: Chart<G> + Send + Sync + 'a>(
-    integrator: &'a Integrator,
-    kicks: &'a Kicks,
-    group: &G,
-    step: f64,
-) -> Result<Map<'a, G>, StepError> {
-    let torque = Torque::new(&kicks.kick, group.clone())?;
-    let flow = |part| Interpreter::<G, C>::new(integrator, group.clone(), part, &[]);
-    let flows = Flows::new(kicks.splitting, step, flow)?;
-    Ok(Box::new(move |phase, time| {
-        let kick = |state: &mut _, time, length| torque.kick(state, time, length);
-        flows.advance(phase, time, kick).map(|()| None)
-    }))
 }
 
 /// The body torque −g⁻¹dV(g) of a potential, or one without, on a run-time group.
@@ -67,13 +56,20 @@ pub(crate) struct Torque<'a, G> {
 }
 
 impl<'a, G: Group> Torque<'a, G> {
-    /// Folds the coefficients.
-    pub(crate) fn new(kick: &'a Kick, group: G) -> Result<Self, StepError> {
-        let symbols = values(&kick.potential.symbols);
+    /// Folds the coefficients for these values of the parameters that are kept.
+    pub(crate) fn new(kick: &'a Kick, group: G, parameters: &[f64]) -> Result<Self, StepError> {
+        let symbols = kick.potential.symbols.iter();
+        let symbols: Vec<f64> = symbols.map(|symbol| symbol.expr.evaluate(parameters)).collect();
         // No coefficient holds the step size.
         let slots = FoldTable::of_kick(kick).fold(1.0, &symbols);
         let slots = slots.map_err(|error| refusal(error, 1.0, &symbols))?;
         Ok(Self { kick, group, slots })
+    }
+
+    /// The same for other values; kicks are refused where a coefficient is not finite for them.
+    pub(super) fn vary(&mut self, parameters: &[f64]) {
+        let varied = Self::new(self.kick, self.group.clone(), parameters).map(|new| new.slots);
+        self.slots = varied.unwrap_or_else(|_| vec![f64::NAN; self.slots.len()]);
     }
 
     /// The torque in a state at this time.
@@ -101,6 +97,14 @@ impl<'a, G: Group> Torque<'a, G> {
         }))
     }
 
+    /// Whether it is defined in a state at time 0.
+    ///
+    /// # Errors
+    /// As [`Torque::torque`].
+    pub(super) fn defined(&self, state: &Phase<G>) -> Result<(), StepError> {
+        self.torque(&state.group_element, &state.momentum, 0.0).map(drop)
+    }
+
     /// A kick of this length; where the torque depends on μ, that of its value in the middle.
     ///
     /// # Errors
@@ -123,22 +127,19 @@ impl<'a, G: Group> Torque<'a, G> {
         Ok(())
     }
 
-    /// The derivative of the torque in ξ = g⁻¹δg, by that of its program and the matrices of the algebra's basis.
-    pub(super) fn slope(
-        &self,
-        program: &Program,
-        generators: &[DMatrix<f64>],
-        g: &G::Element,
-    ) -> DMatrix<f64> {
-        let entries = entries_of(&self.group, g);
-        let size = self.group.matrix_size();
+    /// The changes g ξ of the entries of g, for each of these matrices ξ.
+    pub(super) fn moved(&self, g: &G::Element, generators: &[DMatrix<f64>]) -> Vec<Vec<f64>> {
+        let (entries, size) = (entries_of(&self.group, g), self.group.matrix_size());
         let element = DMatrix::from_row_slice(size, size, &entries);
-        let column = |generator: &DMatrix<f64>| {
-            // Row by row.
-            let change = (&element * generator).transpose();
-            let inputs = [entries.as_slice(), change.as_slice()].concat();
-            DVector::from_vec(program.run(&inputs, &self.slots))
-        };
-        DMatrix::from_columns(&generators.iter().map(column).collect::<Vec<_>>())
+        // Row by row.
+        let moved =
+            |generator: &DMatrix<f64>| (&element * generator).transpose().as_slice().to_vec();
+        generators.iter().map(moved).collect()
+    }
+
+    /// A derivative of the torque of a potential at g, by its program, along this change.
+    pub(super) fn along(&self, program: &Program, g: &G::Element, change: &[f64]) -> DVector<f64> {
+        let inputs = [&entries_of(&self.group, g)[..], change].concat();
+        DVector::from_vec(program.run(&inputs, &self.slots))
     }
 }

@@ -64,11 +64,12 @@ impl Linear {
         Self { state: &next.state * &self.state, parameters }
     }
 
-    /// That of μ ↦ μ + l τ(g), given the derivative of the torque τ in ξ.
-    pub(super) fn of_kick(torque: &DMatrix<f64>, length: f64, parameters: usize) -> Self {
-        let dim = torque.nrows();
-        let mut kick = Self::identity(dim, parameters);
-        kick.state.view_mut((dim, 0), (dim, dim)).copy_from(&(torque * length));
+    /// That of μ ↦ μ + l τ(g, θ), given the derivatives of l τ in ξ (n×n) and in θ (n×q).
+    pub(super) fn of_kick(by_element: &DMatrix<f64>, by_parameters: &DMatrix<f64>) -> Self {
+        let dim = by_element.nrows();
+        let mut kick = Self::identity(dim, by_parameters.ncols());
+        kick.state.view_mut((dim, 0), (dim, dim)).copy_from(by_element);
+        kick.parameters.rows_mut(dim, dim).copy_from(by_parameters);
         kick
     }
 

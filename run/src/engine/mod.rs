@@ -18,7 +18,6 @@ pub(crate) use compiled::{Compiled, Kept, Numbers, Solves};
 pub(crate) use damping::{Damped, Damper, Source};
 pub(crate) use interpreter::Interpreter;
 pub use interpreter::STEEP;
-pub(crate) use kick::{Map, kicked};
 pub(crate) use linear::{Differentiable, Linear};
 pub(crate) use motion::{Charted, Equations, advise, one_by_one};
 pub(crate) use motion::{Motion, Varied};

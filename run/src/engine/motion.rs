@@ -7,14 +7,14 @@ use coadjoint::groups::{
     Cayley, CayleyMatrixGroup, Chart, DirectProduct, Exponential, MatrixGroup,
 };
 use coadjoint::{Phase, StepError};
-use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::integrator::{Integrator, Kicks};
 use coadjoint_codegen::lie;
 use coadjoint_codegen::step::Origin;
 use nalgebra::DVector;
 
 use super::compiled::{Compiled, Folded, Numbers, Solves};
 use super::interpreter::Interpreter;
-use super::kick::{Map, longest_flow, map};
+use super::kick::{Map, Torque, longest_flow, map};
 use super::linear::{Differentiable, Linear};
 use super::space::{Elements, Restore, Space, cayley_group};
 use super::tangent::Tangent;
@@ -60,10 +60,10 @@ pub(crate) trait Motion: Send + Sync {
         None
     }
 
-    /// Whether the Hamiltonian is defined in a state.
+    /// Whether the Hamiltonian and the torque of kicks are defined in a state.
     ///
     /// # Errors
-    /// The expression in it that is not.
+    /// The expression in them that is not.
     fn defined(&self, _: &Numbers) -> Result<(), StepError> {
         Ok(())
     }
@@ -119,10 +119,10 @@ pub(crate) fn advise(error: StepError, h: f64, mut works: impl FnMut(f64) -> boo
     error
 }
 
-/// The equations of a motion: a flow, with kicks where it has some, and the values of the parameters that are kept.
+/// The equations of a motion: a flow, kicks where there are any, and the values of the parameters that are kept.
 #[derive(Clone, Debug)]
 pub(crate) struct Equations<'a> {
-    /// The flow.
+    /// The flow and the kicks.
     pub integrator: &'a Integrator,
     /// The values of the parameters.
     pub parameters: Vec<f64>,
@@ -131,7 +131,7 @@ pub(crate) struct Equations<'a> {
 impl Equations<'_> {
     /// Whether steps depend on the time.
     fn moves(&self) -> bool {
-        self.integrator.torque().is_some_and(|torque| torque.moves)
+        self.integrator.kicks.as_ref().is_some_and(Kicks::moves)
     }
 }
 
@@ -310,7 +310,15 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Motion for Steps<'a, G
 
     /// Of torques without potential no derivatives are known.
     fn differentiable(&self) -> Option<&dyn Differentiable> {
-        self.equations.integrator.torque().is_none().then_some(self)
+        let kicks = self.equations.integrator.kicks.as_ref();
+        kicks.and_then(Kicks::torque).is_none().then_some(self)
+    }
+
+    fn defined(&self, state: &Numbers) -> Result<(), StepError> {
+        let Equations { integrator, parameters } = &self.equations;
+        let Some(kicks) = &integrator.kicks else { return Ok(()) };
+        let torque = Torque::new(&kicks.kick, (*self.elements.group).clone(), parameters)?;
+        torque.defined(&self.elements.phase(state))
     }
 
     fn lanes(&self) -> Option<&Compiled> {

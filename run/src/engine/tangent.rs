@@ -2,9 +2,11 @@
 
 use coadjoint::groups::{Chart, Exponential};
 use coadjoint::solve::solve;
+use coadjoint::steps::{Piece, Splitting, compose};
 use coadjoint::{GeneratingFunction, Phase, StepError};
 use coadjoint_codegen::graph::Program;
-use coadjoint_codegen::integrator::{self, Integrator};
+use coadjoint_codegen::integrator::{FoldTable, Integrator, Kick, Kicks};
+use coadjoint_codegen::lie::RationalMatrix;
 use coadjoint_program::Argument;
 use nalgebra::{DMatrix, DVector};
 use num_traits::ToPrimitive;
@@ -17,7 +19,8 @@ use super::space::Group;
 /// The parts of a step of one size, with what their derivatives need.
 pub(crate) struct Tangent<'a, G, C> {
     flows: Vec<Flow<'a, G, C>>,
-    kicks: Option<Kicks<'a, G>>,
+    /// Where there are kicks, how they and flows are composed, the size of a step, and the derivatives of kicks.
+    kicks: Option<(Splitting, f64, KickSlope<'a, G>)>,
     /// p, v ↦ S_pp v.
     hessian: Program,
     /// For each motion of a comoving frame μ, v ↦ ∂y/∂μ v.
@@ -30,14 +33,17 @@ struct Flow<'a, G, C> {
     by_parameters: Vec<Interpreter<'a, G, C>>,
 }
 
-/// The kicks of a step.
-struct Kicks<'a, G> {
+/// The derivatives of kicks.
+pub(super) struct KickSlope<'a, G> {
     torque: Torque<'a, G>,
     /// Entries of g, their change ↦ the change of the torque.
-    slope: Program,
+    by_element: Program,
+    /// Entries of g, the change of the coefficients ↦ the change of the torque.
+    by_coefficients: Program,
     /// The matrices of the algebra's basis.
     generators: Vec<DMatrix<f64>>,
-    lengths: Vec<f64>,
+    /// The derivatives of the coefficients in each parameter.
+    slopes: Vec<Vec<f64>>,
 }
 
 /// The derivative of a program in all of its inputs.
@@ -83,10 +89,14 @@ impl<'a, G: Group + 'a, C: Chart<G>> Tangent<'a, G, C> {
                 (0..parameters.len()).map(by_parameter).collect();
             Ok(Flow { function, by_parameters: by_parameters? })
         };
-        let own = integrator.kicks.as_ref();
-        let parts = own.map_or_else(|| vec![1.0], |kicks| kicks.splitting.flows().collect());
+        let kicks = integrator.kicks.as_ref();
+        let parts = kicks.map_or_else(|| vec![1.0], |kicks| kicks.splitting.flows().collect());
         let flows: Result<Vec<_>, StepError> = parts.into_iter().map(flow).collect();
-        let kicks = own.map(|own| Kicks::new(own, group, size)).transpose()?;
+        let slope = |kicks: &'a Kicks| {
+            let slope = KickSlope::new(&kicks.kick, group, parameters)?;
+            Ok::<_, StepError>((kicks.splitting, size, slope))
+        };
+        let kicks = kicks.map(slope).transpose()?;
         let hessian = push_forward(&integrator.gradient);
         let frame = integrator.frame.iter().map(push_forward).collect();
         Ok(Self { flows: flows?, kicks, hessian, frame })
@@ -99,15 +109,17 @@ impl<'a, G: Group + 'a, C: Chart<G>> Tangent<'a, G, C> {
     pub(crate) fn linear(&self, mut phase: Phase<G>) -> Result<Linear, StepError> {
         let parameters = self.flows.first().map_or(0, |flow| flow.by_parameters.len());
         let mut total = Linear::identity(phase.momentum.len(), parameters);
-        for (number, flow) in self.flows.iter().enumerate() {
-            if let Some(kicks) = &self.kicks {
-                total = total.then(&kicks.linear(number, &mut phase, parameters)?);
-            }
-            total = total.then(&self.flow(flow, &mut phase)?);
-        }
-        if let Some(kicks) = &self.kicks {
-            total = total.then(&kicks.linear(self.flows.len(), &mut phase, parameters)?);
-        }
+        let Some((splitting, size, kick)) = &self.kicks else {
+            return self.flows.first().map_or(Ok(total), |flow| self.flow(flow, &mut phase));
+        };
+        compose(*splitting, &mut phase, [0.0, *size], |piece, phase, _, length| {
+            let next = match piece {
+                Piece::Kick => kick.linear(phase, length)?,
+                Piece::Flow(number) => self.flow(&self.flows[number], phase)?,
+            };
+            total = total.then(&next);
+            Ok(())
+        })?;
         Ok(total)
     }
 
@@ -138,7 +150,7 @@ impl<'a, G: Group + 'a, C: Chart<G>> Tangent<'a, G, C> {
 }
 
 /// Moves a state by τ(x); the derivative of that.
-fn moved<G: Group, C: Chart<G>>(
+pub(super) fn moved<G: Group, C: Chart<G>>(
     (chart, group): (C, &G),
     x: &DVector<f64>,
     phase: &mut Phase<G>,
@@ -151,31 +163,53 @@ fn moved<G: Group, C: Chart<G>>(
     linear
 }
 
-impl<'a, G: Group> Kicks<'a, G> {
-    fn new(own: &'a integrator::Kicks, group: &G, size: f64) -> Result<Self, StepError> {
-        let torque = Torque::new(&own.kick, group.clone())?;
-        let generator = |matrix: &coadjoint_codegen::lie::RationalMatrix| {
+impl<'a, G: Group> KickSlope<'a, G> {
+    /// For these values of the parameters.
+    ///
+    /// # Errors
+    /// Where a coefficient is not finite.
+    pub(super) fn new(kick: &'a Kick, group: &G, parameters: &[f64]) -> Result<Self, StepError> {
+        let torque = Torque::new(kick, group.clone(), parameters)?;
+        let generator = |matrix: &RationalMatrix| {
             DMatrix::from_fn(matrix.rows(), matrix.columns(), |i, j| {
                 matrix.get(i, j).to_f64().unwrap_or(f64::NAN)
             })
         };
-        let generators = own.kick.potential.algebra.matrices().iter().map(generator).collect();
-        let lengths = own.splitting.kicks().map(|part| part * size).collect();
-        let slope = push_forward(&own.kick.torque);
-        Ok(Self { torque, slope, generators, lengths })
+        let generators = kick.potential.algebra.matrices().iter().map(generator).collect();
+        let coefficients = 0..kick.coefficients.slots().len();
+        let coefficients: Vec<Argument> = coefficients.map(Argument::Slot).collect();
+        let by_coefficients = kick.torque.push_forward(&coefficients);
+        let symbols = &kick.potential.symbols;
+        let values: Vec<f64> = symbols.iter().map(|one| one.expr.evaluate(parameters)).collect();
+        let table = FoldTable::of_kick(kick);
+        let slope = |number: usize| {
+            let mut change = vec![0.0; parameters.len()];
+            change[number] = 1.0;
+            let change = symbols.iter().map(|symbol| symbol.expr.slope(parameters, &change));
+            let change: Vec<f64> = change.collect();
+            let slope = table.slope(1.0, &values, &change);
+            slope.map_err(|error| refusal(error, 1.0, &change))
+        };
+        let slopes = (0..parameters.len()).map(slope).collect::<Result<_, _>>()?;
+        let by_element = push_forward(&kick.torque);
+        Ok(Self { torque, by_element, by_coefficients, generators, slopes })
     }
 
-    /// Makes kick `number`; its derivative.
-    fn linear(
-        &self,
-        number: usize,
-        phase: &mut Phase<G>,
-        parameters: usize,
-    ) -> Result<Linear, StepError> {
-        let (g, length) = (&phase.group_element, self.lengths[number]);
-        let slope = self.torque.slope(&self.slope, &self.generators, g);
+    /// Makes a kick of this length; its derivative.
+    ///
+    /// # Errors
+    /// Where the torque is not defined.
+    pub(super) fn linear(&self, phase: &mut Phase<G>, length: f64) -> Result<Linear, StepError> {
+        let (g, dim) = (&phase.group_element, phase.momentum.len());
+        let moved = self.torque.moved(g, &self.generators);
+        let by_element = moved.iter().map(|change| self.torque.along(&self.by_element, g, change));
+        let by_element = matrix(dim, by_element);
+        let slopes = self.slopes.iter();
+        let by_parameters =
+            slopes.map(|change| self.torque.along(&self.by_coefficients, g, change));
+        let by_parameters = matrix(dim, by_parameters);
         let torque = self.torque.torque(g, &phase.momentum, 0.0)?;
         phase.momentum += torque * length;
-        Ok(Linear::of_kick(&slope, length, parameters))
+        Ok(Linear::of_kick(&(by_element * length), &(by_parameters * length)))
     }
 }

@@ -189,6 +189,11 @@ impl<'a> Recorder<'a> {
             self.watched.invariants.conserved(&state.mu, &spatial, || space.matrix(&state.g))
         };
         let now = conserved(state);
+        if let (Some(energy), Some(potential)) = (now.energy, &self.watched.invariants.potential)
+            && !energy.is_finite()
+        {
+            finite("the potential", potential.value(&space.matrix(&state.g)))?;
+        }
         finite("the energy", now.energy.unwrap_or(0.0))?;
         let mut beside = state.clone();
         nudge(&mut beside.g);

@@ -91,6 +91,22 @@ where
         time: f64,
         length: f64,
     ) -> Result<StepReport<f64>, StepError> {
+        let dim = phase.momentum.dim();
+        self.advance_beside(phase, time, length, |_| Ok(G::Vector::zeros(dim)))
+    }
+
+    /// The same beside a potential V(g) with this body torque τ = −g⁻¹dV, which falls with H: x = h Γ (ad\*_ω p + τ), τ in the
+    /// middle g exp(x/2), so that H + V changes by −⟨ad\*_ω p + τ, x⟩, to third order in x.
+    ///
+    /// # Errors
+    /// [`StepError`], also that of `torque`; `phase` is then left as it was.
+    pub fn advance_beside(
+        &self,
+        phase: &mut Phase<G>,
+        time: f64,
+        length: f64,
+        torque: impl Fn(&G::Element) -> Result<G::Vector, StepError>,
+    ) -> Result<StepReport<f64>, StepError> {
         let (group, mu) = (&self.group, &phase.momentum);
         let mut x = G::Vector::zeros(mu.dim());
         if (0..mu.dim()).any(|i| !mu[i].all_finite()) {
@@ -110,12 +126,15 @@ where
             }
             let p = group.dexp_transpose(&x, mu);
             let force = group.ad_star(&omega, &p);
-            let next = G::Vector::from_entries(mu.dim(), |i| length * self.rates[i] * force[i]);
+            let half = group.exp(&G::Vector::from_entries(mu.dim(), |i| 0.5 * x[i]));
+            let torque = torque(&group.compose(&phase.group_element, &half))?;
+            let next = G::Vector::from_entries(mu.dim(), |i| {
+                length * self.rates[i] * (force[i] + torque[i])
+            });
             // Of the products of which the force is made.
             let size = length.abs()
                 * self.rates.largest_entry()
-                * omega.largest_entry()
-                * p.largest_entry();
+                * (omega.largest_entry() * p.largest_entry() + torque.largest_entry());
             let change = next.clone().minus(&x).largest_entry();
             residual = if change == 0.0 { 0.0 } else { change / size };
             if residual <= ROUNDINGS * f64::EPSILON {

@@ -84,26 +84,60 @@ impl<S: Integrator> Flows<S> {
     pub fn advance(
         &self,
         phase: &mut Phase<S::Group>,
-        mut time: ScalarOf<S>,
+        time: ScalarOf<S>,
         mut kick: impl FnMut(&mut Phase<S::Group>, ScalarOf<S>, ScalarOf<S>) -> Result<(), StepError>,
     ) -> Result<(), StepError> {
-        let mut state = phase.clone();
-        let (mut parts, stages) = (self.splitting.flows(), self.splitting.flows().len());
-        for (stage, length) in self.splitting.kicks().enumerate() {
-            kick(&mut state, time, self.step * ScalarOf::<S>::of(length))?;
-            let Some(part) = parts.next() else { break };
-            if let Some(Some(flow)) = self.flows.get(stage.min(stages - 1 - stage)) {
-                advance(flow, &mut state)?;
-                time += self.step * ScalarOf::<S>::of(part);
-            }
-        }
-        let dim = state.momentum.dim();
-        if (0..dim).any(|i| !state.momentum[i].all_finite()) {
-            return Err(StepError::NonFiniteState);
-        }
-        *phase = state;
-        Ok(())
+        let last = self.splitting.flows().len() - 1;
+        compose(
+            self.splitting,
+            phase,
+            [time, self.step],
+            |piece, state, time, length| match piece {
+                Piece::Kick => kick(state, time, length),
+                Piece::Flow(stage) => match self.flows.get(stage.min(last - stage)) {
+                    Some(Some(flow)) => advance(flow, state).map(drop),
+                    _ => Ok(()),
+                },
+            },
+        )
     }
+}
+
+/// A piece of a step of kicks and flows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Piece {
+    /// A kick.
+    Kick,
+    /// The flow of this number, from 0.
+    Flow(usize),
+}
+
+/// Advances the state, given at `time`, by one step of kicks and flows. `make` makes each piece of a state from a time on, with
+/// its length; time advances with the flows.
+///
+/// # Errors
+/// Those of `make`, and [`StepError::NonFiniteState`]; `phase` is then left as it was.
+pub fn compose<G: LieGroup>(
+    splitting: Splitting,
+    phase: &mut Phase<G>,
+    [mut time, step]: [G::Scalar; 2],
+    mut make: impl FnMut(Piece, &mut Phase<G>, G::Scalar, G::Scalar) -> Result<(), StepError>,
+) -> Result<(), StepError> {
+    let mut state = phase.clone();
+    let mut parts = splitting.flows().enumerate();
+    for part in splitting.kicks() {
+        make(Piece::Kick, &mut state, time, step * G::Scalar::of(part))?;
+        let Some((stage, part)) = parts.next() else { break };
+        let length = step * G::Scalar::of(part);
+        make(Piece::Flow(stage), &mut state, time, length)?;
+        time += length;
+    }
+    let dim = state.momentum.dim();
+    if (0..dim).any(|i| !state.momentum[i].all_finite()) {
+        return Err(StepError::NonFiniteState);
+    }
+    *phase = state;
+    Ok(())
 }
 
 impl<S, F> Kicked<S, F>

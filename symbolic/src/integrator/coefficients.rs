@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use num_traits::ToPrimitive;
+use num_traits::{One, ToPrimitive};
 
 use crate::number::Rational;
 
@@ -38,6 +38,24 @@ impl Coefficients {
         contributions.sort_by_key(|contribution| contribution.step_power);
         self.bases.push(contributions);
         self.bases.len() - 1
+    }
+
+    /// A base and a slot for each of this many symbols: its value.
+    pub(crate) fn of_symbols(count: usize) -> Self {
+        let mut coefficients = Self::default();
+        for symbol in 0..count {
+            let mut symbol_powers = vec![0; count];
+            symbol_powers[symbol] = 1;
+            coefficients.add_product(0, symbol_powers);
+        }
+        coefficients
+    }
+
+    /// Adds a base and a slot that are a power of the step size times powers of symbols.
+    pub(crate) fn add_product(&mut self, step_power: u32, symbol_powers: Vec<u32>) {
+        let factor = Rational::one();
+        let base = self.add_base(vec![Contribution { factor, step_power, symbol_powers }]);
+        self.slot(base, 1);
     }
 
     /// Adds the bases and slots of another table, whose symbols come after `symbols` of this one; the number of its first slot.

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use coadjoint_program::fold::{Fold, FoldError, LastTerm, Values, gradient_bound};
 
 use super::coefficients::Coefficients;
-use super::{Integrator, Kick};
+use super::{Integrator, Kick, Kicks};
 
 /// A [`Fold`] that owns its lists.
 #[derive(Clone, Debug, Default)]
@@ -67,19 +67,23 @@ impl FoldTable {
         table
     }
 
-    /// The values of this many symbols, then the step size, and the square of a radius that is infinite.
-    pub fn of_symbols(count: usize) -> Self {
-        let numbers = 0..number(count);
-        Self {
-            products: numbers.clone().map(|symbol| (0, symbol)).collect(),
-            terms: numbers.clone().map(|symbol| (1.0, symbol + 1)).chain([(1.0, 0)]).collect(),
-            parts: (0..=number(count)).map(|at| (u32::from(at == number(count)), at + 1)).collect(),
-            bases: (0..=number(count)).map(|at| at + 1).collect(),
-            slots: (0..=number(count)).map(|at| (at, 1, at)).collect(),
-            radius: Some(number(count + 1)),
-            len: count + 2,
-            ..Self::default()
+    /// The values of this many symbols, those of the potential of kicks last, then the step size, the coefficients of kicks,
+    /// and the square of a radius that is infinite; each where `place` wants it.
+    pub fn of_symbols(
+        count: usize,
+        kicks: Option<&Kicks>,
+        place: impl Fn(usize) -> Option<usize>,
+    ) -> Self {
+        let mut coefficients = Coefficients::of_symbols(count);
+        coefficients.add_product(1, vec![0; count]);
+        if let Some(Kicks { kick, .. }) = kicks {
+            let before = count - kick.potential.symbols.len();
+            coefficients.append(&kick.coefficients, before);
         }
+        let radius_at = coefficients.slots().len();
+        let table = Self::assemble(&coefficients, &place, Vec::new(), Vec::new());
+        let len = (0..=radius_at).filter_map(&place).max().map_or(0, |last| last + 1);
+        Self { radius: place(radius_at).map(number), len, ..table }
     }
 
     fn assemble(

@@ -2,13 +2,10 @@
 
 use coadjoint_program::splitting::Splitting;
 
-use num_traits::One;
-
 use super::Integrator;
-use super::coefficients::{Coefficients, Contribution};
+use super::coefficients::Coefficients;
 use super::lower::{collect, value_program, vector_program};
 use crate::graph::Program;
-use crate::number::Rational;
 use crate::potential::{Force, Potential, Programs};
 
 /// Everything a back end needs to write or run kicks.
@@ -32,23 +29,16 @@ impl Kick {
     /// Derives the torque and lowers it.
     pub fn build(potential: Potential) -> Self {
         let entries = potential.size() * potential.size();
-        let mut coefficients = Coefficients::default();
         let polynomial = match &potential.force {
             Force::Polynomial(polynomial) => polynomial,
             Force::Smooth(programs) => {
                 // Slot j is symbol j.
-                for symbol in 0..potential.symbols.len() {
-                    let mut symbol_powers = vec![0; potential.symbols.len()];
-                    symbol_powers[symbol] = 1;
-                    let (factor, step_power) = (Rational::one(), 0);
-                    let term = Contribution { factor, step_power, symbol_powers };
-                    let base = coefficients.add_base(vec![term]);
-                    coefficients.slot(base, 1);
-                }
+                let coefficients = Coefficients::of_symbols(potential.symbols.len());
                 let (energy, torque) = (programs.value.clone(), programs.torque.clone());
                 return Self { potential, coefficients, energy, torque };
             }
         };
+        let mut coefficients = Coefficients::default();
         let energy = collect(&mut coefficients, entries, [(0, polynomial)]);
         let energy = value_program(&mut coefficients, entries, &energy);
         let components: Vec<_> = potential
@@ -61,25 +51,31 @@ impl Kick {
     }
 }
 
-/// The kicks between the flows of an integrator, over its coefficients.
+/// The kicks between the flows of a step, over its coefficients.
 #[derive(Clone, Debug)]
 pub struct Kicks {
     /// Their programs.
     pub kick: Kick,
-    /// The number of the programs' first slot among those of the integrator.
+    /// The number of the programs' first slot among those of the step.
     pub first: usize,
     /// How kicks and flows are composed.
     pub splitting: Splitting,
 }
 
-impl Integrator {
-    /// The torque of its kicks, where these have no potential.
+impl Kicks {
+    /// The torque, where it has no potential.
     pub fn torque(&self) -> Option<&Programs> {
-        self.kicks.as_ref()?.kick.potential.alone()
+        self.kick.potential.alone()
     }
 
+    /// Whether the torque depends on the time.
+    pub fn moves(&self) -> bool {
+        self.torque().is_some_and(|torque| torque.moves)
+    }
+}
+
+impl Integrator {
     /// The same with kicks between flows; `None` where the potential has other parameters than the Hamiltonian.
-    #[must_use]
     pub fn with_kicks(mut self, kick: Kick, splitting: Splitting) -> Option<Self> {
         let problem = &mut self.problem;
         if kick.potential.parameters != problem.parameters {

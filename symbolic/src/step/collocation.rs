@@ -12,12 +12,12 @@ use coadjoint_program::collocation::{
 use coadjoint_program::{Kernel, KernelParts, Programs};
 
 use super::product::{Moved, Part, Product};
-use super::programs::{matrix, polynomial, sound};
+use super::programs::{kicked, matrix, sound, watch};
 use super::solving::inputs;
 use super::tables::{Structure, structure_of};
 use super::vector::{all_at_most, finite, largest};
 use crate::graph::{Graph, Id, Program};
-use crate::lie;
+use crate::integrator::Kicks;
 use crate::smooth::Smooth;
 use crate::step::StepError;
 
@@ -62,9 +62,23 @@ pub(super) fn times(nodes: usize) -> Vec<f64> {
 }
 
 /// How many numbers steps leave to the next one: how many steps there were, as far as they count, and differences of their
-/// rates.
+/// rates. A flow between kicks goes on from none, and leaves none.
 pub(super) fn memory(smooth: &Smooth) -> usize {
-    1 + KEPT * 2 * smooth.algebra.dim() * smooth.nodes()
+    match smooth.kicks {
+        Some(_) => 0,
+        None => 1 + KEPT * 2 * smooth.algebra.dim() * smooth.nodes(),
+    }
+}
+
+/// The place of the radius among the coefficients: after the symbols, h, and the coefficients of kicks.
+pub(super) fn radius_at(smooth: &Smooth) -> usize {
+    let of_kicks = |kicks: &Kicks| kicks.kick.coefficients.slots().len();
+    smooth.symbols.len() + 1 + smooth.kicks.as_ref().map_or(0, of_kicks)
+}
+
+/// The place of the first time: after the radius, and the length of a kick where there are kicks.
+pub(super) fn first_time(smooth: &Smooth) -> usize {
+    radius_at(smooth) + 1 + usize::from(smooth.kicks.is_some())
 }
 
 /// About the operations of a sweep.
@@ -74,8 +88,9 @@ pub(super) fn operations(smooth: &Smooth) -> usize {
     smooth.nodes().saturating_mul(gradient.operations().saturating_add(brackets))
 }
 
-/// The kernel of a step; the values of the symbols come first among the coefficients, after them h, a radius that is not read, and, where
-/// the Hamiltonian moves, for each of the [`times`] the time and the signals then. The last part of the group is the memory of its steps.
+/// The kernel of a step; the values of the symbols come first among the coefficients, after them h, with kicks the coefficients of their
+/// torque, a radius that is not read, with kicks the length of one, and, where the system moves, for each of the [`times`] the
+/// time and the signals then. Without kicks the last part of the group is the memory of its steps.
 pub(super) fn kernel(smooth: &Smooth, group: &Product) -> Result<Kernel, StepError> {
     let step = Collocation::new(smooth, group);
     let rates = step.rates();
@@ -89,7 +104,7 @@ pub(super) fn kernel(smooth: &Smooth, group: &Product) -> Result<Kernel, StepErr
         watch: step.watch(),
         matrix: matrix(group),
     };
-    Ok(Kernel::new(KernelParts {
+    let kernel = Kernel::new(KernelParts {
         dim: step.n,
         element: group.element(),
         unknowns: rates + 1,
@@ -98,7 +113,8 @@ pub(super) fn kernel(smooth: &Smooth, group: &Product) -> Result<Kernel, StepErr
         near: 0.0,
         corrections: MAX_SWEEPS,
         programs,
-    })?)
+    })?;
+    kicked(kernel, smooth.kicks.as_ref(), group, radius_at(smooth) + 1)
 }
 
 struct Collocation<'a> {
@@ -211,7 +227,7 @@ impl<'a> Collocation<'a> {
         let mut arguments = mu.to_vec();
         if self.smooth.depends_on_time() {
             let each = 1 + self.smooth.signals.len();
-            let first = self.smooth.symbols.len() + 2 + time * each;
+            let first = first_time(self.smooth) + time * each;
             arguments.extend((first..first + each).map(|slot| graph.slot(slot)));
         }
         graph.call(program, &arguments)
@@ -251,25 +267,17 @@ impl<'a> Collocation<'a> {
         sum
     }
 
-    /// g, μ ↦ the rates of the steps before, extrapolated by the polynomial through them; the momentum in the middle and h
-    /// times the Hessian there, which the linear model is made of.
+    /// g, μ ↦ the rates of the steps before, extrapolated by the polynomial through them, or none; the momentum in the middle
+    /// and h times the Hessian there, which the linear model is made of.
     fn guess(&self) -> Program {
-        let (graph, rates) = (Graph::new(), self.rates());
-        let memory = inputs(&graph, self.element, 1 + KEPT * rates);
+        let graph = Graph::new();
+        let memory = inputs(&graph, self.element, memory(self.smooth));
         let mu = inputs(&graph, self.element + memory.len(), self.n);
-        let last = Rates::new(self.n, &memory[1..1 + rates]);
-        let [zero, one] = [0.0, 1.0].map(|value| graph.constant(value));
-        let size = largest(&graph, &last.x.concat());
-        let [long, many, few] =
-            [LONG, KEPT as f64, KEPT_LONG as f64].map(|value| graph.constant(value));
-        let count = graph.min(memory[0], graph.select(size, long, many, few));
-        let mut guess = vec![zero; rates];
-        for (order, differences) in memory[1..].chunks(rates).enumerate() {
-            let weight = graph.select(graph.constant((order + 1) as f64), count, one, zero);
-            for (sum, &difference) in guess.iter_mut().zip(differences) {
-                *sum = graph.times_plus(weight, difference, *sum);
-            }
-        }
+        let zero = graph.zero();
+        let guess = match memory.split_first() {
+            Some((&count, differences)) => self.extrapolated(&graph, count, differences),
+            None => vec![zero; self.rates()],
+        };
         let mut outputs = guess.clone();
         outputs.push(zero);
         if self.models() {
@@ -280,6 +288,25 @@ impl<'a> Collocation<'a> {
             outputs.extend(hessian.into_iter().map(|entry| graph.mul(step, entry)));
         }
         graph.finish(self.element + memory.len() + self.n, &outputs)
+    }
+
+    /// The rates of the next step from the number of steps before it and the differences of their rates.
+    fn extrapolated(&self, graph: &Graph, count: Id, differences: &[Id]) -> Vec<Id> {
+        let rates = self.rates();
+        let last = Rates::new(self.n, &differences[..rates]);
+        let [zero, one] = [0.0, 1.0].map(|value| graph.constant(value));
+        let size = largest(graph, &last.x.concat());
+        let [long, many, few] =
+            [LONG, KEPT as f64, KEPT_LONG as f64].map(|value| graph.constant(value));
+        let count = graph.min(count, graph.select(size, long, many, few));
+        let mut guess = vec![zero; rates];
+        for (order, differences) in differences.chunks(rates).enumerate() {
+            let weight = graph.select(graph.constant((order + 1) as f64), count, one, zero);
+            for (sum, &difference) in guess.iter_mut().zip(differences) {
+                *sum = graph.times_plus(weight, difference, *sum);
+            }
+        }
+        guess
     }
 
     /// ∂²H/∂μ² in the middle of the step, the entries (i, j) with j ≤ i, row by row.
@@ -449,27 +476,24 @@ impl<'a> Collocation<'a> {
         let solution = inputs(&graph, g.len() + n, n + 2 + rates);
         let Moved { g: mut outputs, mu } = self.group.transport(&graph, &g, &solution[..n], &mu);
         outputs.truncate(self.element);
-        let memory = &g[self.element..];
-        let [one, most] = [1.0, KEPT as f64].map(|value| graph.constant(value));
-        outputs.push(graph.min(graph.add(memory[0], one), most));
-        let mut new = solution[n + 2..].to_vec();
-        for old in memory[1..].chunks(rates) {
-            outputs.extend_from_slice(&new);
-            new = new.iter().zip(old).map(|(&new, &old)| graph.sub(new, old)).collect();
+        if let Some((&count, differences)) = g[self.element..].split_first() {
+            let [one, most] = [1.0, KEPT as f64].map(|value| graph.constant(value));
+            outputs.push(graph.min(graph.add(count, one), most));
+            let mut new = solution[n + 2..].to_vec();
+            for old in differences.chunks(rates) {
+                outputs.extend_from_slice(&new);
+                new = new.iter().zip(old).map(|(&new, &old)| graph.sub(new, old)).collect();
+            }
         }
         outputs.extend(mu);
         graph.finish(g.len() + n + solution.len(), &outputs)
     }
 
-    /// g, μ ↦ the energy, at the time at which the step begins, and the Casimirs of low degree.
+    /// g, μ ↦ the energy, at the time at which the step begins, and the Casimirs of low degree that are conserved.
     fn watch(&self) -> Program {
-        let graph = Graph::new();
-        let mu = inputs(&graph, self.group.element(), self.n);
-        let mut outputs = self.at(&graph, &self.smooth.value, &mu, 0);
-        for casimir in lie::watched_casimirs(&self.smooth.algebra) {
-            outputs.push(polynomial(&graph, &casimir, &mu));
-        }
-        graph.finish(self.group.element() + self.n, &outputs)
+        let Smooth { algebra, kicks, value, .. } = self.smooth;
+        let energy = |graph: &Graph, mu: &[Id]| self.at(graph, value, mu, 0);
+        watch(energy, (algebra, kicks.as_ref()), self.group)
     }
 }
 

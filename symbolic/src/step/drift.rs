@@ -121,7 +121,7 @@ pub enum PotentialEnergy {
 
 impl PotentialEnergy {
     /// V(g).
-    fn value(&self, g: &[f64]) -> f64 {
+    pub fn value(&self, g: &[f64]) -> f64 {
         match self {
             Self::Polynomial(polynomial) => polynomial.value(g),
             Self::Smooth(program, slots) => {
@@ -150,13 +150,11 @@ impl Invariants {
     /// Of the motion with this Hamiltonian, with the kicks of a potential if there is one.
     pub fn new(algebra: &LieAlgebra, hamiltonian: Energy, potential: Option<&Potential>) -> Self {
         let dim = algebra.dim();
+        let moves = matches!(&hamiltonian, Energy::Smooth(smooth, _) if smooth.moves);
+        let moves = moves.then_some("not conserved: the Hamiltonian depends on time");
         let Some(potential) = potential else {
-            let of_algebra = Self::of(algebra);
-            if matches!(&hamiltonian, Energy::Smooth(smooth, _) if smooth.moves) {
-                let why = "not conserved: the Hamiltonian depends on time";
-                return Self { no_energy: Some(why), ..of_algebra };
-            }
-            return Self { hamiltonian: Some(hamiltonian), ..of_algebra };
+            let hamiltonian = moves.is_none().then_some(hamiltonian);
+            return Self { hamiltonian, no_energy: moves, ..Self::of(algebra) };
         };
         let kept = watched_casimirs(algebra).into_iter();
         let kept = kept.filter(|casimir| potential.keeps(casimir));
@@ -170,13 +168,15 @@ impl Invariants {
                 programs.value.clone().map(|value| PotentialEnergy::Smooth(value, symbols))
             }
         };
+        let no_energy = match value {
+            Some(_) => moves,
+            None => Some("not conserved: a torque acts, which is not Hamiltonian"),
+        };
         Self {
             directions: Some(potential.directions()),
             casimirs: kept.map(|casimir| Numeric::new(&casimir, dim, &[])).collect(),
-            hamiltonian: value.is_some().then_some(hamiltonian),
-            no_energy: value
-                .is_none()
-                .then_some("not conserved: a torque acts, which is not Hamiltonian"),
+            hamiltonian: no_energy.is_none().then_some(hamiltonian),
+            no_energy,
             potential: value,
         }
     }

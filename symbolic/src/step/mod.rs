@@ -105,7 +105,7 @@ impl<'a> Origin<'a> {
     pub fn kicks(self) -> Option<&'a Kicks> {
         match self {
             Self::Series(integrator) => integrator.kicks.as_ref(),
-            Self::Collocation(_) => None,
+            Self::Collocation(smooth) => smooth.kicks.as_ref(),
         }
     }
 }
@@ -115,7 +115,7 @@ impl<'a> Origin<'a> {
 struct Moving {
     /// The first place.
     first: usize,
-    /// The times of collocation from the beginning of a step on, in its lengths; those of kicks follow from the flows.
+    /// The times from the beginning of a flow on, in its lengths; the first is that of the kick before it.
     times: Vec<f64>,
     signals: Vec<Signal>,
 }
@@ -154,17 +154,18 @@ impl Step {
         let fold = FoldTable::placed(integrator, |at| (at <= radius_at).then_some(at));
         let symbols = integrator.problem.symbols.iter().map(|symbol| symbol.expr.clone()).collect();
         let splitting = integrator.kicks.as_ref().map(|kicks| kicks.splitting);
-        let moving = integrator.torque().filter(|torque| torque.moves);
+        let torque = integrator.kicks.as_ref().and_then(Kicks::torque);
+        let moving = torque.filter(|torque| torque.moves);
         let moving = moving.map(|torque| Moving {
             first: radius_at + 2,
-            times: Vec::new(),
+            times: vec![0.0],
             signals: torque.signals.clone(),
         });
         Ok(Self { kernel, group, fold, symbols, radius_at, splitting, moving, memory: 0 })
     }
 
-    /// The programs of a step of collocation in numbers of this precision, in the exponential chart about its middle. Elements
-    /// then have numbers that steps leave to the next one.
+    /// The programs of a step of collocation in numbers of this precision, in the exponential chart about its middle. Without
+    /// kicks elements then have numbers that steps leave to the next one.
     ///
     /// # Errors
     /// [`StepError`] where the step has no straight-line programs.
@@ -183,23 +184,26 @@ impl Step {
             return Err(StepError::SingleTime);
         }
         let memory = collocation::memory(smooth);
-        group.0.push(Box::new(Memory { numbers: memory }));
+        if memory > 0 {
+            group.0.push(Box::new(Memory { numbers: memory }));
+        }
         let mut kernel = collocation::kernel(smooth, &group)?.in_precision(precision);
         let symbols = smooth.symbols.iter().map(|symbol| symbol.expr.clone()).collect();
-        let radius_at = smooth.symbols.len() + 1;
-        let moving = smooth.depends_on_time().then(|| Moving {
-            first: radius_at + 1,
+        let (radius_at, kicks) = (collocation::radius_at(smooth), smooth.kicks.as_ref());
+        let moves = kicks.is_some_and(Kicks::moves);
+        let moving = (moves || smooth.depends_on_time()).then(|| Moving {
+            first: collocation::first_time(smooth),
             times: collocation::times(smooth.nodes()),
             signals: smooth.signals.clone(),
         });
-        if let Some(Moving { first, times, .. }) =
-            moving.as_ref().filter(|own| own.signals.is_empty())
-        {
+        // The size of a step of kicks is in no place.
+        let clocked = moving.as_ref().filter(|own| kicks.is_none() && own.signals.is_empty());
+        if let Some(Moving { first, times, .. }) = clocked {
             let (size, first, times) = (radius_at - 1, *first, times.clone());
             kernel = kernel.with_clock(Clock { size, first, times });
         }
-        let fold = FoldTable::of_symbols(smooth.symbols.len());
-        let splitting = None;
+        let fold = FoldTable::of_symbols(smooth.symbols.len(), kicks, Some);
+        let splitting = kicks.map(|kicks| kicks.splitting);
         Ok(Self { kernel, group, fold, symbols, radius_at, splitting, moving, memory })
     }
 
@@ -248,17 +252,17 @@ impl Step {
             let values = std::iter::once(time).chain(signals.iter().map(|signal| signal.at(time)));
             slots.iter_mut().zip(values).for_each(|(slot, value)| *slot = value);
         };
-        let Some(splitting) = self.splitting else {
-            let places = slots.get_mut(*first..).unwrap_or_default();
-            for (slots, part) in places.chunks_mut(1 + signals.len()).zip(times) {
-                put(slots, part.mul_add(step, time));
-            }
-            return;
+        // After the last kick there is no flow.
+        let flows: Vec<f64> = match self.splitting {
+            Some(splitting) => splitting.flows().chain([0.0]).collect(),
+            None => vec![1.0],
         };
-        let flows = splitting.flows().chain([0.0]);
         let mut time = time;
         for (slots, flow) in slots.chunks_mut(self.kernel.slots_of_flow().max(1)).zip(flows) {
-            put(slots.get_mut(*first..).unwrap_or_default(), time);
+            let places = slots.get_mut(*first..).unwrap_or_default();
+            for (slots, part) in places.chunks_mut(1 + signals.len()).zip(times) {
+                put(slots, part.mul_add(step * flow, time));
+            }
             time += step * flow;
         }
     }

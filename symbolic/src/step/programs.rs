@@ -8,7 +8,7 @@ use super::solving::{ROUNDINGS, Scheme, inputs, squares_of_series, tolerance};
 use super::vector::{all_at_most, finite};
 use crate::graph::{Graph, Id, Program};
 use crate::integrator::{Integrator, Kick, Kicks};
-use crate::lie;
+use crate::lie::{self, LieAlgebra};
 use crate::poly::Polynomial;
 use crate::step::StepError;
 use crate::step::product::{ESTIMATED, Part, Product};
@@ -36,7 +36,11 @@ pub(crate) fn kernel(
         transport,
         frame,
         sound: sound(group),
-        watch: watch(integrator, group),
+        watch: watch(
+            |graph, mu| graph.call(&integrator.energy, mu),
+            (&integrator.problem.algebra, integrator.kicks.as_ref()),
+            group,
+        ),
         matrix: matrix(group),
     };
     let kernel = Kernel::new(KernelParts {
@@ -49,13 +53,19 @@ pub(crate) fn kernel(
         corrections: scheme.corrections(),
         programs,
     })?;
-    match &integrator.kicks {
-        Some(kicks) => {
-            let flows = kicks.splitting.flows().len() as u32;
-            Ok(kernel.with_kicks(kick(kicks, group, radius + 1), flows)?)
-        }
-        None => Ok(kernel),
-    }
+    kicked(kernel, integrator.kicks.as_ref(), group, radius + 1)
+}
+
+/// The kernel of a flow with kicks between flows, if there are any, whose length is this coefficient.
+pub(super) fn kicked(
+    kernel: Kernel,
+    kicks: Option<&Kicks>,
+    group: &Product,
+    length: usize,
+) -> Result<Kernel, StepError> {
+    let Some(kicks) = kicks else { return Ok(kernel) };
+    let flows = kicks.splitting.flows().len() as u32;
+    Ok(kernel.with_kicks(kick(kicks, group, length), flows)?)
 }
 
 /// g, μ ↦ μ + l·τ(g), with the torque τ and the length l of the kick. A torque without potential reads the time and the
@@ -167,14 +177,18 @@ pub(super) fn sound(group: &Product) -> Program {
     graph.finish(m + n, &[all_at_most(&graph, &[(defect, graph.sqrt(limit))])])
 }
 
-/// g, μ ↦ the energy H_red(μ) + V(g), then the Casimirs of low degree that are conserved.
-fn watch(integrator: &Integrator, group: &Product) -> Program {
+/// g, μ ↦ the energy H_red(μ) + V(g), the first being given, then the Casimirs of low degree that are conserved.
+pub(super) fn watch(
+    energy: impl Fn(&Graph, &[Id]) -> Vec<Id>,
+    (algebra, kicks): (&LieAlgebra, Option<&Kicks>),
+    group: &Product,
+) -> Program {
     let (n, m) = (group.dim(), group.element());
     let graph = Graph::new();
     let (g, mu) = (inputs(&graph, 0, m), inputs(&graph, m, n));
-    let mut outputs = graph.call(&integrator.energy, &mu);
-    let mut casimirs = lie::watched_casimirs(&integrator.problem.algebra);
-    if let Some(Kicks { kick, first, .. }) = &integrator.kicks {
+    let mut outputs = energy(&graph, &mu);
+    let mut casimirs = lie::watched_casimirs(algebra);
+    if let Some(Kicks { kick, first, .. }) = kicks {
         let matrix = group.matrix(&graph, &g);
         if let Some(energy) = &kick.energy {
             for energy in graph.call_from(energy, matrix.entries(), *first) {
@@ -190,7 +204,7 @@ fn watch(integrator: &Integrator, group: &Product) -> Program {
 }
 
 /// The value of a polynomial in these coordinates.
-pub(super) fn polynomial(graph: &Graph, polynomial: &Polynomial, inputs: &[Id]) -> Id {
+fn polynomial(graph: &Graph, polynomial: &Polynomial, inputs: &[Id]) -> Id {
     let mut sum = graph.zero();
     for (factors, value) in polynomial.factors() {
         let mut product = graph.constant(value.to_f64().unwrap_or(f64::NAN));

@@ -13,6 +13,7 @@ use crate::emit::c::names::Names;
 use crate::emit::c::parameter;
 use crate::emit::c::{HeaderError, HeaderOptions};
 use crate::integrator::{FoldTable, Kicks};
+use crate::smooth::Smooth;
 use crate::step::{Origin, Step};
 
 /// The coefficients that the programs of a step read, and where the header has them: the slots that are read, in the
@@ -46,10 +47,13 @@ impl Folding {
         let mut list = vec![&programs.guess, &programs.correct, &programs.accept];
         list.extend([&programs.transport, &programs.sound, &programs.watch]);
         list.extend(programs.frame.iter().chain(step.kernel().kick()));
-        let kick_of = |radius_at: usize| step.kernel().flows().map(|_| radius_at + 1);
+        // The length of a kick, which the programs know after the radius.
+        let radius_at = step.radius_at();
+        let kick = step.kernel().flows().map(|_| radius_at + 1);
+        let last = kick.into_iter().chain([radius_at]);
         let read = read(&list);
         let times = step.kernel().clock().map_or(0, |clock| clock.times.len());
-        let (places, table, kick) = match origin {
+        let (places, table): (BTreeMap<usize, usize>, _) = match origin {
             Origin::Series(integrator) => {
                 let slots = integrator.coefficients.slots();
                 let of_slot =
@@ -59,21 +63,19 @@ impl Folding {
                 if wanted.is_empty() {
                     return Err(HeaderError::Constant);
                 }
-                let radius_at = FoldTable::radius_at(integrator);
                 let of_step = slots.len()..radius_at;
-                // The length of a kick, which the programs know after the radius.
-                let kick = kick_of(radius_at);
                 let all = wanted.into_iter().map(|(.., slot)| slot).chain(of_step);
-                let all = all.chain(kick).chain([radius_at]);
-                let places: BTreeMap<usize, usize> = all.zip(0..).collect();
+                let places: BTreeMap<usize, usize> = all.chain(last).zip(0..).collect();
                 let table = FoldTable::placed(integrator, |at| places.get(&at).copied());
-                (places, table, kick)
+                (places, table)
             }
-            // The symbols, the step size, and the radius, which is infinite; after them the times.
-            Origin::Collocation(smooth) => {
-                let count = smooth.symbols.len();
-                let places = (0..count + 2 + times).map(|at| (at, at)).collect();
-                (places, FoldTable::of_symbols(count), None)
+            // The last of these are the times.
+            Origin::Collocation(Smooth { symbols, kicks, .. }) => {
+                let all = (0..radius_at).chain(last).chain(radius_at + 1..radius_at + 1 + times);
+                let places: BTreeMap<usize, usize> = all.zip(0..).collect();
+                let place = |at| places.get(&at).copied();
+                let table = FoldTable::of_symbols(symbols.len(), kicks.as_ref(), place);
+                (places, table)
             }
         };
         let highest = table.lists().last.iter().map(|term| term.3).max().unwrap_or(0);

@@ -404,6 +404,7 @@ fn rescue(origin: Origin<'_>, step: &Step) -> String {
         Origin::Series(_) => "The library in Rust then follows the solution from the identity; this header does not: take a \
             smaller step."
             .to_owned(),
+        Origin::Collocation(_) if step.memory() == 0 => "Then take a smaller step.".to_owned(),
         Origin::Collocation(_) => format!(
             "A step begins with a guess from those before it, by the last {} numbers of g: where a state was changed, or \
              a step is refused, set them to 0, which forgets them; then take a smaller step.",

@@ -87,6 +87,10 @@ const DRIVEN: &str = "name = \"driven\"\ngroup = \"SO3\"\ncoordinates = [\"x\", 
 const DRIVEN_SIX: &str = "name = \"driven six\"\ngroup = \"SE3\"\ncoordinates = [\"a\", \"b\", \"c\", \"u\", \"v\", \"w\"]\n\
     hamiltonian = \"(a^2 + b^2/2 + c^2/3)/2 + exp(u*sin(t)/5) + v^2/3 + w^2/(2 + cos(t))\"\n\
     [integrator]\nstep = 0.1\n[initial]\nmomentum = [0.4, 0.3, 0.9, 0.2, 0.5, -0.3]\n";
+/// A body about a fixed point whose energy has a root, with kicks between flows by collocation.
+const KICKED_ROOT: &str = "name = \"kicked root\"\ngroup = \"SO3\"\ncoordinates = [\"x\", \"y\", \"z\"]\n\
+    hamiltonian = \"sqrt(1 + x^2/2 + y^2/(2*I2) + z^2/4)\"\npotential = \"-m*g[2][2] + sqrt(m)*g[0][1]/3\"\n\
+    [parameters]\nm = 1.5\nI2 = 2.8\n[integrator]\nstep = 0.1\n[initial]\nmomentum = [0.5, -1.4, 0.8]\n";
 
 impl System {
     /// Written as C with its parameters substituted, in the exponential chart, and compared with no committed header.
@@ -134,6 +138,7 @@ const SYSTEMS: &[System] = &[
     System::new("six_variables", SIX, 3).cpp(),
     System::new("driven", DRIVEN, 5).kept(),
     System::new("driven_six", DRIVEN_SIX, 3).cpp(),
+    System::new("kicked_root", KICKED_ROOT, 3).kept(),
 ];
 
 /// All systems, built once.
@@ -179,7 +184,7 @@ impl Built {
         };
         let read = system::read_either(&text(system.text), options, &[]).unwrap();
         let (units, run) = (read.units, read.run);
-        let integrator;
+        let (integrator, kicked);
         let origin = match &read.problem {
             Hamiltonian::Polynomial(problem) => {
                 let flow = Integrator::build((**problem).clone(), TermLimit::default()).unwrap();
@@ -191,7 +196,16 @@ impl Built {
                 };
                 Origin::Series(&integrator)
             }
-            Hamiltonian::Smooth(smooth) => Origin::Collocation(smooth),
+            Hamiltonian::Smooth(smooth) => {
+                let flow = (**smooth).clone();
+                kicked = match read.potential {
+                    Some((potential, splitting)) => {
+                        flow.with_kicks(Kick::build(potential), splitting).unwrap()
+                    }
+                    None => flow,
+                };
+                Origin::Collocation(&kicked)
+            }
         };
         let facts = origin.facts();
         let style = HeaderOptions {
