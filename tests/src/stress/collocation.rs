@@ -1,13 +1,22 @@
 //! Families of steps by collocation: Hamiltonians with a root, a quadratic form and a linear one, drawn at random, in steps
-//! h|Ω| up to 3, whose results are compared with the flow by another method in short steps.
+//! h|Ω| up to 3, whose results are compared with the flow by another method in short steps. They are made by the runtime, and by the
+//! programs of a kernel.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, LazyLock, Mutex};
 
 use coadjoint::collocation::{Collocation, Energy};
 use coadjoint::groups::{Coordinates, Power, SE2, SL2, SU2};
 use coadjoint::{LieGroup, Phase, SE3, SO3};
+use coadjoint_codegen::smooth::Hamiltonian;
+use coadjoint_codegen::step::{Origin, Spatial, Step};
+use coadjoint_codegen::system::{Options, Parameters, read_either};
+use coadjoint_program::{Precision, Stepper};
 
-use super::family::Family;
+use super::family::{Family, algebra};
 use super::random::Random;
 use super::verdict::{Tally, Wrong};
+use crate::backends::entries_of;
 
 /// Systems and momenta drawn of one seed.
 const DRAWS: usize = 32;
@@ -80,58 +89,160 @@ fn flow<G: LieGroup<Scalar = f64>>(group: &G, energy: &Drawn, h: f64, mu: &G::Ve
     m
 }
 
+/// Makes the steps of a trajectory, whose group element it keeps.
+trait Mover<V> {
+    /// Whether the step from this momentum is accepted.
+    fn advance(&mut self, mu: &mut V) -> bool;
+
+    /// Ad\*_g μ
+    fn spatial(&self, mu: &V) -> V;
+}
+
+/// The runtime's steps.
+struct Generic<G: LieGroup<Scalar = f64>, const M: usize> {
+    group: G,
+    step: Collocation<G, Drawn, M>,
+    element: G::Element,
+}
+
+impl<G: LieGroup<Scalar = f64>, const M: usize> Mover<G::Vector> for Generic<G, M> {
+    fn advance(&mut self, mu: &mut G::Vector) -> bool {
+        let mut state = Phase::<G>::new(self.element.clone(), mu.clone());
+        let made = self.step.advance(&mut state, 0.0).is_ok();
+        (self.element, *mu) = (state.group_element, state.momentum);
+        made
+    }
+
+    fn spatial(&self, mu: &G::Vector) -> G::Vector {
+        self.group.coadjoint(&self.element, mu)
+    }
+}
+
+/// The programs of a kernel, for any values of the numbers of a [`Drawn`].
+struct Programs {
+    step: Step,
+    spatial: Spatial,
+}
+
+/// Those on a group of the catalogue, by its name and a number of nodes, once they were asked for.
+fn programs(group: &'static str, nodes: usize) -> Arc<Programs> {
+    static KNOWN: LazyLock<Mutex<BTreeMap<(&str, usize), Arc<Programs>>>> =
+        LazyLock::new(Mutex::default);
+    let mut known = KNOWN.lock().expect("a whole map");
+    let build = || {
+        let n = algebra(group).dim();
+        let names: Vec<String> = (0..n).map(|i| format!("m{i}")).collect();
+        let (ones, rows) = (vec![1; n], vec![vec![1; n]; n]);
+        let text = format!(
+            "group = {group:?}\ncoordinates = {names:?}\nhamiltonian = \"sqrt(1 + sum(i, 0..{n}, w[i]*mu[i]^2)) + \
+             sum(i, 0..{n}, sum(j, 0..{n}, q[i][j]*mu[i]*mu[j]))/2 + sum(i, 0..{n}, b[i]*mu[i])\"\n\
+             [parameters]\nw = {ones:?}\nq = {rows:?}\nb = {ones:?}\n"
+        );
+        let truncation = Some(2 * nodes - 1);
+        let options = Options { truncation, parameters: Parameters::Kept, ..Options::default() };
+        let Hamiltonian::Smooth(smooth) =
+            read_either(&text, options, &[]).expect("a system").problem
+        else {
+            panic!("a root is no polynomial")
+        };
+        let step = Origin::Collocation(&smooth).step(Precision::Double).expect("a kernel");
+        Arc::new(Programs { spatial: Spatial::new(&step), step })
+    };
+    Arc::clone(known.entry((group, nodes)).or_insert_with(build))
+}
+
+/// A kernel's steps, by the interpreter.
+struct Interpreted {
+    programs: Arc<Programs>,
+    slots: Vec<f64>,
+    element: Vec<f64>,
+}
+
+impl<V: Coordinates<f64>> Mover<V> for Interpreted {
+    fn advance(&mut self, mu: &mut V) -> bool {
+        let kernel = self.programs.step.kernel();
+        let mut numbers: Vec<f64> = (0..mu.dim()).map(|i| mu[i]).collect();
+        let made = kernel.advance(&self.slots, &mut self.element, &mut numbers, 1).steps == 1;
+        *mu = V::from_entries(numbers.len(), |i| numbers[i]);
+        made
+    }
+
+    fn spatial(&self, mu: &V) -> V {
+        let numbers: Vec<f64> = (0..mu.dim()).map(|i| mu[i]).collect();
+        let spatial = self.programs.spatial.momentum(&self.element, &numbers);
+        V::from_entries(mu.dim(), |i| spatial[i])
+    }
+}
+
 /// The largest sum of magnitudes in a coordinate of Ad\*_g μ, in which they may cancel.
-fn summands<G: LieGroup<Scalar = f64>>(group: &G, state: &Phase<G>) -> f64 {
-    let n = group.dim();
+fn summands<V: Coordinates<f64>>(mover: &dyn Mover<V>, mu: &V) -> f64 {
+    let n = mu.dim();
     let mut sums = vec![0.0; n];
     for j in 0..n {
-        let column = group.coadjoint(&state.group_element, &G::Vector::unit(n, j));
+        let column = mover.spatial(&V::unit(n, j));
         for i in 0..n {
-            sums[i] += (column[i] * state.momentum[j]).abs();
+            sums[i] += (column[i] * mu[j]).abs();
         }
     }
     sums.into_iter().fold(0.0, f64::max)
 }
 
-/// Steps of one system with `M` nodes.
-fn steps<G, const M: usize>(group: &G, random: &mut Random, tally: &mut Tally)
-where
-    G: LieGroup<Scalar = f64>,
+/// Steps of one system with `M` nodes; by programs where the group has this name in the catalogue.
+fn steps<G, const M: usize>(
+    group: &G,
+    by_programs: Option<&'static str>,
+    random: &mut Random,
+    tally: &mut Tally,
+) where
+    G: LieGroup<Scalar = f64> + 'static,
 {
     let n = group.dim();
     let energy = Drawn::new(n, random);
     let far = |a: &G::Vector, b: &G::Vector| a.clone().minus(b).largest_entry();
     let size = random.between(0.2, 3.0);
     let direction = random.direction(n);
-    let mu = G::Vector::from_entries(n, |i| size * direction[i]);
+    let mut mu = G::Vector::from_entries(n, |i| size * direction[i]);
     let velocity = energy.gradient(0.0, &mu);
     let longest = if random.one_in(2) { 3.0 } else { 0.8 };
     let h = random.between(0.05, longest) / velocity.pairing(&velocity).sqrt();
     let h = if random.one_in(8) { -h } else { h };
     let turn = G::Vector::from_entries(n, |_| random.between(-1.0, 1.0));
-    let mut state = Phase::<G>::new(group.exp(&turn), mu);
-    let spatial = state.spatial_momentum(group);
-    let Ok(mut step) = Collocation::<_, _, M>::new(group.clone(), energy.clone(), h) else {
-        return;
+    let element = group.exp(&turn);
+    let mut mover: Box<dyn Mover<G::Vector>> = match by_programs {
+        None => {
+            let step = Collocation::<_, _, M>::new(group.clone(), energy.clone(), h);
+            let Ok(step) = step else { return };
+            Box::new(Generic { group: group.clone(), step, element })
+        }
+        Some(name) => {
+            let programs = programs(name, M);
+            let form = energy.form.iter().flatten();
+            let values: Vec<f64> =
+                energy.root.iter().chain(form).chain(&energy.linear).copied().collect();
+            let Ok(slots) = programs.step.fold(h, &values) else { return };
+            let element = programs.step.element_of(&entries_of(group, &element));
+            Box::new(Interpreted { programs, slots, element })
+        }
     };
+    let spatial = mover.spatial(&mu);
     for _ in 0..STEPS {
-        let before = state.clone();
-        let example = || format!("M = {M}, h = {h}, μ = {:?}, {energy:?}", before.momentum);
-        if step.advance(&mut state, 0.0).is_err() {
+        let before = mu.clone();
+        let example = || format!("M = {M}, h = {h}, μ = {before:?}, {energy:?}");
+        if !mover.advance(&mut mu) {
             tally.refused += 1;
-            if far(&state.momentum, &before.momentum) != 0.0 {
+            if far(&mu, &before) != 0.0 {
                 tally.note(Wrong::Changed, example);
             }
             break;
         }
         tally.accepted += 1;
-        let kept = far(&state.spatial_momentum(group), &spatial) / summands(group, &state);
+        let kept = far(&mover.spatial(&mu), &spatial) / summands(mover.as_ref(), &mu);
         tally.deviation = tally.deviation.max(kept / 1e-12);
         if kept.is_nan() || kept > 1e-12 {
             tally.note(Wrong::State, example);
         }
-        let exact = flow(group, &energy, h, &before.momentum);
-        let error = far(&state.momentum, &exact) / before.momentum.largest_entry();
+        let exact = flow(group, &energy, h, &before);
+        let error = far(&mu, &exact) / before.largest_entry();
         let share = error / FARTHEST[M.min(FARTHEST.len()) - 1];
         if share.is_nan() || share > 1.0 {
             tally.note(Wrong::Branch, || format!("{error:.1e} from the flow: {}", example()));
@@ -142,16 +253,21 @@ where
 }
 
 /// Steps of the systems of a seed, with any number of nodes.
-fn instance<G: LieGroup<Scalar = f64>>(group: &G, seed: u64, tally: &mut Tally) {
+fn instance<G: LieGroup<Scalar = f64> + 'static>(
+    group: &G,
+    by: Option<&'static str>,
+    seed: u64,
+    tally: &mut Tally,
+) {
     let mut random = Random::new(seed);
     for _ in 0..DRAWS {
         match random.below(6) {
-            0 => steps::<G, 1>(group, &mut random, tally),
-            1 => steps::<G, 2>(group, &mut random, tally),
-            2 => steps::<G, 3>(group, &mut random, tally),
-            3 => steps::<G, 4>(group, &mut random, tally),
-            4 => steps::<G, 5>(group, &mut random, tally),
-            _ => steps::<G, 6>(group, &mut random, tally),
+            0 => steps::<G, 1>(group, by, &mut random, tally),
+            1 => steps::<G, 2>(group, by, &mut random, tally),
+            2 => steps::<G, 3>(group, by, &mut random, tally),
+            3 => steps::<G, 4>(group, by, &mut random, tally),
+            4 => steps::<G, 5>(group, by, &mut random, tally),
+            _ => steps::<G, 6>(group, by, &mut random, tally),
         }
     }
 }
@@ -159,13 +275,33 @@ fn instance<G: LieGroup<Scalar = f64>>(group: &G, seed: u64, tally: &mut Tally) 
 type Instances = fn(u64, &mut Tally);
 
 pub(super) fn families(only: &str) -> Vec<Family> {
-    let all: [(&str, Instances); 6] = [
-        ("collocation-so3", |seed, tally| instance(&SO3::<f64>::new(), seed, tally)),
-        ("collocation-su2", |seed, tally| instance(&SU2::<f64>::new(), seed, tally)),
-        ("collocation-se2", |seed, tally| instance(&SE2::<f64>::new(), seed, tally)),
-        ("collocation-se3", |seed, tally| instance(&SE3::<f64>::new(), seed, tally)),
-        ("collocation-sl2", |seed, tally| instance(&SL2::<f64>::new(), seed, tally)),
-        ("collocation-power", |seed, tally| instance(&Power::<SO3, 2, 6>::new(), seed, tally)),
+    let all: [(&str, Instances); 12] = [
+        ("collocation-so3", |seed, tally| instance(&SO3::<f64>::new(), None, seed, tally)),
+        ("collocation-su2", |seed, tally| instance(&SU2::<f64>::new(), None, seed, tally)),
+        ("collocation-se2", |seed, tally| instance(&SE2::<f64>::new(), None, seed, tally)),
+        ("collocation-se3", |seed, tally| instance(&SE3::<f64>::new(), None, seed, tally)),
+        ("collocation-sl2", |seed, tally| instance(&SL2::<f64>::new(), None, seed, tally)),
+        ("collocation-power", |seed, tally| {
+            instance(&Power::<SO3, 2, 6>::new(), None, seed, tally)
+        }),
+        ("collocation-so3-kernel", |seed, tally| {
+            instance(&SO3::<f64>::new(), Some("SO3"), seed, tally)
+        }),
+        ("collocation-su2-kernel", |seed, tally| {
+            instance(&SU2::<f64>::new(), Some("SU2"), seed, tally)
+        }),
+        ("collocation-se2-kernel", |seed, tally| {
+            instance(&SE2::<f64>::new(), Some("SE2"), seed, tally)
+        }),
+        ("collocation-se3-kernel", |seed, tally| {
+            instance(&SE3::<f64>::new(), Some("SE3"), seed, tally)
+        }),
+        ("collocation-sl2-kernel", |seed, tally| {
+            instance(&SL2::<f64>::new(), Some("SL2"), seed, tally)
+        }),
+        ("collocation-power-kernel", |seed, tally| {
+            instance(&Power::<SO3, 2, 6>::new(), Some("SO3^2"), seed, tally)
+        }),
     ];
     let chosen = all.into_iter().filter(|(name, _)| name.contains(only));
     chosen.map(|(name, instance)| Family::alone(name, instance)).collect()
