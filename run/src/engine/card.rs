@@ -19,7 +19,7 @@ fn programs(
     let step = origin.step(precision).map_err(|error| failed(&error))?;
     if step.moves() && step.kernel().clock().is_none() {
         return Err(failed(
-            &"steps that depend on inputs, or on torques that move in time, are not made on devices",
+            &"steps that depend on inputs, or have kicks and depend on time, are not made on devices",
         ));
     }
     let programs = &step.kernel().programs;

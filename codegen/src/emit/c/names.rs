@@ -158,9 +158,9 @@ pub enum HeaderError {
         /// The most that are written as C.
         limit: usize,
     },
-    /// Steps depend on inputs, or on torques that move in time.
+    /// Steps depend on inputs, or have kicks and depend on time.
     #[error(
-        "cannot be written as C: its steps depend on inputs, or on torques that move in time; `simulate`, `ensemble` and \
+        "cannot be written as C: its steps depend on inputs, or have kicks and depend on time; `simulate`, `ensemble` and \
          Python make them"
     )]
     Moves,
