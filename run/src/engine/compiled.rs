@@ -6,11 +6,27 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use coadjoint::StepError;
 use coadjoint_codegen::step::{self, Origin, Spatial, Step};
+use coadjoint_program::fold::FoldError;
 use coadjoint_program::{Kernel, Outcome, Precision, Trajectories, WIDTH};
 
-use super::interpreter::{STEEP, refusal};
 use crate::backend::{Backend, Code};
 use crate::error::RunError;
+
+/// Above this ratio of terms a run says so; above twice this its steps are refused.
+pub const STEEP: f64 = 0.25;
+
+/// Why there are no coefficients for a step size and symbols.
+pub(super) fn refusal(error: FoldError, step: f64, symbols: &[f64]) -> StepError {
+    match error {
+        FoldError::Step => StepError::InvalidStep { step },
+        FoldError::Symbol(i) => {
+            StepError::InvalidParameter { name: "of the Hamiltonian", value: symbols[i] }
+        }
+        FoldError::Coefficient(value) => {
+            StepError::InvalidParameter { name: "of the generating function", value }
+        }
+    }
+}
 
 /// Programs of more operations than this are not compiled: they are evaluated as data.
 pub(super) const MOST_OPERATIONS: usize = 60_000;

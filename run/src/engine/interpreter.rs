@@ -11,30 +11,14 @@ use coadjoint_codegen::cancel;
 use coadjoint_codegen::graph::Program;
 use coadjoint_codegen::integrator::{FoldTable, Integrator, Predictor};
 use coadjoint_codegen::problem::{self, Problem};
-use coadjoint_program::fold::FoldError;
 use nalgebra::{DMatrix, DVector};
 
+use super::compiled::{STEEP, refusal};
 use super::space::Group;
-
-/// Above this ratio of terms a run says so; above twice this its steps are refused.
-pub const STEEP: f64 = 0.25;
 
 /// The values of the symbols of a problem for these values of its parameters.
 pub(super) fn symbols(problem: &Problem, parameters: &[f64]) -> Vec<f64> {
     problem.symbols.iter().map(|symbol| symbol.expr.evaluate(parameters)).collect()
-}
-
-/// Why there are no coefficients for a step size and symbols.
-pub(super) fn refusal(error: FoldError, step: f64, symbols: &[f64]) -> StepError {
-    match error {
-        FoldError::Step => StepError::InvalidStep { step },
-        FoldError::Symbol(i) => {
-            StepError::InvalidParameter { name: "of the Hamiltonian", value: symbols[i] }
-        }
-        FoldError::Coefficient(value) => {
-            StepError::InvalidParameter { name: "of the generating function", value }
-        }
-    }
 }
 
 /// The truncated series of an integrator for one step size, on any group with its algebra; solved as its plan says.

@@ -9,7 +9,8 @@ use coadjoint_codegen::potential::Force;
 use nalgebra::{DMatrix, DVector};
 
 use super::compiled::Solves;
-use super::interpreter::{Interpreter, refusal};
+use super::compiled::refusal;
+use super::interpreter::Interpreter;
 use super::space::{Group, entries_of};
 use crate::error::kept;
 

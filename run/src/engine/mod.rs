@@ -14,10 +14,10 @@ mod tangent;
 
 pub(crate) use card::{card, device_text};
 pub(crate) use collocation::collocated;
+pub use compiled::STEEP;
 pub(crate) use compiled::{Compiled, Kept, Numbers, Solves};
 pub(crate) use damping::{Damped, Damper, Source};
 pub(crate) use interpreter::Interpreter;
-pub use interpreter::STEEP;
 pub(crate) use linear::{Differentiable, Linear};
 pub(crate) use motion::{Charted, Equations, advise, one_by_one};
 pub(crate) use motion::{Motion, Varied};

@@ -11,7 +11,8 @@ use coadjoint_program::Argument;
 use nalgebra::{DMatrix, DVector};
 use num_traits::ToPrimitive;
 
-use super::interpreter::{Interpreter, refusal, symbols};
+use super::compiled::refusal;
+use super::interpreter::{Interpreter, symbols};
 use super::kick::Torque;
 use super::linear::{Linear, columns};
 use super::space::Group;
