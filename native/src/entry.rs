@@ -49,20 +49,11 @@ impl Entry {
     ) -> Self {
         Self { kernel: Arc::new(kernel.clone()), advance, lanes, _code: code }
     }
-
-    /// Whether slices are too short for this number of trajectories.
-    fn lacks(&self, slots: &[f64], g: &[f64], mu: &[f64], trajectories: usize) -> bool {
-        let kernel = &self.kernel;
-        slots.len() < kernel.slots()
-            || g.len() < kernel.element * trajectories
-            || mu.len() < kernel.dim * trajectories
-    }
 }
 
-/// No step where a slice is shorter than the kernel asks for.
 impl Stepper for Entry {
     fn advance(&self, slots: &[f64], g: &mut [f64], mu: &mut [f64], steps: u64) -> Outcome {
-        if self.lacks(slots, g, mu, 1) {
+        if self.kernel.lacks(slots, g, mu, 1) {
             return Outcome::default();
         }
         let Some(advance) = self.advance else {
@@ -85,7 +76,7 @@ impl Stepper for Entry {
         live: [bool; WIDTH],
     ) -> [u64; WIDTH] {
         let mut made = [0; WIDTH];
-        if self.lacks(slots, g, mu, WIDTH) {
+        if self.kernel.lacks(slots, g, mu, WIDTH) {
             return made;
         }
         let Some(lanes) = self.lanes else {

@@ -10,6 +10,9 @@ use crate::schedule::{Block, Kept, Kind, Part, Places, Statement, Test, Variable
 
 impl Stepper for Kernel {
     fn advance(&self, slots: &[f64], g: &mut [f64], mu: &mut [f64], steps: u64) -> Outcome {
+        if self.lacks(slots, g, mu, 1) {
+            return Outcome::default();
+        }
         let mut walk = Walk::<f64, 1>::new(self, slots, g, mu);
         let [done] = walk.run(steps, [true]);
         walk.store(g, mu);
@@ -24,6 +27,9 @@ impl Stepper for Kernel {
         steps: u64,
         live: [bool; WIDTH],
     ) -> [u64; WIDTH] {
+        if self.lacks(slots, g, mu, WIDTH) {
+            return [0; WIDTH];
+        }
         let mut walk = Walk::<Lanes<WIDTH>, WIDTH>::new(self, slots, g, mu);
         let done = walk.run(steps, live);
         walk.store(g, mu);
@@ -45,9 +51,9 @@ pub struct Attempt {
 }
 
 impl Kernel {
-    /// The solution of the equation of the step from μ, by the interpreter.
+    /// The solution of the equation of the step from μ, by the interpreter; refused where numbers are missing.
     pub fn attempt(&self, slots: &[f64], mu: &[f64]) -> Attempt {
-        let mut walk = Walk::<f64, 1>::new(self, slots, &[], mu);
+        let mut walk = Walk::<f64, 1>::new(self, slots, &vec![0.0; self.element], mu);
         walk.run(1, [true]);
         Attempt {
             increment: walk.numbers[walk.places.range(Variable::Increment)].to_vec(),
@@ -93,7 +99,7 @@ impl<'k, T: Packed<L>, const L: usize> Walk<'k, T, L> {
                 numbers[place] = T::load(list, i);
             }
         }
-        let slot = |i: usize| T::of(slots.get(i).copied().unwrap_or(0.0));
+        let slot = |i: usize| T::of(slots.get(i).copied().unwrap_or(f64::NAN));
         Self {
             kernel,
             slots: (0..kernel.slots()).map(slot).collect(),
@@ -327,9 +333,9 @@ impl Program {
         }
     }
 
-    /// The results of the program on `inputs` with these folded coefficients. Missing inputs and slots read as 0.
+    /// The results of the program on `inputs` with these folded coefficients. Missing inputs and slots read as NaN.
     pub fn run(&self, inputs: &[f64], slots: &[f64]) -> Vec<f64> {
-        let read = |list: &[f64], i: usize| list.get(i).copied().unwrap_or(0.0);
+        let read = |list: &[f64], i: usize| list.get(i).copied().unwrap_or(f64::NAN);
         let mut nodes = Vec::new();
         if inputs.len() >= self.inputs() && slots.len() >= self.slots() {
             evaluate(self, inputs, slots, &mut nodes);

@@ -223,6 +223,13 @@ impl Kernel {
         self.kicks.as_ref().map(|kicks| &kicks.kick)
     }
 
+    /// Whether coefficients or the state of this many trajectories have fewer numbers than steps read.
+    pub fn lacks(&self, slots: &[f64], g: &[f64], mu: &[f64], trajectories: usize) -> bool {
+        slots.len() < self.slots()
+            || g.len() < self.element * trajectories
+            || mu.len() < self.dim * trajectories
+    }
+
     /// The times that the programs read.
     #[must_use]
     pub fn clock(&self) -> Option<&Clock> {
@@ -357,8 +364,7 @@ pub trait Stepper {
     /// Makes up to `steps` steps from (g, μ) with these folded coefficients; the state is then that after the last
     /// step made.
     ///
-    /// Slices must have the kernel's lengths. Given shorter ones, the interpreter reads them as if filled up
-    /// with zeros, machine code makes no step.
+    /// Slices have the kernel's lengths. With shorter ones no step is made.
     fn advance(&self, slots: &[f64], g: &mut [f64], mu: &mut [f64], steps: u64) -> Outcome;
 
     /// As [`Stepper::advance`] for [`WIDTH`] trajectories side by side: number i of trajectory r of `g` and `mu` is at

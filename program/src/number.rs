@@ -183,6 +183,7 @@ impl<const L: usize> Number for Lanes<L> {
 
 /// Numbers that know how they lie in memory, and which of them are done.
 pub(crate) trait Packed<const L: usize>: Number {
+    /// Number i of the list; NaN where it is shorter.
     fn load(list: &[f64], i: usize) -> Self;
     fn store(self, list: &mut [f64], i: usize);
     fn lane(self, lane: usize) -> f64;
@@ -193,7 +194,7 @@ pub(crate) trait Packed<const L: usize>: Number {
 impl Packed<1> for f64 {
     #[inline(always)]
     fn load(list: &[f64], i: usize) -> Self {
-        list.get(i).copied().unwrap_or(0.0)
+        list.get(i).copied().unwrap_or(f64::NAN)
     }
     #[inline(always)]
     fn store(self, list: &mut [f64], i: usize) {
@@ -216,7 +217,7 @@ impl<const L: usize> Packed<L> for Lanes<L> {
     fn load(list: &[f64], i: usize) -> Self {
         let mut result = [0.0; L];
         for (lane, value) in result.iter_mut().enumerate() {
-            *value = list.get(i * L + lane).copied().unwrap_or(0.0);
+            *value = list.get(i * L + lane).copied().unwrap_or(f64::NAN);
         }
         Self(result)
     }

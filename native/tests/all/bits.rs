@@ -5,7 +5,7 @@ use crate::samples::{Chance, Sample, Seen, Shape, compare};
 use coadjoint_native::Entry;
 #[cfg(unix)]
 use coadjoint_native::{COptions, Native};
-use coadjoint_program::{Kernel, Stepper, Trajectories, WIDTH};
+use coadjoint_program::{Graph, Kernel, Stepper, Trajectories, WIDTH};
 
 #[cfg(unix)]
 fn by_c(kernel: &Kernel, trajectories: Trajectories) -> Entry {
@@ -95,15 +95,19 @@ fn what_is_not_compiled_is_interpreted() {
 
 #[test]
 fn slices_that_are_too_short_make_no_step() {
-    for compile in COMPILERS {
-        let Sample { kernel, slots } = Sample::small(3);
-        let entry = compile(&kernel, Trajectories::Both);
+    let Sample { kernel, slots } = Sample::small(3);
+    let compiled = COMPILERS.iter().map(|compile| compile(&kernel, Trajectories::Both));
+    let compiled: Vec<Entry> = compiled.collect();
+    let steppers = compiled.iter().map(|entry| entry as &dyn Stepper).chain([&kernel as _]);
+    for stepper in steppers {
         let (mut g, mut mu) = (vec![0.5; 4 * WIDTH], vec![0.5; 3 * WIDTH]);
-        assert_eq!(entry.advance(&slots, &mut g[..3], &mut mu, 5).steps, 0);
-        assert_eq!(entry.advance(&slots[1..], &mut g, &mut mu, 5).steps, 0);
-        let made = entry.advance_lanes(&slots, &mut g, &mut mu[..20], 5, [true; WIDTH]);
+        assert_eq!(stepper.advance(&slots, &mut g[..3], &mut mu, 5).steps, 0);
+        assert_eq!(stepper.advance(&slots[1..], &mut g, &mut mu, 5).steps, 0);
+        let made = stepper.advance_lanes(&slots, &mut g, &mut mu[..20], 5, [true; WIDTH]);
         assert_eq!(made, [0; WIDTH]);
     }
+    let graph = Graph::new();
+    assert!(graph.finish(0, &[graph.slot(0)]).run(&[], &[])[0].is_nan());
 }
 
 #[test]

@@ -118,3 +118,58 @@ impl Functions for DoubleDouble {
         angle + (self * cosine - sine) / (cosine + self * sine)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn number(value: f64) -> DoubleDouble {
+        value.into()
+    }
+
+    /// f(a).
+    fn of(function: Function, a: DoubleDouble) -> DoubleDouble {
+        elementary(function, a)[0]
+    }
+
+    /// Whether a and b are `bound` apart at most, relative to b.
+    fn close(what: &str, a: DoubleDouble, b: DoubleDouble, bound: f64) {
+        let error = ((a - b).to_f64() / b.to_f64()).abs();
+        assert!(error <= bound, "{what}: {} {error:e}", b.to_f64());
+    }
+
+    /// Arguments of both signs, from tiny to large, with digits in both halves.
+    fn arguments(largest: f64) -> impl Iterator<Item = DoubleDouble> {
+        let sizes = (0..400).map(|i| 1e-18 * 1.13_f64.powi(i)).take_while(move |&a| a < largest);
+        sizes.flat_map(|a| [a, -a]).map(|a| DoubleDouble::new(a, a * 3.1e-17))
+    }
+
+    #[test]
+    fn functions_satisfy_their_identities_in_doubled_precision() {
+        let one = number(1.0);
+        for a in arguments(300.0) {
+            let (up, down) = (of(Function::Exp, a), of(Function::Exp, -a));
+            close("exp a · exp −a", up * down, one, 1e-30 * a.to_f64().abs().max(1.0));
+            let tanh = of(Function::Tanh, a);
+            close("tanh a", tanh * (up + down), up - down, 1e-30 / a.to_f64().abs().min(1.0));
+            close("tanh −a", of(Function::Tanh, -a), -tanh, 0.0);
+            close("ln exp a", of(Function::Ln, up), a, 1e-30 / a.to_f64().abs().min(1.0));
+        }
+        for a in arguments(1e8) {
+            let (sine, cosine) = (of(Function::Sin, a), of(Function::Cos, a));
+            close("sin² + cos²", sine * sine + cosine * cosine, one, 1e-30);
+            close("tan", of(Function::Tan, a) * cosine, sine, 1e-30);
+            let double = of(Function::Sin, a + a);
+            close("sin 2a", sine * cosine * number(2.0), double, 1e-30 / double.to_f64().abs());
+            let size = a.to_f64().abs();
+            close("tan atan a", of(Function::Tan, of(Function::Atan, a)), a, 1e-30 * size.max(1.0));
+            close("√a², squared", (a * a).sqrt() * (a * a).sqrt(), a * a, 1e-30);
+            // By the logarithm, which is as large as this.
+            let bound = 1e-31 * (10.0 + size.ln().abs());
+            let power = of(Function::Power(2, 3), a * a);
+            close("a^(4/3), cubed", power * power * power, a * a * a * a, bound);
+            let inverse = of(Function::Power(-1, 2), a * a);
+            close("1/|a|", inverse * inverse * a * a, one, bound);
+        }
+    }
+}
