@@ -2,6 +2,7 @@
 
 use core::marker::PhantomData;
 
+use coadjoint::collocation::Energy;
 use coadjoint::groups::{Chart, Coordinates};
 use coadjoint::solve::Integrator;
 use coadjoint::{GeneratingFunction, LieGroup};
@@ -119,14 +120,11 @@ where
     }
 
     fn value(&self, p: &G::Vector) -> f64 {
-        self.function.value(&entries(p))
+        Hamiltonian(&self.function).value(0.0, p)
     }
 
     fn gradient(&self, p: &G::Vector) -> G::Vector {
-        cancel::check();
-        let mut gradient = vec![0.0; p.dim()];
-        self.function.gradient(&entries(p), &mut gradient);
-        vector::<G>(&gradient)
+        Hamiltonian(&self.function).gradient(0.0, p)
     }
 
     fn gradient_and_hessian(
@@ -153,6 +151,26 @@ where
     C: Chart<G>,
     M: MomentumFunction,
 {
+}
+
+/// A function of momenta read as a Hamiltonian, whose steps [`Collocation`](coadjoint::collocation::Collocation) makes.
+///
+/// Whatever the function, momentum and Casimirs are conserved to rounding, and its own value stays near its start. It is fitted to
+/// momenta and angular velocities ω = ∂H/∂μ, as generating functions are to p and x.
+#[derive(Clone, Copy, Debug)]
+pub struct Hamiltonian<M>(pub M);
+
+impl<V: Coordinates<f64>, M: MomentumFunction> Energy<V> for Hamiltonian<M> {
+    fn value(&self, _time: f64, mu: &V) -> f64 {
+        self.0.value(&entries(mu))
+    }
+
+    fn gradient(&self, _time: f64, mu: &V) -> V {
+        cancel::check();
+        let mut gradient = vec![0.0; mu.dim()];
+        self.0.gradient(&entries(mu), &mut gradient);
+        V::from_entries(gradient.len(), |i| gradient[i])
+    }
 }
 
 pub(crate) fn entries<V: Coordinates<f64>>(vector: &V) -> Vec<f64> {

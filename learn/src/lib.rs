@@ -56,7 +56,7 @@ pub mod truth;
 
 pub use error::{BadRow, BadRows, LearnError, RowProblem};
 pub use evaluate::{Drifts, Errors, Figures, drifts, evaluate, evaluate_momenta, evaluate_with};
-pub use function::{Generating, MomentumFunction, Scaled};
+pub use function::{Generating, Hamiltonian, MomentumFunction, Scaled};
 pub use gaussian_process::{GaussianProcess, fit_gaussian_process};
 pub use group::{DataGroup, GroupChoice, OwnAlgebra, matrix_of};
 pub use least_squares::GaussNewton;

@@ -1,7 +1,7 @@
 //! True flows to make data from: Hamiltonians, their exact flow to rounding, seeded samples, and methods that keep no
 //! geometry.
 
-use coadjoint::collocation::Collocation;
+use coadjoint::collocation::{Collocation, Energy};
 use coadjoint::groups::Coordinates;
 use coadjoint::{LieGroup, Phase};
 use nalgebra::DMatrix;
@@ -199,13 +199,8 @@ where
     if time == 0.0 {
         return phase.clone();
     }
-    let gradient = |_: f64, mu: &G::Vector| {
-        let mut velocity = vec![0.0; mu.dim()];
-        hamiltonian.gradient(&entries(mu), &mut velocity);
-        vector::<G>(&velocity)
-    };
-    let speed = gradient(0.0, &phase.momentum).largest_entry();
-    let energy = (|_: f64, mu: &G::Vector| hamiltonian.value(&entries(mu)), gradient);
+    let energy = Hamiltonian(hamiltonian);
+    let speed = energy.gradient(0.0, &phase.momentum).largest_entry();
     let mut parts = (time.abs() * speed / STEP_ANGLE).ceil().max(1.0);
     for _ in 0..HALVINGS {
         let mut end = phase.clone();

@@ -1,14 +1,17 @@
 //! The geometry of learned maps, for models of every kind and any weights: the runtime's laws.
 #![allow(clippy::unwrap_used)]
 
+use coadjoint::collocation::Collocation;
 use coadjoint::groups::{Cayley, Chart, Coordinates, Exponential};
 use coadjoint::laws::check;
 use coadjoint::{LieGroup, Phase, SE3, SO3};
 use coadjoint_learn::network::{TrainingOptions, fit_network};
+use coadjoint_learn::data::{MomentumPairs, ReducedData};
 use coadjoint_learn::polynomial::fit_polynomial;
 use coadjoint_learn::truth::Separable;
+use nalgebra::DMatrix;
 use coadjoint_learn::{
-    DataGroup, Generating, Model, MomentumFunction, fit_gaussian_process, fit_hybrid,
+    DataGroup, Generating, Hamiltonian, Model, MomentumFunction, fit_gaussian_process, fit_hybrid,
 };
 
 use crate::support::{WIDE, draw, random, random_network, random_polynomial, relativistic, sample};
@@ -95,4 +98,40 @@ fn fitted_models_on_so3() {
 fn fitted_models_of_the_heavy_top() {
     let top = Separable::heavy_top([1.0, 1.2, 0.8], [0.1, 0.0, 0.4]);
     fitted::<_, Exponential>(&SE3::new(), &top);
+}
+
+/// Of momenta and angular velocities, read as a Hamiltonian and integrated by collocation.
+#[test]
+fn fitted_hamiltonians_keep_momentum_casimir_and_their_own_energy() {
+    let (truth, mut rng) = (relativistic(), random(4));
+    let p = DMatrix::from_vec(3, 120, draw(&mut rng, 360, 2.0));
+    let mut x = p.clone();
+    for (mu, mut velocity) in p.column_iter().zip(x.column_iter_mut()) {
+        truth.gradient(mu.as_slice(), velocity.as_mut_slice());
+    }
+    let options = TrainingOptions { widths: vec![16, 16], ..TrainingOptions::budget(300) };
+    let network = fit_network(&p, &x, None, &options, &mut |_| {}).unwrap().0;
+    let momenta = MomentumPairs { before: p.clone(), after: p.clone() };
+    let data = ReducedData { x, p, momenta };
+    let polynomial = fit_polynomial(&data, 6, 0.0).unwrap();
+    let process = fit_gaussian_process(&data, 60).unwrap();
+    let functions: [(&str, &dyn MomentumFunction); 3] =
+        [("polynomial", &polynomial), ("process", &process), ("network", &network)];
+    for (name, function) in functions {
+        let group = SO3::new();
+        let start = Phase::<SO3>::at_identity([1.2, 0.5, -0.8]);
+        let mut body = start.clone();
+        let mut step =
+            Collocation::<SO3, _, 4>::new(group, Hamiltonian(function), 0.2).unwrap();
+        step.advance_by(&mut body, 0.0, 1000).unwrap();
+        let moved = body.spatial_momentum(&group) - start.momentum;
+        let casimir = body.momentum.norm() - start.momentum.norm();
+        assert!(moved.norm() < 1e-13 && casimir.abs() < 1e-13, "{name}: {moved} {casimir:e}");
+        let change = |energy: &dyn MomentumFunction| {
+            let value = |of: &Phase<SO3>| energy.value(of.momentum.as_slice());
+            (value(&body) - value(&start)).abs()
+        };
+        println!("{name}: {:.1e} of its own, {:.1e} of the true", change(function), change(&truth));
+        assert!(change(function) < 1e-9 && change(&truth) < 0.02, "{name}");
+    }
 }
