@@ -76,9 +76,10 @@ function captions() {
   byId("ours-name").textContent = `this method, order ${about.order}, h = ${shortly(about.step)}${unitOfTime}`;
   byId("rival-name").textContent = `Runge–Kutta of order 4, h = ${shortly(about.step / m)}${unitOfTime}`;
   const terms = about.terms.map(([, count]) => count).join(" + ");
+  const made = terms ? `S has ${terms} terms.` : `Steps are made by collocation at ${about.order / 2} nodes.`;
   byId("cost").textContent =
     `At the same cost: ${m === 1 ? "one step of Runge–Kutta" : `${m} steps of Runge–Kutta`} for each of ours, counted in operations. ` +
-    `S has ${terms} terms. Drifts are relative, the numbers the largest so far; rounding is at 10⁻¹⁶.`;
+    `${made} Drifts are relative, the numbers the largest so far; rounding is at 10⁻¹⁶.`;
 }
 
 function fillAxes() {
@@ -187,18 +188,22 @@ function drawAll() {
   drawOrbit(orbitCanvas, about, start, [session.trail(true, a, b, c, part), session.trail(false, a, b, c, part)]);
   const history = session.history();
   for (const which of [0, 1, 2]) {
-    if (which === 2 && !about.casimirs.length) continue;
+    if (unknown(which)) continue;
     drawDrift(byId(`drift-${which}`), history, which, about.time_unit);
   }
   if (drawn++ % 6 === 0 || !state.playing) numbers();
   page.drawTime = performance.now() - began;
 }
 
+// Why the energy, or the Casimirs, have no drift.
+const unknown = (which) =>
+  which === 0 && !about.conserves_energy ? "not conserved: H depends on t" : which === 2 && !about.casimirs.length ? "none known" : "";
+
 function numbers() {
   const most = session.most();
   for (const which of [0, 1, 2]) {
-    const nothing = which === 2 && !about.casimirs.length;
-    byId(`ours-${which}`).textContent = nothing ? "none known" : shortly(most[which], 2);
+    const nothing = unknown(which);
+    byId(`ours-${which}`).textContent = nothing || shortly(most[which], 2);
     byId(`rival-${which}`).textContent = nothing ? "" : shortly(most[3 + which], 2);
   }
   const unitOfTime = about.time_unit ? ` ${about.time_unit}` : "";
@@ -226,7 +231,9 @@ function showText() {
   if (state.tab === "formulas") {
     const lead = about.comoving
       ? "S generates the flow of H − f; the frame moves by f. Exact, parameters put in."
-      : "The generating function S = h S₁ + h³ S₃ + …, exact; even orders vanish.";
+      : about.terms.length
+        ? "The generating function S = h S₁ + h³ S₃ + …, exact; even orders vanish."
+        : "No series: a step asks for ∂H/∂μ at its nodes, and is symplectic all the same.";
     panel.innerHTML = `<p class="fine">${lead}</p>` + JSON.parse(session.formulas()).join("") +
       (about.casimirs.length ? `<p class="fine">Casimirs, which every step keeps:</p>${about.casimirs.join("")}` : "");
     return;

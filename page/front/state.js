@@ -1,5 +1,5 @@
 // The state of the page, and the link that holds it.
-const FIELDS = ["name", "group", "algebra", "coordinates", "hamiltonian", "parameters", "truncation", "chart", "frame", "step", "momentum", "time"];
+const FIELDS = ["name", "group", "algebra", "coordinates", "hamiltonian", "parameters", "truncation", "chart", "frame", "method", "step", "momentum", "time"];
 const TABS = ["formulas", "file"];
 
 // The systems to choose from.
@@ -42,7 +42,7 @@ function readLink() {
   state.fields = {};
   for (const key of FIELDS) state.fields[key] = entries.get(key) ?? entry?.fields[key] ?? "";
   if (!state.fields.chart) state.fields.chart = "exp";
-  if (!state.fields.frame) state.fields.frame = "auto";
+  for (const key of ["frame", "method"]) if (!state.fields[key]) state.fields[key] = "auto";
   const number = (text) => (text !== null && Number.isFinite(+text) ? +text : null);
   const speed = number(entries.get("speed"));
   if (speed !== null) state.speed = Math.min(Math.max(speed, 0.5), 5000);

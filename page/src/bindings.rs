@@ -8,7 +8,7 @@ use crate::file::Mistake;
 use crate::formula;
 use crate::orbit::{Curve, Orbit};
 use crate::run::Run;
-use crate::system::{Factor, System};
+use crate::system::{Factor, Source, System};
 
 /// The systems to choose from, as JSON: `[{id, title, family, about, fields}]`.
 #[wasm_bindgen]
@@ -45,19 +45,19 @@ struct About<'a> {
     group: &'a str,
     dim: usize,
     coordinates: &'a [String],
-    truncation: usize,
     order: usize,
     chart: &'a str,
     step: f64,
     momentum: &'a [f64],
-    energy: f64,
+    conserves_energy: bool,
+    /// The orders of a series, and how many terms each has.
     terms: Vec<(usize, usize)>,
     comoving: bool,
     casimirs: Vec<String>,
     factors: &'a [Factor],
     /// Triples of coordinates that stay on a sphere.
     spheres: Vec<[usize; 3]>,
-    /// ½ ξᵀAξ and b·ξ: the quadratic part of H in the first three coordinates, and its slope in the next three.
+    /// The second derivatives of H in the first three coordinates, and all first ones.
     inverse_inertia: Vec<f64>,
     slope: Vec<f64>,
     time_unit: Option<&'a str>,
@@ -80,29 +80,30 @@ impl Session {
 
     /// The facts that a page shows of the system, as JSON.
     pub fn about(&self) -> String {
-        let System { integrator, step, energy, factors, momentum, units, .. } = &self.system;
-        let problem = &integrator.problem;
-        let n = problem.algebra.dim();
+        let System { step, factors, momentum, units, .. } = &self.system;
+        let (origin, series) = (self.system.source.origin(), self.system.series());
+        let (facts, n) = (origin.facts(), self.system.dim());
         let programs = &step.kernel().programs;
         let list = [&programs.guess, &programs.correct, &programs.accept, &programs.transport];
         let ours = list.iter().map(|program| program.cost().total()).sum();
-        let orders = (1..=problem.truncation).step_by(2);
-        let slopes = energy.gradient(n);
-        let curvature = |i: usize, j: usize| slopes[i].gradient(n)[j].value(&vec![0.0; n]);
+        let terms = series.map_or_else(Vec::new, |integrator| {
+            let orders = (1..=facts.truncation).step_by(2);
+            orders.map(|k| (k, integrator.series.order(k).len())).collect()
+        });
+        let [slope, curvature] = self.system.slopes();
         let leading = n.min(3);
         json(&About {
-            name: &problem.name,
-            group: problem.algebra.name(),
+            name: facts.name,
+            group: facts.algebra.name(),
             dim: n,
-            coordinates: &problem.coordinates,
-            truncation: problem.truncation,
-            order: integrator.order(),
-            chart: problem.chart.name(),
+            coordinates: facts.coordinates,
+            order: facts.truncation + 1,
+            chart: series.map_or("exp", |integrator| integrator.problem.chart.name()),
             step: self.system.h,
             momentum,
-            energy: energy.value(momentum),
-            terms: orders.map(|k| (k, integrator.series.order(k).len())).collect(),
-            comoving: problem.comoving.is_some(),
+            conserves_energy: self.system.invariants.hamiltonian.is_some(),
+            terms,
+            comoving: series.is_some_and(|integrator| integrator.problem.comoving.is_some()),
             casimirs: self
                 .system
                 .casimirs
@@ -112,16 +113,16 @@ impl Session {
                     formula::equation(
                         &format!("<msub><mi>C</mi><mn>{}</mn></msub>", i + 1),
                         exact,
-                        problem,
+                        origin,
                     )
                 })
                 .collect(),
             factors,
             spheres: spheres(factors),
             inverse_inertia: (0..leading * leading)
-                .map(|at| curvature(at / leading, at % leading))
+                .map(|at| curvature[at / leading * n + at % leading])
                 .collect(),
-            slope: (0..n).map(|i| slopes[i].value(&vec![0.0; n])).collect(),
+            slope,
             time_unit: units.time.as_deref(),
             substeps: self.run.substeps,
             cost: [ours, self.system.rival.cost()],
@@ -145,12 +146,12 @@ impl Session {
         #[derive(Serialize)]
         struct Shown {
             reason: String,
-            text: &'static str,
+            text: String,
             usable: Option<f64>,
         }
         self.run.refusal.as_ref().map(|refusal| {
             let reason = format!("{:?}", refusal.reason);
-            json(&Shown { reason, text: refusal.reason.text(), usable: refusal.usable })
+            json(&Shown { reason, text: refusal.reason.text().to_owned(), usable: refusal.usable })
         })
     }
 
@@ -203,11 +204,13 @@ impl Session {
     /// many points it has, and those with the surface's normals, six numbers each.
     pub fn curves(&mut self, momentum: &[f64]) -> Vec<f32> {
         let energy = &self.system.energy;
+        // An energy that moves in time has no curves.
+        let conserved = self.system.invariants.hamiltonian.is_some();
         // Where the momentum is dragged over its sphere only its own curve is another.
         if !self.orbit.as_ref().is_some_and(|orbit| orbit.holds(momentum)) {
             self.orbit =
                 match (&self.system.invariants.casimirs[..], self.system.dim(), momentum.len()) {
-                    ([casimir], 3, 3) => Orbit::new(energy, casimir, momentum),
+                    ([casimir], 3, 3) if conserved => Orbit::new(energy, casimir, momentum),
                     _ => None,
                 };
         }
@@ -223,20 +226,23 @@ impl Session {
         out
     }
 
-    /// H and S₁, S₃, … as MathML, a JSON list.
+    /// H, and where it is a polynomial S₁, S₃, …, as MathML, a JSON list.
     pub fn formulas(&self) -> String {
-        let integrator = &self.system.integrator;
+        let origin = self.system.source.origin();
+        let integrator = match &self.system.source {
+            Source::Collocation(smooth) => {
+                return json(&[formula::written("<mi>H</mi>", &smooth.source)]);
+            }
+            Source::Series(integrator) => integrator,
+        };
         let problem = &integrator.problem;
-        let mut list = vec![formula::equation("<mi>H</mi>", &problem.hamiltonian, problem)];
+        let mut list = vec![formula::equation("<mi>H</mi>", &problem.hamiltonian, origin)];
         if let Some(frame) = &problem.comoving {
-            list.push(formula::equation("<mi>f</mi>", &frame.energy(), problem));
+            list.push(formula::equation("<mi>f</mi>", &frame.energy(), origin));
         }
         let orders = (1..=problem.truncation).step_by(2);
-        list.extend(
-            orders.map(|k| {
-                formula::equation(&formula::order(k), integrator.series.order(k), problem)
-            }),
-        );
+        let of = |k| formula::equation(&formula::order(k), integrator.series.order(k), origin);
+        list.extend(orders.map(of));
         json(&list)
     }
 

@@ -24,6 +24,8 @@ pub struct Fields {
     pub chart: String,
     /// `auto`, `fixed` or `comoving`.
     pub frame: String,
+    /// `auto`, `series` or `collocation`.
+    pub method: String,
     pub step: String,
     /// The momentum at the start, separated by blanks or commas.
     pub momentum: String,
@@ -84,6 +86,7 @@ impl Fields {
             truncation: get(within("integrator", "truncation"), "7"),
             chart: get(within("integrator", "chart"), "exp"),
             frame: get(within("integrator", "frame"), "auto"),
+            method: get(within("integrator", "method"), "auto"),
             step: get(within("integrator", "step"), "0.1"),
             momentum: within("initial", "momentum").map(list).unwrap_or_default(),
             time: get(within("run", "time"), "10"),

@@ -81,8 +81,10 @@ impl File {
         if fields.chart != "exp" {
             file.entry("chart", &fields.chart, Self::string);
         }
-        if fields.frame != "auto" {
-            file.entry("frame", &fields.frame, Self::string);
+        for (key, choice) in [("frame", &fields.frame), ("method", &fields.method)] {
+            if choice != "auto" {
+                file.entry(key, choice, Self::string);
+            }
         }
         file.entry("step", &fields.step, Self::number);
         file.text.push_str("\n[initial]\n");

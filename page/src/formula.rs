@@ -1,10 +1,10 @@
-//! Polynomials as MathML.
+//! Polynomials as MathML, and other functions as they were written.
 //!
 //! Browsers do not break lines within a formula.
 
 use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::poly::Polynomial;
-use coadjoint_codegen::problem::Problem;
+use coadjoint_codegen::step::Origin;
 use coadjoint_draw::escaped;
 use num_traits::{One, Signed};
 
@@ -12,8 +12,9 @@ use num_traits::{One, Signed};
 const MOST_TERMS: usize = 160;
 
 /// A polynomial in the momentum, `name = …`: a formula for each term, so that lines break between them.
-pub fn equation(name: &str, polynomial: &Polynomial, problem: &Problem) -> String {
-    let dim = problem.algebra.dim();
+pub fn equation(name: &str, polynomial: &Polynomial, origin: Origin<'_>) -> String {
+    let coordinates = origin.facts().coordinates;
+    let dim = coordinates.len();
     let mut out = math(&format!("{name}<mo>=</mo>"));
     let terms: Vec<(Vec<u32>, Rational)> = polynomial.terms().collect();
     for (number, (exponents, value)) in terms.iter().take(MOST_TERMS).enumerate() {
@@ -30,7 +31,7 @@ pub fn equation(name: &str, polynomial: &Polynomial, problem: &Problem) -> Strin
         if !size.is_one() || exponents.iter().all(|&power| power == 0) {
             term.push_str(&rational(&size));
         }
-        for (symbol, &power) in problem.symbols.iter().zip(symbols) {
+        for (symbol, &power) in origin.symbols().iter().zip(symbols) {
             let text = escaped(&symbol.text);
             push_power(
                 &mut term,
@@ -38,7 +39,7 @@ pub fn equation(name: &str, polynomial: &Polynomial, problem: &Problem) -> Strin
                 power,
             );
         }
-        for (coordinate, &power) in problem.coordinates.iter().zip(momenta) {
+        for (coordinate, &power) in coordinates.iter().zip(momenta) {
             push_coordinate(&mut term, coordinate, power);
         }
         out.push_str(&math(&term));
@@ -50,6 +51,12 @@ pub fn equation(name: &str, polynomial: &Polynomial, problem: &Problem) -> Strin
         out.push_str(&format!("+ … {} more terms", terms.len() - MOST_TERMS));
     }
     format!("<p class=\"equation\">{out}</p>")
+}
+
+/// A function as its text, `name = …`.
+pub fn written(name: &str, text: &str) -> String {
+    let lead = math(&format!("{name}<mo>=</mo>"));
+    format!("<p class=\"equation\">{lead}<code>{}</code></p>", escaped(text))
 }
 
 fn math(row: &str) -> String {

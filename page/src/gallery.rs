@@ -31,6 +31,8 @@ entries! {
             "A spacecraft with a spinning rotor: terms linear in the momentum.";
         "manakov-so4", "Body in four dimensions", "../../examples/manakov_so4.toml",
             "Manakov's free rigid body on SO(4).";
+        "relativistic-body", "Relativistic body", "../../examples/relativistic_body.toml",
+            "A free body whose energy is a root, of no series: steps are made by collocation.";
     }
     "Tops" {
         "heavy-top", "Heavy top", "../../examples/heavy_top.toml",
@@ -43,6 +45,8 @@ entries! {
             "I₁ = I₂ = 2 I₃: integrable by a fourth integral.";
         "goryachev-chaplygin-top", "Goryachev–Chaplygin top", "../../examples/goryachev_chaplygin_top.toml",
             "I₁ = I₂ = 4 I₃, integrable where Π·Γ = 0.";
+        "screened-top", "Top near a screened centre", "../../examples/screened_top.toml",
+            "A near point draws the top by Yukawa's force, which falls off faster than Newton's.";
     }
     "Fluids" {
         "kirchhoff-body", "Body in a fluid", "../../examples/kirchhoff_body.toml",
@@ -53,12 +57,18 @@ entries! {
             "A body in a plane fluid on SE(2): it flutters and turns its broad side to the flow.";
         "zeitlin-3", "Vorticity on a torus", "../../examples/zeitlin_3.toml",
             "Ideal flow on a torus, truncated by the sine bracket at N = 3.";
+        "sphere-vortices", "Three vortices on a sphere", "../../examples/sphere_vortices.toml",
+            "Point vortices on a sphere, whose energy has logarithms: a triangle that turns without a change of shape.";
     }
     "Spins and waves" {
         "spin-in-crystal", "Spin in a crystal", "../systems/spin_in_crystal.toml",
             "A large spin in a crystal field: a Hamiltonian of degree four, on SU(2).";
         "heisenberg-spin-ring", "Ring of four spins", "../../examples/heisenberg_spin_ring.toml",
             "Four classical spins with exchange, anisotropy and a field, on SO(3)⁴.";
+        "exponential-spin", "Spin in a narrow well", "../../examples/exponential_spin.toml",
+            "An easy axis whose anisotropy is an exponential, in a field across it.";
+        "driven-qubit", "Driven qubit", "../../examples/driven_qubit.toml",
+            "A pulse turns a qubit: the Hamiltonian depends on the time t.";
         "three-wave", "Three waves", "../../examples/three_wave.toml",
             "A pump and two daughter waves exchange energy, on su(3)*.";
         "toda-lattice", "Toda lattice", "../../examples/toda_lattice.toml",

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use coadjoint_codegen::poly::Numeric;
+use coadjoint_codegen::step::Energy;
 
 /// Cells of the grid along an axis.
 const CELLS: usize = 34;
@@ -37,11 +38,12 @@ pub struct Orbit {
 
 impl Orbit {
     /// The orbit through μ; none where it is no surface.
-    pub fn new(energy: &Numeric, casimir: &Numeric, mu: &[f64]) -> Option<Self> {
+    pub fn new(energy: &Energy, casimir: &Numeric, mu: &[f64]) -> Option<Self> {
         let surface = Surface::new(casimir, mu)?;
         let values: Vec<f64> = surface.points.iter().map(|p| energy.value(p)).collect();
-        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-        let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let finite = || values.iter().copied().filter(|value| value.is_finite());
+        let least = finite().fold(f64::INFINITY, f64::min);
+        let most = finite().fold(f64::NEG_INFINITY, f64::max);
         let slopes = casimir.gradient(3);
         let level = |i: usize| least + (most - least) * (i as f64 + 0.5) / LEVELS as f64;
         let spread =
@@ -129,10 +131,11 @@ impl Surface {
         let mut neighbours: HashMap<Edge, Vec<Edge>> = HashMap::new();
         let mut order: Vec<Edge> = Vec::new();
         let above = |n: u32| values[n as usize] >= level;
+        let known = |n: u32| values[n as usize].is_finite();
         for &[a, b, c] in &self.triangles {
             let cut: Vec<Edge> = [(a, b), (b, c), (c, a)]
                 .into_iter()
-                .filter(|&(a, b)| above(a) != above(b))
+                .filter(|&(a, b)| above(a) != above(b) && known(a) && known(b))
                 .map(|(a, b)| (a.min(b), a.max(b)))
                 .collect();
             if let &[one, two] = &cut[..] {

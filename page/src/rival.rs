@@ -5,7 +5,6 @@
 
 use coadjoint_codegen::lie::{LieAlgebra, RationalMatrix};
 use coadjoint_codegen::number::nearest_float;
-use coadjoint_codegen::poly::Numeric;
 use coadjoint_program::{Graph, Id, Program};
 use nalgebra::{DMatrix, DVector};
 
@@ -16,34 +15,30 @@ pub struct Rival {
     size: usize,
     /// Places of the entries of g that can differ from those of the identity, row by row.
     entries: Vec<usize>,
-    /// μ, entries, h ↦ μ, entries.
+    /// μ, entries, h, t ↦ μ, entries.
     step: Program,
-    /// μ ↦ μ̇.
+    /// μ, t ↦ μ̇.
     rate: Program,
+    /// The coefficients of both.
+    slots: Vec<f64>,
     /// The matrices e_i, and the inverse of their Gram matrix; none where g is an adjoint matrix.
     basis: Option<(Vec<DMatrix<f64>>, DMatrix<f64>)>,
 }
 
 impl Rival {
-    /// The method for a Hamiltonian on a group.
-    pub fn new(algebra: &LieAlgebra, energy: &Numeric) -> Self {
+    /// The method on a group for the Hamiltonian with this gradient, of μ and perhaps t, and its coefficients.
+    pub fn new(algebra: &LieAlgebra, gradient: &Program, slots: &[f64]) -> Self {
         let dim = algebra.dim();
         let matrices = matrices(algebra);
         let size = algebra.matrix_size();
         let entries = reached(&matrices, size);
-        let field = Field {
-            algebra,
-            slopes: energy.gradient(dim),
-            matrices: &matrices,
-            size,
-            entries: &entries,
-        };
+        let field = Field { algebra, gradient, matrices: &matrices, size, entries: &entries };
         let basis = algebra.basis().and_then(|_| {
             let gram = DMatrix::from_fn(dim, dim, |i, j| matrices[i].dot(&matrices[j]));
             gram.try_inverse().map(|inverse| (matrices.clone(), inverse))
         });
         let (step, rate) = (field.step(), field.rate());
-        Self { dim, size, step, rate, basis, entries }
+        Self { dim, size, step, rate, slots: slots.to_vec(), basis, entries }
     }
 
     pub fn cost(&self) -> usize {
@@ -55,13 +50,13 @@ impl Rival {
         momentum.iter().copied().chain(self.entries.iter().map(identity)).collect()
     }
 
-    pub fn advance(&self, state: &[f64], h: f64) -> Vec<f64> {
-        self.step.run(&[state, &[h]].concat(), &[])
+    pub fn advance(&self, state: &[f64], time: f64, h: f64) -> Vec<f64> {
+        self.step.run(&[state, &[h, time]].concat(), &self.slots)
     }
 
-    /// μ̇ at μ.
-    pub fn rate(&self, momentum: &[f64]) -> Vec<f64> {
-        self.rate.run(momentum, &[])
+    /// μ̇ at (t, μ).
+    pub fn rate(&self, time: f64, momentum: &[f64]) -> Vec<f64> {
+        self.rate.run(&[momentum, &[time]].concat(), &self.slots)
     }
 
     /// The spatial momentum Ad\*_g μ of a state as it is, wherever it has left the group; NaN where g has no inverse.
@@ -121,7 +116,7 @@ fn reached(matrices: &[DMatrix<f64>], size: usize) -> Vec<usize> {
 /// The equations of motion as nodes.
 struct Field<'a> {
     algebra: &'a LieAlgebra,
-    slopes: Vec<Numeric>,
+    gradient: &'a Program,
     matrices: &'a [DMatrix<f64>],
     size: usize,
     entries: &'a [usize],
@@ -133,24 +128,8 @@ impl Field<'_> {
     }
 
     /// ξ = ∂H/∂μ.
-    fn velocity(&self, graph: &Graph, mu: &[Id]) -> Vec<Id> {
-        let slope = |slope: &Numeric| {
-            let mut sum = graph.zero();
-            for (value, factors) in slope.terms() {
-                let mut product = None;
-                for &(i, power) in factors {
-                    let power = graph.power(mu[i], power.unsigned_abs());
-                    product = Some(product.map_or(power, |product| graph.mul(product, power)));
-                }
-                let value = graph.constant(value);
-                sum = match product {
-                    Some(product) => graph.times_plus(product, value, sum),
-                    None => graph.add(value, sum),
-                };
-            }
-            sum
-        };
-        self.slopes.iter().map(slope).collect()
+    fn velocity(&self, graph: &Graph, mu: &[Id], time: Id) -> Vec<Id> {
+        graph.call(self.gradient, &[mu, &[time]].concat())
     }
 
     /// ad\*_ξ μ.
@@ -162,9 +141,9 @@ impl Field<'_> {
         force
     }
 
-    fn all(&self, graph: &Graph, state: &[Id]) -> Vec<Id> {
+    fn all(&self, graph: &Graph, state: &[Id], time: Id) -> Vec<Id> {
         let (mu, entries) = state.split_at(self.dim());
-        let xi = self.velocity(graph, mu);
+        let xi = self.velocity(graph, mu, time);
         let mut rates = self.force(graph, &xi, mu);
         // The entries of ξ as a matrix.
         let size = self.size;
@@ -198,7 +177,7 @@ impl Field<'_> {
         let graph = Graph::new();
         let count = self.dim() + self.entries.len();
         let start: Vec<Id> = (0..count).map(|i| graph.input(i)).collect();
-        let h = graph.input(count);
+        let (h, start_time) = (graph.input(count), graph.input(count + 1));
         let share = |graph: &Graph, part: f64| graph.mul(h, graph.constant(part));
         let (half, sixth, third) =
             (share(&graph, 0.5), share(&graph, 1.0 / 6.0), share(&graph, 1.0 / 3.0));
@@ -206,19 +185,19 @@ impl Field<'_> {
             from.iter().zip(rates).map(|(&a, &rate)| graph.times_plus(rate, by, a)).collect()
         };
         let mut end = start.clone();
-        let mut at = start.clone();
+        let (mut at, mut time) = (start.clone(), start_time);
         for (weight, next) in [(sixth, half), (third, half), (third, h), (sixth, h)] {
-            let rates = self.all(&graph, &at);
+            let rates = self.all(&graph, &at, time);
             end = along(&graph, &end, weight, &rates);
-            at = along(&graph, &start, next, &rates);
+            (at, time) = (along(&graph, &start, next, &rates), graph.add(start_time, next));
         }
-        graph.finish(count + 1, &end)
+        graph.finish(count + 2, &end)
     }
 
     fn rate(&self) -> Program {
         let graph = Graph::new();
         let mu: Vec<Id> = (0..self.dim()).map(|i| graph.input(i)).collect();
-        let force = self.force(&graph, &self.velocity(&graph, &mu), &mu);
-        graph.finish(self.dim(), &force)
+        let xi = self.velocity(&graph, &mu, graph.input(self.dim()));
+        graph.finish(self.dim() + 1, &self.force(&graph, &xi, &mu))
     }
 }

@@ -1,7 +1,7 @@
 //! A run: our steps and the rival's side by side, how far each has drifted, and why a step was refused.
 
 use coadjoint_codegen::step::{Spatial, Start};
-use coadjoint_program::{Attempt, Kernel, Program, Stepper};
+use coadjoint_program::{Attempt, Program, Stepper};
 
 use crate::history::{History, Sample};
 use crate::system::System;
@@ -53,7 +53,7 @@ impl Run {
         let identity: Vec<f64> =
             (0..size * size).map(|at| f64::from(u8::from(at / size == at % size))).collect();
         let g = system.step.element_of(&identity);
-        let rate = system.rival.rate(momentum);
+        let rate = system.rival.rate(0.0, momentum);
         let now = State { g, mu: momentum.to_vec(), rate: rate.clone() };
         let start = system.invariants.start(momentum, momentum, Vec::new);
         let mut run = Self {
@@ -78,27 +78,27 @@ impl Run {
 
     /// Makes up to `count` steps; returns how many were made.
     pub fn advance(&mut self, system: &System, count: u32) -> u32 {
-        let kernel = system.step.kernel();
+        let mut slots = system.slots.clone();
         for made in 0..count {
             if self.refusal.is_some() {
                 return made;
             }
-            let mut next = self.now.clone();
-            let outcome = kernel.advance(&system.slots, &mut next.g, &mut next.mu, 1);
-            if outcome.steps == 0 {
-                let reason = Reason::of(kernel, &system.slots, &self.now.mu);
-                let usable = usable(system, &self.now.g, &self.now.mu);
+            let (mut next, time) = (self.now.clone(), self.time());
+            system.step.set_time(&mut slots, self.h, time);
+            if !system.advance(&slots, &mut next.g, &mut next.mu) {
+                let reason = Reason::of(system, &slots, time, &self.now.mu);
+                let usable = usable(system, time, &self.now.g, &self.now.mu);
                 self.refusal = Some(Refusal { reason, usable });
                 return made;
             }
-            next.rate = system.rival.rate(&next.mu);
-            self.before = std::mem::replace(&mut self.now, next);
             self.steps += 1;
+            next.rate = system.rival.rate(self.time(), &next.mu);
+            self.before = std::mem::replace(&mut self.now, next);
             let h = self.h / self.substeps as f64;
-            for _ in 0..self.substeps {
-                self.rival = system.rival.advance(&self.rival, h);
+            for number in 0..self.substeps {
+                self.rival = system.rival.advance(&self.rival, time + number as f64 * h, h);
             }
-            self.rival_rate = system.rival.rate(&self.rival[..system.dim()]);
+            self.rival_rate = system.rival.rate(self.time(), &self.rival[..system.dim()]);
             self.leave_trail();
             self.record(system);
         }
@@ -115,7 +115,7 @@ impl Run {
     }
 
     pub fn energy(&self, system: &System) -> f64 {
-        system.energy.value(&self.now.mu)
+        system.energy_at(self.time(), &self.now.mu)
     }
 
     /// μ a part of the way from the last state but one to the last. Only for pictures.
@@ -195,10 +195,11 @@ impl Run {
 fn substeps(system: &System, start: &State) -> usize {
     let kernel = system.step.kernel();
     let programs = &kernel.programs;
-    let State { mut g, mut mu, .. } = start.clone();
+    let (State { mut g, mut mu, .. }, mut slots) = (start.clone(), system.slots.clone());
     let (mut steps, mut corrections) = (0_u64, 0_u64);
     while steps < 16 {
-        let outcome = kernel.advance(&system.slots, &mut g, &mut mu, 1);
+        system.step.set_time(&mut slots, system.h, steps as f64 * system.h);
+        let outcome = kernel.advance(&slots, &mut g, &mut mu, 1);
         if outcome.steps == 0 {
             break;
         }
@@ -219,11 +220,13 @@ fn hermite((a, slope_a): (f64, f64), (b, slope_b): (f64, f64), s: f64) -> f64 {
         - slope_b * u * u * t
 }
 
+/// Places ahead at which a refused step asks for H.
+const AHEAD: u32 = 16;
 /// Halves of a refused step that are tried.
 const MOST_HALVINGS: u32 = 20;
 
 /// Why the kernel refuses the next step from (g, μ), as `emit --language c` tells them apart.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Reason {
     NotFinite,
     /// |μ| is beyond the radius up to which the truncated series means something.
@@ -231,27 +234,48 @@ pub enum Reason {
     /// The equation of the step was not solved to rounding near the first guess.
     NotSolved,
     BeyondChart,
+    /// Ahead the Hamiltonian is not defined, as this text says.
+    Undefined(String),
+    /// The nodes of collocation do not resolve the step.
+    NotResolved,
     OffGroup,
 }
 
 impl Reason {
-    pub fn of(kernel: &Kernel, slots: &[f64], mu: &[f64]) -> Self {
+    fn of(system: &System, slots: &[f64], time: f64, mu: &[f64]) -> Self {
         if !mu.iter().all(|entry| entry.is_finite()) {
             return Self::NotFinite;
         }
         let square: f64 = mu.iter().map(|entry| entry * entry).sum();
-        if !slots.last().is_some_and(|&limit| square <= limit) {
+        let (kernel, series) = (system.step.kernel(), system.series().is_some());
+        let limit = slots.get(system.step.radius_at());
+        if series && !limit.is_some_and(|&limit| square <= limit) {
             return Self::BeyondSeries;
         }
         let Attempt { residual_bound, distance, accepted, .. } = kernel.attempt(slots, mu);
         if !(residual_bound <= kernel.tolerance && distance <= kernel.near) {
-            return Self::NotSolved;
+            // On the way that the momentum would take at its rate.
+            let rate = system.rival.rate(time, mu);
+            let ahead = (0..=AHEAD).find_map(|part| {
+                let later = system.h * f64::from(part) / f64::from(AHEAD);
+                let mu: Vec<f64> = mu.iter().zip(&rate).map(|(mu, rate)| mu + later * rate).collect();
+                system.undefined(time + later, &mu)
+            });
+            return ahead.map_or(Self::NotSolved, Self::Undefined);
         }
-        if accepted { Self::OffGroup } else { Self::BeyondChart }
+        match (accepted, series) {
+            (true, _) => Self::OffGroup,
+            (false, true) => Self::BeyondChart,
+            (false, false) => Self::NotResolved,
+        }
     }
 
-    pub fn text(self) -> &'static str {
+    pub fn text(&self) -> &str {
         match self {
+            Self::Undefined(text) => text,
+            Self::NotResolved => {
+                "not resolved: velocity or force change too much within the step for its nodes, or the body would turn too far"
+            }
             Self::NotFinite => "the momentum is no longer a finite number",
             Self::BeyondSeries => {
                 "beyond the series: the momentum is so large for this step size that the last terms of S no longer shrink"
@@ -268,12 +292,13 @@ impl Reason {
 }
 
 /// The longest of h/2, h/4, … with which the step can be made.
-pub fn usable(system: &System, g: &[f64], mu: &[f64]) -> Option<f64> {
+fn usable(system: &System, time: f64, g: &[f64], mu: &[f64]) -> Option<f64> {
     let mut shorter = system.h;
     (0..MOST_HALVINGS).find_map(|_| {
         shorter *= 0.5;
-        let slots = system.step.fold(shorter, &[]).unwrap_or_default();
-        let made = system.step.kernel().advance(&slots, &mut g.to_vec(), &mut mu.to_vec(), 1);
-        (made.steps == 1).then_some(shorter)
+        let (mut slots, mut g) = (system.step.fold(shorter, &[]).unwrap_or_default(), g.to_vec());
+        system.step.set_time(&mut slots, shorter, time);
+        system.step.forget(&mut g);
+        system.advance(&slots, &mut g, &mut mu.to_vec()).then_some(shorter)
     })
 }

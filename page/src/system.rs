@@ -3,10 +3,11 @@
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie::{self, LieAlgebra, catalogue};
-use coadjoint_codegen::poly::{Numeric, Polynomial};
-use coadjoint_codegen::problem::{Problem, values};
-use coadjoint_codegen::step::{Energy, Invariants, Step};
+use coadjoint_codegen::poly::Polynomial;
+use coadjoint_codegen::smooth::{Hamiltonian, Smooth};
+use coadjoint_codegen::step::{Energy, Invariants, Origin, Step};
 use coadjoint_codegen::system::{self, Options, Units};
+use coadjoint_program::{Argument, Precision, Program, Stepper};
 
 use crate::fields::Fields;
 use crate::file::File;
@@ -41,11 +42,17 @@ pub struct Factor {
     pub size: usize,
 }
 
+/// What steps are made from, with numbers for the parameters.
+#[derive(Debug)]
+pub enum Source {
+    Series(Box<Integrator>),
+    Collocation(Box<Smooth>),
+}
+
 #[derive(Debug)]
 pub struct System {
     pub file: String,
-    /// The integrator, with numbers for the parameters.
-    pub integrator: Integrator,
+    pub source: Source,
     /// A step as programs.
     pub step: Step,
     /// Their folded coefficients.
@@ -53,7 +60,9 @@ pub struct System {
     pub h: f64,
     /// μ at the start.
     pub momentum: Vec<f64>,
-    pub energy: Numeric,
+    pub energy: Energy,
+    /// μ, then t where H is no polynomial, ↦ ∂H/∂μ, with the coefficients of a step.
+    pub gradient: Program,
     pub casimirs: Vec<Polynomial>,
     /// The conserved quantities, as numbers.
     pub invariants: Invariants,
@@ -63,16 +72,29 @@ pub struct System {
     pub units: Units,
 }
 
+impl Source {
+    pub fn origin(&self) -> Origin<'_> {
+        match self {
+            Self::Series(integrator) => Origin::Series(integrator),
+            Self::Collocation(smooth) => Origin::Collocation(smooth),
+        }
+    }
+}
+
+/// The first inputs of a program, as what it is differentiated in.
+fn axes(dim: usize) -> Vec<Argument> {
+    (0..dim).map(Argument::Input).collect()
+}
+
 impl System {
     /// The system of these fields.
     pub fn new(fields: &Fields) -> Result<Self, Vec<Mistake>> {
         let file = File::of(fields);
-        let read = match system::read(&file.text, Options::default()) {
+        let read = match system::read_either(&file.text, Options::default(), &[]) {
             Ok(read) if file.unwritten.is_empty() => read,
             Ok(_) => return Err(file.unwritten),
             Err(diagnostics) => return Err(file.mistakes(&diagnostics)),
         };
-        let problem = read.problem;
         let h = read.run.step.unwrap_or(0.1);
         let Some(momentum) = read.run.momentum else {
             return Err(vec![Mistake::of(
@@ -81,10 +103,22 @@ impl System {
                 "give a number for each coordinate",
             )]);
         };
-        let integrator = Integrator::build(problem, LIMIT)
-            .map_err(|error| vec![Mistake::of("truncation", error, "lower the truncation")])?;
+        let energy = Energy::new(&read.problem);
+        let (source, gradient) = match read.problem {
+            Hamiltonian::Polynomial(problem) => {
+                let of = |error| vec![Mistake::of("truncation", error, "lower the truncation")];
+                let integrator = Integrator::build(*problem, LIMIT).map_err(of)?;
+                let gradient = integrator.energy.gradient(&axes(integrator.problem.algebra.dim()));
+                (Source::Series(Box::new(integrator)), gradient)
+            }
+            Hamiltonian::Smooth(smooth) => {
+                let gradient = smooth.gradient.clone();
+                (Source::Collocation(smooth), gradient)
+            }
+        };
+        let origin = source.origin();
         let refused = |error: &dyn std::fmt::Display| vec![Mistake::of_all(error, None)];
-        let step = Step::build(&integrator).map_err(|error| refused(&error))?;
+        let step = origin.step(Precision::Double).map_err(|error| refused(&error))?;
         let programs = &step.kernel().programs;
         let operations = programs.correct.nodes().len() + programs.transport.nodes().len();
         if operations > MOST_OPERATIONS {
@@ -94,30 +128,89 @@ impl System {
             return Err(vec![Mistake::of("truncation", message, "lower the truncation")]);
         }
         let slots = step.fold(h, &[]).map_err(|error| refused(&error))?;
-        let Problem { algebra, hamiltonian, symbols, .. } = &integrator.problem;
-        let energy = Numeric::new(hamiltonian, algebra.dim(), &values(symbols));
-        let invariants = Invariants::new(algebra, Energy::Polynomial(energy.clone()), None);
+        let algebra = origin.facts().algebra;
+        let invariants = Invariants::new(algebra, energy.clone(), None);
         let casimirs = lie::watched_casimirs(algebra);
         let factors = factors(algebra);
-        let rival = Rival::new(algebra, &energy);
-        Ok(Self {
+        let rival = Rival::new(algebra, &gradient, &slots);
+        let system = Self {
             file: file.text,
-            integrator,
+            source,
             step,
             slots,
             h,
             momentum,
             energy,
+            gradient,
             casimirs,
             invariants,
             factors,
             rival,
             units: read.units,
-        })
+        };
+        match system.undefined(0.0, &system.momentum) {
+            Some(what) => {
+                let help = "give a momentum at which the Hamiltonian is defined";
+                Err(vec![Mistake::of("momentum", what, help).at(0..fields.momentum.len())])
+            }
+            None => Ok(system),
+        }
     }
 
     pub fn dim(&self) -> usize {
-        self.integrator.problem.algebra.dim()
+        self.momentum.len()
+    }
+
+    /// The series, where steps are made by one.
+    pub fn series(&self) -> Option<&Integrator> {
+        match &self.source {
+            Source::Series(integrator) => Some(integrator),
+            Source::Collocation(_) => None,
+        }
+    }
+
+    /// Makes a step with these coefficients, where need be as if there were none before it; whether it can be made.
+    pub fn advance(&self, slots: &[f64], g: &mut [f64], mu: &mut [f64]) -> bool {
+        let mut made = |g: &mut [f64]| self.step.kernel().advance(slots, g, mu, 1).steps == 1;
+        made(g) || {
+            self.step.forget(g);
+            made(g)
+        }
+    }
+
+    /// H(t, μ).
+    pub fn energy_at(&self, time: f64, mu: &[f64]) -> f64 {
+        match &self.energy {
+            Energy::Smooth(smooth, symbols) => smooth.energy(symbols, time, mu),
+            polynomial => polynomial.value(mu),
+        }
+    }
+
+    /// The expression in H that is not defined, or has no derivative, at (t, μ).
+    pub fn undefined(&self, time: f64, mu: &[f64]) -> Option<String> {
+        let Energy::Smooth(smooth, symbols) = &self.energy else { return None };
+        let (number, argument) = smooth.undefined(symbols, time, mu)?;
+        let expression = &smooth.expressions[number];
+        Some(format!("an expression is not defined at time {time}: {expression} of {argument}"))
+    }
+
+    /// ∂H/∂μ and ∂²H/∂μ², row by row, at μ = 0; at the start where they are not finite there.
+    pub fn slopes(&self) -> [Vec<f64>; 2] {
+        let (n, gradient) = (self.dim(), &self.gradient);
+        let bend = gradient.push_forward(&axes(n));
+        let at = |mu: &[f64]| {
+            let mut inputs = mu.to_vec();
+            inputs.resize(gradient.inputs() + n, 0.0);
+            let slope = gradient.run(&inputs, &self.slots);
+            let column = |i: usize| {
+                let mut inputs = inputs.clone();
+                inputs[gradient.inputs() + i] = 1.0;
+                bend.run(&inputs, &self.slots)
+            };
+            [slope, (0..n).flat_map(column).collect()]
+        };
+        let finite = |slopes: &[Vec<f64>; 2]| slopes.iter().flatten().all(|x| x.is_finite());
+        Some(at(&vec![0.0; n])).filter(finite).unwrap_or_else(|| at(&self.momentum))
     }
 }
 

@@ -4,35 +4,36 @@
 use std::fs;
 use std::path::Path;
 
-use coadjoint_codegen::system::{Options, read};
+use coadjoint_codegen::system::{Options, read_either};
 use coadjoint_page::fields::Fields;
 use coadjoint_page::file::File;
 use coadjoint_page::gallery::gallery;
 use coadjoint_page::run::Run;
 use coadjoint_page::system::System;
 
-/// Lists of bonds, which a page's fields do not hold, potentials, torques, damping, Hamiltonians that are no polynomials, 192 dimensions,
-/// and steps of 61 000 operations: not for a page.
-const LEFT_OUT: [&str; 18] = [
+/// Lists of bonds, which a page's fields do not hold, potentials, torques, damping, 192 dimensions, and steps of more than 60 000
+/// operations: not for a page.
+const LEFT_OUT: [&str; 13] = [
     "damped_body",
-    "driven_qubit",
     "elliptic_satellite",
-    "exponential_spin",
     "kagome_star",
     "magnetic_bottle",
     "magnetic_satellite",
     "reaction_wheels",
-    "relativistic_body",
     "relativistic_orbit",
     "satellite",
-    "screened_top",
-    "sphere_vortices",
     "spin_chain_64",
     "spin_molecule",
     "spin_triangle",
     "vortex_ring",
     "zeitlin_5",
 ];
+
+/// The system of a file and the run that it asks for.
+fn said(text: &str) -> String {
+    let read = read_either(text, Options::default(), &[]).unwrap();
+    format!("{:?} {:?}", read.problem, read.run)
+}
 
 #[test]
 fn every_example_is_there_and_says_the_same_through_its_fields() {
@@ -54,45 +55,20 @@ fn every_example_is_there_and_says_the_same_through_its_fields() {
         );
         let file = File::of(&fields);
         assert!(file.unwritten.is_empty(), "{stem}");
-        let (before, after) = (
-            read(&text, Options::default()).unwrap(),
-            read(&file.text, Options::default()).unwrap(),
-        );
-        assert_eq!(before.problem.hamiltonian, after.problem.hamiltonian, "{stem}");
-        assert_eq!(before.problem.algebra, after.problem.algebra, "{stem}");
-        assert_eq!(before.problem.coordinates, after.problem.coordinates, "{stem}");
-        assert_eq!(before.problem.comoving, after.problem.comoving, "{stem}");
-        assert_eq!(
-            (
-                before.problem.truncation,
-                before.problem.chart,
-                before.run.step,
-                before.run.time,
-                before.run.momentum
-            ),
-            (
-                after.problem.truncation,
-                after.problem.chart,
-                after.run.step,
-                after.run.time,
-                after.run.momentum
-            ),
-            "{stem}"
-        );
+        assert_eq!(said(&text), said(&file.text), "{stem}");
         seen += 1;
     }
-    assert!(seen >= 18, "{seen}");
+    assert!(seen >= 23, "{seen}");
 }
 
 #[test]
 fn every_system_of_the_gallery_runs_and_keeps_momentum_and_casimirs() {
-    assert!(gallery().len() >= 22);
+    assert!(gallery().len() >= 27);
     for entry in gallery() {
         let system = System::new(&entry.fields)
             .unwrap_or_else(|mistakes| panic!("{}: {mistakes:?}", entry.id));
         let mut run = Run::new(&system, &system.momentum);
-        let copied = read(&system.file, Options::default()).unwrap();
-        assert_eq!(copied.problem.hamiltonian, system.integrator.problem.hamiltonian);
+        let copied = read_either(&system.file, Options::default(), &[]).unwrap();
         assert_eq!(
             (copied.run.momentum, copied.run.step),
             (Some(run.momentum().to_vec()), Some(system.h))
@@ -101,6 +77,7 @@ fn every_system_of_the_gallery_runs_and_keeps_momentum_and_casimirs() {
         let [[energy, momentum, casimirs], _] = run.history.most;
         assert!(momentum < 1e-13 && casimirs < 1e-13, "{}: {momentum:e} {casimirs:e}", entry.id);
         // Relative to |E₀|, which is a small part of the sum of its terms on the spin ring.
-        assert!(energy < 2e-5, "{}: {energy:e}", entry.id);
+        let conserved = system.invariants.hamiltonian.is_some();
+        assert!(energy < 2e-5 || !conserved && energy.is_nan(), "{}: {energy:e}", entry.id);
     }
 }

@@ -15,6 +15,7 @@ fn body() -> Fields {
         truncation: "7".into(),
         chart: "exp".into(),
         frame: "auto".into(),
+        method: "auto".into(),
         step: "1/10".into(),
         momentum: "2 0.5 1".into(),
         ..Fields::default()
@@ -46,17 +47,18 @@ fn every_mistake_is_at_its_place() {
         Some("truncation") => fields.truncation.clone(),
         Some("chart") => fields.chart.clone(),
         Some("step") => fields.step.clone(),
+        Some("method") => fields.method.clone(),
         Some("algebra") => fields.algebra.clone(),
         other => panic!("{other:?}"),
     };
     type Change = fn(&mut Fields);
-    let cases: [(&str, &str, Change); 15] = [
+    let cases: [(&str, &str, Change); 18] = [
         ("hamiltonian", "w", |f| f.hamiltonian = "x^2/2 + w^2".into()),
         ("hamiltonian", "w", |f| f.hamiltonian = "  x^2/2\n + w^2".into()),
         // Letters of several bytes before it.
         ("hamiltonian", "§", |f| f.hamiltonian = "x^2 + §*y".into()),
         ("hamiltonian", "\"", |f| f.hamiltonian = "x^2 + \"*y".into()),
-        ("hamiltonian", "sin(x)", |f| f.hamiltonian = "y^2 + sin(x)".into()),
+        ("hamiltonian", "erf", |f| f.hamiltonian = "y^2 + erf(x)".into()),
         ("parameters", "1.5.2", |f| f.parameters = "I1 = 1.5.2, I2 = 2, I3 = 3".into()),
         ("parameters", "I2", |f| f.parameters = "I1 = 1\nI2\nI3 = 3".into()),
         ("parameters", "x", |f| f.parameters = "I1 = 1, I2 = 2, I3 = 3, x = 4".into()),
@@ -69,6 +71,9 @@ fn every_mistake_is_at_its_place() {
         ("momentum", "one", |f| f.momentum = "2 one 3".into()),
         ("truncation", "4", |f| f.truncation = "4".into()),
         ("step", "0", |f| f.step = "0".into()),
+        ("chart", "cayley", |f| (f.hamiltonian, f.chart) = ("y^2 + sin(x)".into(), "cayley".into())),
+        ("method", "series", |f| (f.hamiltonian, f.method) = ("y^2 + sin(x)".into(), "series".into())),
+        ("momentum", "2 0.5 1", |f| f.hamiltonian = "y^2 + ln(x - 2)".into()),
         ("algebra", "[A, B] = D", |f| {
             f.algebra = "generators = [\"A\", \"B\", \"C\"]\nbrackets = [\"[A, B] = D\"]".into()
         }),

@@ -4,7 +4,7 @@
 use coadjoint_page::fields::Fields;
 use coadjoint_page::gallery::gallery;
 use coadjoint_page::orbit::Orbit;
-use coadjoint_page::run::{Reason, Run};
+use coadjoint_page::run::{Reason, Refusal, Run};
 use coadjoint_page::system::System;
 
 fn fields(id: &str) -> Fields {
@@ -61,13 +61,63 @@ fn a_refused_step_says_why_and_what_would_do() {
 }
 
 #[test]
+fn roots_and_hamiltonians_that_move_in_time_are_run() {
+    // With E = H the relativistic body is the rigid one whose time goes slower by the factor E.
+    let system = System::new(&fields("relativistic-body")).unwrap();
+    let mut run = Run::new(&system, &system.momentum);
+    let slower = system.h / run.energy(&system);
+    let mut rigid = fields("rigid-body");
+    rigid.step = slower.to_string();
+    let rigid = System::new(&rigid).unwrap();
+    let mut beside = Run::new(&rigid, &rigid.momentum);
+    assert_eq!((run.advance(&system, 500), beside.advance(&rigid, 500)), (500, 500));
+    for (a, b) in run.momentum().iter().zip(beside.momentum()) {
+        assert!((a - b).abs() < 1e-9, "{a} {b}");
+    }
+    assert!(run.history.most[0].into_iter().all(|drift| drift < 1e-12));
+    // Rosen and Zener's pulse: see the file.
+    let system = System::new(&fields("driven-qubit")).unwrap();
+    let mut run = Run::new(&system, &system.momentum);
+    assert_eq!(run.advance(&system, 1200), 1200);
+    let half = std::f64::consts::FRAC_PI_2;
+    let over = ((half * 0.8).sin() / (half * 0.2).cosh()).powi(2);
+    assert!((run.momentum()[2] - (1.0 - 2.0 * over)).abs() < 1e-9, "{:?}", run.momentum());
+    let [[energy, momentum, casimirs], _] = run.history.most;
+    assert!(energy.is_nan() && momentum < 1e-13 && casimirs < 1e-13);
+}
+
+#[test]
+fn a_step_out_of_the_domain_is_refused_with_the_expression() {
+    let mut fields = fields("relativistic-body");
+    fields.hamiltonian = "z^2/2 + y + x^(3/2)".into();
+    (fields.parameters, fields.momentum) = (String::new(), "0.5 1 1".into());
+    let system = System::new(&fields).unwrap();
+    let mut run = Run::new(&system, &system.momentum);
+    let made = run.advance(&system, 1000);
+    assert!((1..1000).contains(&made));
+    let Refusal { reason, .. } = run.refusal.unwrap();
+    assert!(matches!(&reason, Reason::Undefined(text) if text.contains("x^(3/2) of -")), "{reason:?}");
+    // A step too long for the nodes.
+    fields.hamiltonian = "exp(x^2/2) + y^2".into();
+    fields.step = "3".into();
+    let system = System::new(&fields).unwrap();
+    let mut run = Run::new(&system, &system.momentum);
+    run.advance(&system, 100);
+    let Refusal { reason, usable } = run.refusal.unwrap();
+    assert!(matches!(reason, Reason::NotResolved | Reason::NotSolved), "{reason:?}");
+    assert!(usable.is_some_and(|h| h < 3.0));
+}
+
+#[test]
 fn the_method_beside_is_of_order_four() {
-    for id in ["rigid-body", "heavy-top", "su3-quadratic", "toda-lattice", "sl2-geodesic"] {
+    let ids = ["rigid-body", "heavy-top", "su3-quadratic", "toda-lattice", "sl2-geodesic"];
+    for id in ids.into_iter().chain(["screened-top", "driven-qubit"]) {
         let system = System::new(&fields(id)).unwrap();
         let end = |steps: u32| {
             let mut state = system.rival.start(&system.momentum);
-            for _ in 0..steps {
-                state = system.rival.advance(&state, 0.8 / f64::from(steps));
+            let h = 0.8 / f64::from(steps);
+            for number in 0..steps {
+                state = system.rival.advance(&state, h * f64::from(number), h);
             }
             state
         };
@@ -84,19 +134,19 @@ fn the_method_beside_is_of_order_four() {
 
 #[test]
 fn level_curves_are_on_the_orbit_and_on_their_level() {
-    for id in ["wing-nut", "plate-in-fluid", "so21-top", "heisenberg-geodesics"] {
+    for id in ["wing-nut", "plate-in-fluid", "so21-top", "heisenberg-geodesics", "exponential-spin"] {
         let system = System::new(&fields(id)).unwrap();
         let casimir = &system.invariants.casimirs[0];
         let mu = &system.momentum;
         let orbit = Orbit::new(&system.energy, casimir, mu).unwrap();
-        let own = system.energy.value(mu);
+        let own = system.energy_at(0.0, mu);
         let through = orbit.level(own);
         assert!(orbit.spread.len() > 10 && !through.is_empty(), "{id}");
         let size = orbit.surface.extent;
         for point in through.iter().flatten() {
             let (on, level) = (
                 casimir.value(&point[..3]) - casimir.value(mu),
-                system.energy.value(&point[..3]) - own,
+                system.energy_at(0.0, &point[..3]) - own,
             );
             assert!(
                 on.abs() < 0.02 * size * size && level.abs() < 0.02 * size * size,

@@ -321,8 +321,7 @@ impl Compiled {
             step.set_time(slots.to_mut(), self.folded.size, time);
         }
         let mut alone = numbers.clone();
-        let own = alone.g.len().saturating_sub(step.memory());
-        alone.g.iter_mut().skip(own).for_each(|number| *number = 0.0);
+        step.forget(&mut alone.g);
         let Numbers { g, mu } = &mut alone;
         let made = self.code().stepper(self.kernel()).advance(&slots, g, mu, 1).steps == 1;
         if made {

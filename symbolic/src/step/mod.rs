@@ -267,9 +267,15 @@ impl Step {
         }
     }
 
-    /// How many of an element's numbers, the last ones, steps leave to the next one. They may be set to 0.
+    /// How many of an element's numbers, the last ones, steps leave to the next one.
     pub fn memory(&self) -> usize {
         self.memory
+    }
+
+    /// Sets these numbers to 0, so that the next step knows none before it.
+    pub fn forget(&self, g: &mut [f64]) {
+        let own = g.len().saturating_sub(self.memory);
+        g[own..].fill(0.0);
     }
 
     /// The coefficients of a flow, of rows side by side, for the values of the symbols; and the |μ| up to which the last two
