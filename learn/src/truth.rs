@@ -10,7 +10,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
 use crate::data::{MomentumPairs, PhasePair};
-use crate::function::{MomentumFunction, entries, vector};
+use crate::function::{Hamiltonian, MomentumFunction, entries, vector};
 
 /// H = ½ Σ wᵢ μᵢ² + Σ bᵢ μᵢ + ¼ Σ vᵢ μᵢ⁴: the free rigid body, the heavy top, and their like.
 #[derive(Clone, Debug, PartialEq)]

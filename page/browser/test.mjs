@@ -81,7 +81,7 @@ onPage("opens from disk, moves, and says nothing to the console", [], async (tab
 
 onPage("every system of the gallery can be chosen and runs", [], async (tab) => {
   const ids = await tab.locator("#gallery option").evaluateAll((list) => list.map((option) => option.value));
-  assert.ok(ids.length >= 22);
+  assert.ok(ids.length >= 27);
   for (const id of ids) {
     await tab.selectOption("#gallery", id);
     await tab.waitForFunction(() => page.session().steps() > 3);
@@ -255,6 +255,18 @@ onPage("a refused step is told, with one that can be made", ["#system=rigid-body
   await tab.click("#usable");
   await tab.waitForFunction(() => page.about().step < 1.9 && page.session().steps() > 3);
   assert.equal(await tab.locator("#refusal").isVisible(), false);
+});
+
+onPage("a Hamiltonian that is no polynomial runs, and is refused outside its domain", ["#system=rigid-body&paused=1"], async (tab) => {
+  await tab.fill("#hamiltonian", "z + x^(3/2)");
+  await tab.fill("#momentum", "0.5 -1 1");
+  await tab.waitForFunction(() => page.about().terms.length === 0 && page.about().momentum[0] === 0.5);
+  assert.match(await text(tab, "cost"), /by collocation at 4 nodes/);
+  assert.equal(await tab.locator("#text code").textContent(), "z + x^(3/2)");
+  await tab.click("#play");
+  await tab.waitForSelector("#refusal:not([hidden])");
+  assert.match(await text(tab, "refusal"), /not defined at time .*: x\^\(3\/2\) of -/);
+  await tab.screenshot({ path: join(pictures, "smooth.png"), fullPage: true });
 });
 
 test("a link holds the whole state", async () => {

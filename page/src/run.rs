@@ -258,7 +258,8 @@ impl Reason {
             let rate = system.rival.rate(time, mu);
             let ahead = (0..=AHEAD).find_map(|part| {
                 let later = system.h * f64::from(part) / f64::from(AHEAD);
-                let mu: Vec<f64> = mu.iter().zip(&rate).map(|(mu, rate)| mu + later * rate).collect();
+                let mu: Vec<f64> =
+                    mu.iter().zip(&rate).map(|(mu, rate)| mu + later * rate).collect();
                 system.undefined(time + later, &mu)
             });
             return ahead.map_or(Self::NotSolved, Self::Undefined);

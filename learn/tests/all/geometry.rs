@@ -5,14 +5,14 @@ use coadjoint::collocation::Collocation;
 use coadjoint::groups::{Cayley, Chart, Coordinates, Exponential};
 use coadjoint::laws::check;
 use coadjoint::{LieGroup, Phase, SE3, SO3};
-use coadjoint_learn::network::{TrainingOptions, fit_network};
 use coadjoint_learn::data::{MomentumPairs, ReducedData};
+use coadjoint_learn::network::{TrainingOptions, fit_network};
 use coadjoint_learn::polynomial::fit_polynomial;
 use coadjoint_learn::truth::Separable;
-use nalgebra::DMatrix;
 use coadjoint_learn::{
     DataGroup, Generating, Hamiltonian, Model, MomentumFunction, fit_gaussian_process, fit_hybrid,
 };
+use nalgebra::DMatrix;
 
 use crate::support::{WIDE, draw, random, random_network, random_polynomial, relativistic, sample};
 
@@ -121,8 +121,7 @@ fn fitted_hamiltonians_keep_momentum_casimir_and_their_own_energy() {
         let group = SO3::new();
         let start = Phase::<SO3>::at_identity([1.2, 0.5, -0.8]);
         let mut body = start.clone();
-        let mut step =
-            Collocation::<SO3, _, 4>::new(group, Hamiltonian(function), 0.2).unwrap();
+        let mut step = Collocation::<SO3, _, 4>::new(group, Hamiltonian(function), 0.2).unwrap();
         step.advance_by(&mut body, 0.0, 1000).unwrap();
         let moved = body.spatial_momentum(&group) - start.momentum;
         let casimir = body.momentum.norm() - start.momentum.norm();

@@ -29,10 +29,11 @@ const LEFT_OUT: [&str; 13] = [
     "zeitlin_5",
 ];
 
-/// The system of a file and the run that it asks for.
+/// The system of a file and its run, as far as fields hold them.
 fn said(text: &str) -> String {
     let read = read_either(text, Options::default(), &[]).unwrap();
-    format!("{:?} {:?}", read.problem, read.run)
+    // Fields hold no end of line after the last word.
+    format!("{:?} {:?}", read.problem, (read.run.step, read.run.time, read.run.momentum)).replace("\\n\"", "\"")
 }
 
 #[test]

@@ -47,7 +47,6 @@ fn every_mistake_is_at_its_place() {
         Some("truncation") => fields.truncation.clone(),
         Some("chart") => fields.chart.clone(),
         Some("step") => fields.step.clone(),
-        Some("method") => fields.method.clone(),
         Some("algebra") => fields.algebra.clone(),
         other => panic!("{other:?}"),
     };
@@ -71,8 +70,12 @@ fn every_mistake_is_at_its_place() {
         ("momentum", "one", |f| f.momentum = "2 one 3".into()),
         ("truncation", "4", |f| f.truncation = "4".into()),
         ("step", "0", |f| f.step = "0".into()),
-        ("chart", "cayley", |f| (f.hamiltonian, f.chart) = ("y^2 + sin(x)".into(), "cayley".into())),
-        ("method", "series", |f| (f.hamiltonian, f.method) = ("y^2 + sin(x)".into(), "series".into())),
+        ("chart", "cayley", |f| {
+            (f.hamiltonian, f.chart) = ("y^2 + sin(x)".into(), "cayley".into())
+        }),
+        ("hamiltonian", "sin(x)", |f| {
+            (f.hamiltonian, f.method) = ("y^2 + sin(x)".into(), "series".into())
+        }),
         ("momentum", "2 0.5 1", |f| f.hamiltonian = "y^2 + ln(x - 2)".into()),
         ("algebra", "[A, B] = D", |f| {
             f.algebra = "generators = [\"A\", \"B\", \"C\"]\nbrackets = [\"[A, B] = D\"]".into()

@@ -89,14 +89,17 @@ fn roots_and_hamiltonians_that_move_in_time_are_run() {
 #[test]
 fn a_step_out_of_the_domain_is_refused_with_the_expression() {
     let mut fields = fields("relativistic-body");
-    fields.hamiltonian = "z^2/2 + y + x^(3/2)".into();
-    (fields.parameters, fields.momentum) = (String::new(), "0.5 1 1".into());
+    fields.hamiltonian = "z + x^(3/2)".into();
+    (fields.parameters, fields.momentum) = (String::new(), "0.5 -1 1".into());
     let system = System::new(&fields).unwrap();
     let mut run = Run::new(&system, &system.momentum);
     let made = run.advance(&system, 1000);
-    assert!((1..1000).contains(&made));
+    assert!((1..1000).contains(&made), "{made}");
     let Refusal { reason, .. } = run.refusal.unwrap();
-    assert!(matches!(&reason, Reason::Undefined(text) if text.contains("x^(3/2) of -")), "{reason:?}");
+    assert!(
+        matches!(&reason, Reason::Undefined(text) if text.contains("x^(3/2) of -")),
+        "{reason:?}"
+    );
     // A step too long for the nodes.
     fields.hamiltonian = "exp(x^2/2) + y^2".into();
     fields.step = "3".into();
@@ -134,7 +137,8 @@ fn the_method_beside_is_of_order_four() {
 
 #[test]
 fn level_curves_are_on_the_orbit_and_on_their_level() {
-    for id in ["wing-nut", "plate-in-fluid", "so21-top", "heisenberg-geodesics", "exponential-spin"] {
+    for id in ["wing-nut", "plate-in-fluid", "so21-top", "heisenberg-geodesics", "exponential-spin"]
+    {
         let system = System::new(&fields(id)).unwrap();
         let casimir = &system.invariants.casimirs[0];
         let mu = &system.momentum;
