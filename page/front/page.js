@@ -188,8 +188,9 @@ function drawAll() {
   drawOrbit(orbitCanvas, about, start, [session.trail(true, a, b, c, part), session.trail(false, a, b, c, part)]);
   const history = session.history();
   for (const which of [0, 1, 2]) {
-    if (unknown(which)) continue;
-    drawDrift(byId(`drift-${which}`), history, which, about.time_unit);
+    const chart = byId(`drift-${which}`);
+    if (unknown(which)) clear(chart);
+    else drawDrift(chart, history, which, about.time_unit);
   }
   if (drawn++ % 6 === 0 || !state.playing) numbers();
   page.drawTime = performance.now() - began;

@@ -3,11 +3,12 @@
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie::{self, LieAlgebra, catalogue};
-use coadjoint_codegen::poly::Polynomial;
+use coadjoint_codegen::poly::{Numeric, Polynomial};
+use coadjoint_codegen::problem::{Problem, values};
 use coadjoint_codegen::smooth::{Hamiltonian, Smooth};
 use coadjoint_codegen::step::{Energy, Invariants, Origin, Step};
 use coadjoint_codegen::system::{self, Options, Units};
-use coadjoint_program::{Argument, Precision, Program, Stepper};
+use coadjoint_program::{Argument, Graph, Precision, Program, Stepper};
 
 use crate::fields::Fields;
 use crate::file::File;
@@ -61,7 +62,7 @@ pub struct System {
     /// μ at the start.
     pub momentum: Vec<f64>,
     pub energy: Energy,
-    /// μ, then t where H is no polynomial, ↦ ∂H/∂μ, with the coefficients of a step.
+    /// μ, then t where H is no polynomial, ↦ ∂H/∂μ.
     pub gradient: Program,
     pub casimirs: Vec<Polynomial>,
     /// The conserved quantities, as numbers.
@@ -79,6 +80,23 @@ impl Source {
             Self::Collocation(smooth) => Origin::Collocation(smooth),
         }
     }
+}
+
+/// μ ↦ ∂H/∂μ of a polynomial H, each coordinate by itself: that takes fewer operations than reverse mode.
+fn gradient_of(problem: &Problem) -> Program {
+    let (graph, dim) = (Graph::new(), problem.algebra.dim());
+    let energy = Numeric::new(&problem.hamiltonian, dim, &values(&problem.symbols));
+    let slope = |slope: &Numeric| {
+        slope.terms().fold(graph.zero(), |sum, (value, factors)| {
+            let power =
+                |&(i, power): &(usize, i32)| graph.power(graph.input(i), power.unsigned_abs());
+            let product = factors.iter().map(power).reduce(|a, b| graph.mul(a, b));
+            let value = graph.constant(value);
+            product.map_or_else(|| graph.add(value, sum), |a| graph.times_plus(a, value, sum))
+        })
+    };
+    let slopes: Vec<_> = energy.gradient(dim).iter().map(slope).collect();
+    graph.finish(dim, &slopes)
 }
 
 /// The first inputs of a program, as what it is differentiated in.
@@ -107,8 +125,8 @@ impl System {
         let (source, gradient) = match read.problem {
             Hamiltonian::Polynomial(problem) => {
                 let of = |error| vec![Mistake::of("truncation", error, "lower the truncation")];
+                let gradient = gradient_of(&problem);
                 let integrator = Integrator::build(*problem, LIMIT).map_err(of)?;
-                let gradient = integrator.energy.gradient(&axes(integrator.problem.algebra.dim()));
                 (Source::Series(Box::new(integrator)), gradient)
             }
             Hamiltonian::Smooth(smooth) => {

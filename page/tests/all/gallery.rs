@@ -33,7 +33,8 @@ const LEFT_OUT: [&str; 13] = [
 fn said(text: &str) -> String {
     let read = read_either(text, Options::default(), &[]).unwrap();
     // Fields hold no end of line after the last word.
-    format!("{:?} {:?}", read.problem, (read.run.step, read.run.time, read.run.momentum)).replace("\\n\"", "\"")
+    format!("{:?} {:?}", read.problem, (read.run.step, read.run.time, read.run.momentum))
+        .replace("\\n\"", "\"")
 }
 
 #[test]
