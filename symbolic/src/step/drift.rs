@@ -84,7 +84,7 @@ impl Energy {
     }
 
     /// ∂H/∂μ in `dim` coordinates; at time 0 where it moves in time.
-    pub fn gradient(&self, dim: usize) -> Box<dyn Fn(&[f64]) -> Vec<f64> + '_> {
+    pub fn gradient(&self, dim: usize) -> Slopes<'_> {
         match self {
             Self::Polynomial(polynomial) => {
                 let slopes = polynomial.gradient(dim);
@@ -94,6 +94,9 @@ impl Energy {
         }
     }
 }
+
+/// μ ↦ ∂H/∂μ.
+pub type Slopes<'a> = Box<dyn Fn(&[f64]) -> Vec<f64> + 'a>;
 
 /// The quantities that a motion conserves, as functions of its states.
 #[derive(Clone, Debug, Default)]

@@ -37,7 +37,9 @@ use crate::step::tables::Tables;
 use motion::{Motion, Plane};
 use product::{Memory, Part, Product, Translations};
 
-pub use drift::{Conserved, Drift, Energy, Invariants, PotentialEnergy, Scales, Start, nudge};
+pub use drift::{
+    Conserved, Drift, Energy, Invariants, PotentialEnergy, Scales, Slopes, Start, nudge,
+};
 pub(crate) use error::MOST_OF_TABLES;
 pub use error::StepError;
 #[cfg(feature = "spatial")]

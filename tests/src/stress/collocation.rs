@@ -124,10 +124,12 @@ struct Programs {
     spatial: Spatial,
 }
 
+/// By the name of the group and the number of nodes.
+type Known = BTreeMap<(&'static str, usize), Arc<Programs>>;
+
 /// Those on a group of the catalogue, by its name and a number of nodes, once they were asked for.
 fn programs(group: &'static str, nodes: usize) -> Arc<Programs> {
-    static KNOWN: LazyLock<Mutex<BTreeMap<(&str, usize), Arc<Programs>>>> =
-        LazyLock::new(Mutex::default);
+    static KNOWN: LazyLock<Mutex<Known>> = LazyLock::new(Mutex::default);
     let mut known = KNOWN.lock().expect("a whole map");
     let build = || {
         let n = algebra(group).dim();

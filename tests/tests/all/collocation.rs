@@ -94,7 +94,7 @@ fn orders_are_twice_the_number_of_nodes() {
         ("driven 3", order::<_, _, 3>(&SO3::new(), Driven, &three, [0.1, 0.05]), 6.0),
         ("driven 4", order::<_, _, 4>(&SO3::new(), Driven, &three, [0.15, 0.1]), 8.0),
         ("top 5", order::<_, _, 5>(&SE3::new(), Top, &six, [0.8, 0.6]), 10.0),
-        ("any 5", order::<_, _, 5>(&SE2::new(), Any, &three, [1.2, 0.8]), 10.0),
+        ("any 4", order::<_, _, 4>(&SE2::new(), Any, &three, [0.6, 0.48]), 8.0),
         ("tables 5", order::<_, _, 5>(&SL2::new(), Any, &three, [0.6, 0.48]), 10.0),
         ("six 1", order::<_, _, 1>(&SE3::new(), Six, &six, [0.05, 0.025]), 2.0),
         ("six 2", order::<_, _, 2>(&SE3::new(), Six, &six, [0.1, 0.05]), 4.0),
