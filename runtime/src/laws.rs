@@ -213,7 +213,7 @@ pub fn measured_order<G: LieGroup<Scalar = f64>>(
     };
     let coarse = difference(&ends[0], &ends[1]);
     let fine = difference(&ends[1], &ends[2]);
-    if !(coarse < 0.5 && fine > 1e-12) {
+    if !(coarse < 0.5 && fine > 1e-13) {
         return Err(OrderError::OutOfRange { coarse, fine });
     }
     Ok(nalgebra::ComplexField::ln(coarse / fine) / core::f64::consts::LN_2)

@@ -37,7 +37,7 @@ pub enum Shape {
 
 impl Shape {
     /// Its lengths: none of a scalar, one of a list, two of a matrix.
-    fn lengths(&self) -> Vec<usize> {
+    pub fn lengths(&self) -> Vec<usize> {
         match self {
             Self::Scalar => Vec::new(),
             Self::Array(n) | Self::Vector(n) => vec![*n],

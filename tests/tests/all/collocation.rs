@@ -99,7 +99,7 @@ fn orders_are_twice_the_number_of_nodes() {
         ("six 1", order::<_, _, 1>(&SE3::new(), Six, &six, [0.05, 0.025]), 2.0),
         ("six 2", order::<_, _, 2>(&SE3::new(), Six, &six, [0.1, 0.05]), 4.0),
         ("six 3", order::<_, _, 3>(&SE3::new(), Six, &six, [0.2, 0.1]), 6.0),
-        ("six 4", order::<_, _, 4>(&SE3::new(), Six, &six, [0.4, 0.3]), 8.0),
+        ("six 4", order::<_, _, 4>(&SE3::new(), Six, &six, [0.3, 0.24]), 8.0),
     ];
     for (name, found, expected) in found {
         assert!((found - expected).abs() < 0.15, "{name} nodes: order {found:.3}");
