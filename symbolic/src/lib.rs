@@ -12,7 +12,7 @@
 //! let hamiltonian = Polynomial::from_factors(3, [square(0, 3), square(1, 4), square(2, 5)]);
 //! let series = derive(&so3, Chart::Exponential, &hamiltonian, 7, TermLimit::default())?;
 //! assert_eq!(series.order(1), &hamiltonian);
-//! assert!(series.order(2).is_empty()); // every even term vanishes
+//! assert!(series.order(2).is_zero()); // every even term vanishes
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
