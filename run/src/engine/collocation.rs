@@ -298,24 +298,25 @@ impl<const M: usize> Differentiable for Collocated<'_, M> {
         };
         let (mut phase, size) = (self.elements.phase(state), step.step());
         let time = first as f64 * size;
-        let flow = |phase: &mut Phase<Group>, time, size| {
-            let energy = step.energy().clone();
-            let step = Collocation::<_, _, M>::new(group.clone(), energy, size)?;
+        let flow = |step: &Collocation<_, _, M>, phase: &mut Phase<Group>, time| {
             let solution = step.solution(&phase.momentum, time)?;
-            let [hessian, mixed] = response.of(group, &solution, size)?;
+            let [hessian, mixed] = response.of(group, &solution, step.step())?;
             let (x, mu) = (&solution.x, &phase.momentum);
             let of_momentum = Linear::response(place, x, mu, [&hessian, &mixed])?;
             // In the chart of tables, which is exp.
             Ok(moved(place, x, phase, &of_momentum))
         };
         let (Some(kicks), Some(slope)) = (&self.kicks, slope) else {
-            return flow(&mut phase, time, size);
+            return flow(&step, &mut phase, time);
         };
         let mut total = Linear::identity(phase.momentum.len(), parameters.len());
         compose(kicks.splitting, &mut phase, [time, size], |piece, phase, time, length| {
             let next = match piece {
                 Piece::Kick => slope.linear(phase, length)?,
-                Piece::Flow(_) => flow(phase, time, length)?,
+                Piece::Flow(_) => {
+                    let energy = step.energy().clone();
+                    flow(&Collocation::new(group.clone(), energy, length)?, phase, time)?
+                }
             };
             total = total.then(&next);
             Ok(())

@@ -147,22 +147,22 @@ fn damp<'a>(
     // A torque without potential has no energy that could fall.
     let kick = kick.filter(|kick| kick.potential.alone().is_none());
     let torque = kick.map(|kick| Torque::new(kick, group.clone(), parameters)).transpose()?;
-    let beside = move |g: &_, mu: &DVector<f64>| match &torque {
-        Some(torque) => torque.torque(g, mu, 0.0),
-        None => Ok(DVector::zeros(mu.len())),
-    };
     if matches!(energy, Source::Polynomial(problem) if problem.is_quadratic()) {
-        let damping = Damping::<_, _, 1>::new(group, given, rates)?;
-        return Ok(Box::new(move |phase, time, length| {
-            let mu = phase.momentum.clone();
-            damping.advance_beside(phase, time, length, |g| beside(g, &mu)).map(drop)
-        }));
+        return Ok(damp_by(Damping::<_, _, 1>::new(group, given, rates)?, torque));
     }
-    let damping = Damping::<_, _, 8>::new(group, given, rates)?;
-    Ok(Box::new(move |phase, time, length| {
+    Ok(damp_by(Damping::<_, _, 8>::new(group, given, rates)?, torque))
+}
+
+/// The damping beside the torque of a potential, if there is one.
+fn damp_by<'a, const M: usize>(
+    damping: Damping<Group, Given<'a>, M>,
+    torque: Option<Torque<'a, Group>>,
+) -> Damp<'a> {
+    Box::new(move |phase, time, length| {
+        let Some(torque) = &torque else { return damping.advance(phase, time, length).map(drop) };
         let mu = phase.momentum.clone();
-        damping.advance_beside(phase, time, length, |g| beside(g, &mu)).map(drop)
-    }))
+        damping.advance_beside(phase, time, length, |g| torque.torque(g, &mu, 0.0)).map(drop)
+    })
 }
 
 impl Motion for Damped<'_> {

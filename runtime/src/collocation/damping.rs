@@ -91,8 +91,8 @@ where
         time: f64,
         length: f64,
     ) -> Result<StepReport<f64>, StepError> {
-        let dim = phase.momentum.dim();
-        self.advance_beside(phase, time, length, |_| Ok(G::Vector::zeros(dim)))
+        let none = G::Vector::zeros(phase.momentum.dim());
+        self.advance_with(phase, time, length, |_, _| Ok(none.clone()))
     }
 
     /// The same beside a potential V(g) with this body torque τ = −g⁻¹dV, which falls with H: x = h Γ (ad\*_ω p + τ), τ in the
@@ -106,6 +106,20 @@ where
         time: f64,
         length: f64,
         torque: impl Fn(&G::Element) -> Result<G::Vector, StepError>,
+    ) -> Result<StepReport<f64>, StepError> {
+        self.advance_with(phase, time, length, |g, x| {
+            let half = self.group.exp(&G::Vector::from_entries(x.dim(), |i| 0.5 * x[i]));
+            torque(&self.group.compose(g, &half))
+        })
+    }
+
+    /// A step with this torque from g by x.
+    fn advance_with(
+        &self,
+        phase: &mut Phase<G>,
+        time: f64,
+        length: f64,
+        torque: impl Fn(&G::Element, &G::Vector) -> Result<G::Vector, StepError>,
     ) -> Result<StepReport<f64>, StepError> {
         let (group, mu) = (&self.group, &phase.momentum);
         let mut x = G::Vector::zeros(mu.dim());
@@ -126,8 +140,7 @@ where
             }
             let p = group.dexp_transpose(&x, mu);
             let force = group.ad_star(&omega, &p);
-            let half = group.exp(&G::Vector::from_entries(mu.dim(), |i| 0.5 * x[i]));
-            let torque = torque(&group.compose(&phase.group_element, &half))?;
+            let torque = torque(&phase.group_element, &x)?;
             let next = G::Vector::from_entries(mu.dim(), |i| {
                 length * self.rates[i] * (force[i] + torque[i])
             });

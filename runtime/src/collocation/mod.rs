@@ -72,6 +72,7 @@ pub struct Collocation<G: LieGroup<Scalar = f64>, E, const M: usize> {
     /// The rates of the last steps in a ring, and how many were noted since the first guess.
     rates: [Option<Rates<G::Vector, M>>; KEPT],
     noted: usize,
+    /// The momentum after the last step.
     end: Option<G::Vector>,
 }
 

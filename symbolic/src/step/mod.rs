@@ -254,11 +254,9 @@ impl Step {
             let values = std::iter::once(time).chain(signals.iter().map(|signal| signal.at(time)));
             slots.iter_mut().zip(values).for_each(|(slot, value)| *slot = value);
         };
-        // After the last kick there is no flow.
-        let flows: Vec<f64> = match self.splitting {
-            Some(splitting) => splitting.flows().chain([0.0]).collect(),
-            None => vec![1.0],
-        };
+        // After the last kick there is no flow; without kicks there is one of the whole step.
+        let last = if self.splitting.is_some() { 0.0 } else { 1.0 };
+        let flows = self.splitting.into_iter().flat_map(Splitting::flows).chain([last]);
         let mut time = time;
         for (slots, flow) in slots.chunks_mut(self.kernel.slots_of_flow().max(1)).zip(flows) {
             let places = slots.get_mut(*first..).unwrap_or_default();
