@@ -1,6 +1,7 @@
 //! Tests of the command, each subject in a module of its own: one program, which is linked once.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod cases;
 mod check;
 mod compilers;
 mod damping;
