@@ -29,6 +29,7 @@ mod laws;
 mod layers;
 mod learned_step;
 mod long_series;
+mod operations;
 mod parts;
 mod potential;
 mod predictor;
