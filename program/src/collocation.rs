@@ -32,29 +32,7 @@ pub const ROUNDING: f64 = 6e-14;
 /// Up to this dimension sweeps are corrected by a linear model, whose Hessian costs as many gradients.
 pub const LARGEST_MODEL: usize = 24;
 
-/// The powers of x a series of the exponential chart may have.
-pub const MAX_DEGREE: usize = 14;
-
-/// βₖ = (−1)ᵏ Bₖ/k! with Bernoulli's numbers, B₁ = −½: J_R = Σ βₖ (ad\*_x)ᵏ p.
-pub const BETA: [f64; MAX_DEGREE + 1] = [
-    1.0,
-    0.5,
-    1.0 / 12.0,
-    0.0,
-    -1.0 / 720.0,
-    0.0,
-    1.0 / 30_240.0,
-    0.0,
-    -1.0 / 1_209_600.0,
-    0.0,
-    1.0 / 47_900_160.0,
-    0.0,
-    -691.0 / 1_307_674_368_000.0,
-    0.0,
-    1.0 / 74_724_249_600.0,
-];
-
-/// The degree of that series in a step: the orders of the step, and that of the force at its middle, which a step with one
+/// The degree of the series of the exponential chart in a step: the orders of the step, and that of the force at its middle, which a step with one
 /// node is judged by.
 pub const fn degree(nodes: usize) -> usize {
     if nodes == 1 { 1 } else { 2 * nodes - 2 }

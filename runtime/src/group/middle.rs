@@ -1,6 +1,6 @@
 //! The exponential chart about the middle of a step, by the series J_R = Σ βₖ (ad\*_x)ᵏ p in any algebra.
 
-use coadjoint_program::collocation::{BETA, MAX_DEGREE};
+use coadjoint_geometry::bernoulli::{BETA, MAX_DEGREE};
 
 use crate::linear::coordinates::Coordinates;
 use crate::number::Scalar;

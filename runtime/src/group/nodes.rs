@@ -1,6 +1,6 @@
 //! Vectors of space at several nodes, the numbers of all nodes side by side: the compiler makes lanes of them.
 
-use coadjoint_program::collocation::BETA;
+use coadjoint_geometry::bernoulli::BETA;
 
 use crate::number::Scalar;
 

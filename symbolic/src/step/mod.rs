@@ -8,7 +8,6 @@
 
 mod collocation;
 mod drift;
-mod entire;
 mod error;
 mod motion;
 mod product;
@@ -18,6 +17,7 @@ mod solving;
 #[cfg(feature = "spatial")]
 mod spatial;
 mod tables;
+mod traced;
 mod vector;
 
 use coadjoint_program::fold::{FoldError, Values};
@@ -34,7 +34,7 @@ use crate::smooth::{Facts, Smooth};
 use crate::step::rotation::Rotation;
 use crate::step::solving::Scheme;
 use crate::step::tables::Tables;
-use motion::{Motion, Plane};
+use motion::{Motions, Plane};
 use product::{Memory, Part, Product, Translations};
 
 pub use drift::{
@@ -338,7 +338,7 @@ fn part(algebra: &LieAlgebra, chart: Chart, scheme: Scheme) -> Result<Box<dyn Pa
         return Ok(Box::new(Rotation { chart, double_cover: true }));
     }
     if is("SE3") {
-        return Ok(Box::new(Motion { chart }));
+        return Ok(Box::new(Motions { chart }));
     }
     if is("SE2") {
         return Ok(Box::new(Plane { chart }));

@@ -1,6 +1,7 @@
 //! The equation of a step as programs: a first guess, and a correction of it.
 
-use super::entire::NEWTON;
+use coadjoint_geometry::series::NEWTON;
+
 use super::tables::structure_of;
 use super::vector::{Eliminated, Matrix, dot, finite, largest};
 use crate::graph::{Graph, Id, Program};

@@ -1,6 +1,6 @@
 //! Any group by its structure constants and the matrices of its basis; elements as matrices, row by row.
 
-use coadjoint_program::collocation::BETA;
+use coadjoint_geometry::bernoulli::BETA;
 
 use crate::graph::{Graph, Id};
 use crate::lie::{Chart, LieAlgebra, RationalMatrix};

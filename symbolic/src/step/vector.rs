@@ -4,23 +4,6 @@ use std::ops::Range;
 
 use crate::graph::{Graph, Id};
 
-/// A vector of three nodes.
-pub(crate) type V3 = [Id; 3];
-
-/// The three entries from `at` on.
-pub(crate) fn three(list: &[Id], at: usize) -> V3 {
-    [list[at], list[at + 1], list[at + 2]]
-}
-
-/// a × b
-pub(crate) fn cross(graph: &Graph, a: &V3, b: &V3) -> V3 {
-    let entry = |i: usize, j: usize| {
-        let product = graph.mul(a[i], b[j]);
-        graph.times_plus(graph.neg(a[j]), b[i], product)
-    };
-    [entry(1, 2), entry(2, 0), entry(0, 1)]
-}
-
 /// Σ aᵢ bᵢ
 pub(crate) fn dot(graph: &Graph, a: &[Id], b: &[Id]) -> Id {
     let mut sum = graph.zero();
@@ -28,31 +11,6 @@ pub(crate) fn dot(graph: &Graph, a: &[Id], b: &[Id]) -> Id {
         sum = graph.times_plus(a, b, sum);
     }
     sum
-}
-
-/// a + s·b
-pub(crate) fn plus(graph: &Graph, a: &V3, s: Id, b: &V3) -> V3 {
-    [0, 1, 2].map(|i| graph.times_plus(b[i], s, a[i]))
-}
-
-/// a + b
-pub(crate) fn sum(graph: &Graph, a: &V3, b: &V3) -> V3 {
-    [0, 1, 2].map(|i| graph.add(a[i], b[i]))
-}
-
-/// a − b
-pub(crate) fn difference(graph: &Graph, a: &V3, b: &V3) -> V3 {
-    [0, 1, 2].map(|i| graph.sub(a[i], b[i]))
-}
-
-/// s·a
-pub(crate) fn scaled(graph: &Graph, s: Id, a: &V3) -> V3 {
-    [0, 1, 2].map(|i| graph.mul(a[i], s))
-}
-
-/// −a
-pub(crate) fn minus(graph: &Graph, a: &V3) -> V3 {
-    a.map(|entry| graph.neg(entry))
 }
 
 /// A matrix of nodes, row by row.

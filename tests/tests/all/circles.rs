@@ -12,12 +12,13 @@ use proc_macro2::{TokenStream, TokenTree};
 use syn::visit::{self, Visit};
 use syn::{Attribute, Item, UseTree};
 
-const CRATES: [&str; 16] = [
+const CRATES: [&str; 17] = [
     "bench",
     "cli",
     "codegen",
     "docs/book/formulas",
     "draw",
+    "geometry",
     "learn",
     "macros",
     "native",

@@ -99,8 +99,10 @@ const PARTS: &[Part] = &[
 
 #[test]
 fn each_part_of_a_step_is_implemented_where_it_is_said_to_be() {
-    let crates =
-        ["program", "native", "symbolic", "codegen", "macros", "runtime", "run", "cli", "page"];
+    let crates = [
+        "geometry", "program", "native", "symbolic", "codegen", "macros", "runtime", "run", "cli",
+        "page",
+    ];
     let files: Vec<_> =
         crates.iter().flat_map(|name| sources::rust(&format!("{name}/src"))).collect();
     assert!(files.len() > 200, "{} files", files.len());

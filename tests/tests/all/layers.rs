@@ -27,9 +27,9 @@ const LAYERS: [&str; 17] = [
 ];
 
 /// The crates, the lowest first.
-const CRATES: [&str; 11] = [
-    "draw", "program", "native", "symbolic", "codegen", "macros", "runtime", "learn", "run", "cli",
-    "paper",
+const CRATES: [&str; 12] = [
+    "draw", "geometry", "program", "native", "symbolic", "codegen", "macros", "runtime", "learn",
+    "run", "cli", "paper",
 ];
 
 /// The layer of a file of `src`.

@@ -1,0 +1,192 @@
+//! SO(3), and its double cover SU(2), elements as unit quaternions (w, i, j, k). In dual numbers formulas of SO(3) are those
+//! of SE(3).
+
+use crate::angle::{Angle, Length, Reach, with_slopes};
+use crate::bernoulli::bernoulli;
+use crate::number::Number;
+use crate::vector::{
+    V3, by, cross, dot, each, minus, plus, plus_by, plus_cross, plus_outer, scaled, turned, unit,
+};
+
+/// A unit quaternion (w, s·x).
+#[derive(Clone, Copy, Debug)]
+pub struct Turn<T> {
+    /// w
+    pub w: T,
+    /// s
+    pub s: T,
+    /// x
+    pub x: V3<T>,
+}
+
+impl<T: Number> Turn<T> {
+    /// The turn of a quaternion.
+    #[inline(always)]
+    pub fn of([w, i, j, k]: [T; 4]) -> Self {
+        Self { w, s: T::of(1.0), x: [i, j, k] }
+    }
+
+    /// exp x = (cos(θ/2), sin(θ/2)/θ x)
+    #[inline(always)]
+    pub fn exp(x: V3<T>, length: Length) -> Self {
+        let Angle { half_cosine, half_sine, .. } = Angle::new(x, length);
+        Self { w: half_cosine, s: half_sine, x }
+    }
+
+    /// cay x = (1, x/2)/√(1 + |x|²/4)
+    #[inline(always)]
+    pub fn cayley(x: V3<T>) -> Self {
+        let (half, one) = (by(0.5, x), T::of(1.0));
+        let w = one / (one + T::squares(half)).sqrt();
+        Self { w, s: w.by(0.5), x }
+    }
+
+    /// SU(2)'s cay x = (1 − a)⁻¹(1 + a) = (1 + a)²/(1 + |a|²) for the pure quaternion a = x/4.
+    #[inline(always)]
+    pub fn cayley_of_cover(x: V3<T>) -> Self {
+        let (n, one) = (T::squares(by(0.25, x)), T::of(1.0));
+        let factor = one / (one + n);
+        Self { w: (one - n) * factor, s: factor.by(0.5), x }
+    }
+
+    /// The numbers of the quaternion.
+    #[inline(always)]
+    pub fn quaternion(self) -> [T; 4] {
+        let [i, j, k] = scaled(self.s, self.x);
+        [self.w, i, j, k]
+    }
+
+    /// The inverse.
+    #[inline(always)]
+    #[must_use]
+    pub fn inverse(self) -> Self {
+        Self { x: minus(self.x), ..self }
+    }
+
+    /// R(q)ᵀ v = v + 2sw v×x + 2s² (v×x)×x, whose products with x need not wait for w and s: Ad\*_{q⁻¹} v.
+    #[inline(always)]
+    pub fn back(self, v: V3<T>) -> V3<T> {
+        let once = cross(v, self.x);
+        let doubled = self.s.by(2.0);
+        plus(plus(v, doubled * self.w, once), doubled * self.s, cross(once, self.x))
+    }
+
+    /// g·q, pulled back onto the unit sphere to first order, so that rounding does not accumulate in the norm over many
+    /// steps.
+    #[inline(always)]
+    pub fn after(self, [a, i, j, k]: [T; 4]) -> [T; 4] {
+        let (b, u) = ([i, j, k], scaled(self.s, self.x));
+        let scalar = a.times_plus(self.w, -dot(b, u));
+        let [i, j, k] = plus(plus(cross(b, u), a, u), self.w, b);
+        let product = [scalar, i, j, k];
+        let factor = T::squares(product).by_plus(-0.5, T::of(1.5));
+        each(|i| product[i] * factor)
+    }
+}
+
+/// R(q) v = Ad\*_q v
+#[inline(always)]
+pub fn rotate<T: Number>(q: [T; 4], v: V3<T>) -> V3<T> {
+    Turn::of(q).inverse().back(v)
+}
+
+/// The matrix of a rotation.
+#[inline(always)]
+pub fn matrix<T: Number>(q: [T; 4]) -> [V3<T>; 3] {
+    let [a, b, c] = [rotate(q, unit(0)), rotate(q, unit(1)), rotate(q, unit(2))];
+    [[a[0], b[0], c[0]], [a[1], b[1], c[1]], [a[2], b[2], c[2]]]
+}
+
+/// The matrix of SU(2), w − i(xσ₁ + yσ₂ + zσ₃) as the real matrix ((a, −b), (b, a)).
+#[inline(always)]
+pub fn matrix_of_cover<T: Number>([w, x, y, z]: [T; 4]) -> [[T; 4]; 4] {
+    [[w, -y, z, x], [y, w, x, -z], [-z, -x, w, -y], [-x, z, y, w]]
+}
+
+/// The square of the share of x in a half turn of a chart that ends at |x| = limit.
+#[inline(always)]
+pub fn extent<T: Number>(x: V3<T>, limit: f64) -> T {
+    T::squares(x).by(1.0 / (limit * limit))
+}
+
+/// ||q|² − 1|
+#[inline(always)]
+pub fn defect<T: Number>(q: [T; 4]) -> T {
+    (T::squares(q) - T::of(1.0)).abs()
+}
+
+/// μ + b μ×x + c (μ×x)×x, and these two products.
+#[inline(always)]
+fn bent<T: Number>(b: T, c: T, x: V3<T>, mu: V3<T>) -> [V3<T>; 3] {
+    let once = cross(mu, x);
+    let twice = cross(once, x);
+    [plus(plus(mu, b, once), c, twice), once, twice]
+}
+
+/// (d^R exp_x)ᵀ μ = μ + b μ×x + c (μ×x)×x.
+#[inline(always)]
+pub fn pull_back<T: Number>(x: V3<T>, mu: V3<T>, length: Length) -> V3<T> {
+    let Angle { b, c, .. } = Angle::new(x, length);
+    bent(b, c, x, mu)[0]
+}
+
+/// (d^R exp_x)ᵀ μ and its derivative in x, for |x| up to a quarter turn:
+/// v ↦ b μ×v + c [(μ×v)×x + (μ×x)×v] + (x·v)(2b′ μ×x + 2c′ (μ×x)×x), with (μ×v)×x = v (μ·x) − μ (v·x).
+#[inline(always)]
+pub fn pull_back_with_derivative<T: Number>(
+    x: V3<T>,
+    mu: V3<T>,
+    reach: &'static Reach,
+) -> (V3<T>, [V3<T>; 3]) {
+    let [b, c, b_slope, c_slope] = with_slopes(x, reach);
+    let [value, once, twice] = bent(b, c, x, mu);
+    let along = plus(plus(scaled(b_slope, once), c_slope, twice), -c, mu);
+    let constant = turned(plus(scaled(b, mu), c, once), c * dot(mu, x));
+    (value, plus_outer(constant, along, x))
+}
+
+/// (d^R cay_x)ᵀ μ = (μ + ½ μ×x)/(1 + |x|²/4), the transpose of (1 + x̂/2)/(1 + |x|²/4), and its derivative in x.
+#[inline(always)]
+pub fn cayley_pull_back<T: Number>(x: V3<T>, mu: V3<T>) -> (V3<T>, [V3<T>; 3]) {
+    let factor = T::of(1.0) / T::squares(x).by_plus(0.25, T::of(1.0));
+    let value = scaled(factor, plus_by(mu, 0.5, cross(mu, x)));
+    let half = factor.by(0.5);
+    let turn = turned(scaled(half, mu), T::of(0.0));
+    (value, plus_outer(turn, minus(scaled(half, value)), x))
+}
+
+/// SU(2)'s (d^R cay_x)ᵀ μ = ((1 − |a|²)μ + 2(a·μ)a + 2 μ×a)/(1 + |a|²)², a = x/4, and its derivative in x.
+#[inline(always)]
+pub fn cayley_pull_back_of_cover<T: Number>(x: V3<T>, mu: V3<T>) -> (V3<T>, [V3<T>; 3]) {
+    let (a, one) = (by(0.25, x), T::of(1.0));
+    let (n, along) = (T::squares(a), dot(a, mu));
+    let bend = plus(cross(mu, a), along, a);
+    let y = plus_by(scaled(one - n, mu), 2.0, bend);
+    let m = one + n;
+    let factor = one / (m * m);
+    let value = scaled(factor, y);
+    // ∂y/∂a = 2(aμᵀ − μaᵀ + a·μ + μ̂), ∂(m⁻²)/∂a = −4 m⁻³ aᵀ, ∂a/∂x = ¼.
+    let slope = plus_outer(plus_outer(turned(mu, along), a, mu), minus(mu), a);
+    let (weight, shrink) = (factor.by(0.5), one / m);
+    let row = |i: usize| each(|j| slope[i][j].times_plus(weight, -(value[i] * a[j] * shrink)));
+    (value, [row(0), row(1), row(2)])
+}
+
+/// exp's J_R(x, p) = p − ½ x×p + c x×(x×p), its series up to x^degree.
+#[inline(always)]
+pub fn momentum<T: Number>(x: V3<T>, p: V3<T>, degree: usize) -> V3<T> {
+    let [c, _] = bernoulli(x, degree);
+    let once = cross(x, p);
+    plus(plus_by(p, -0.5, once), c, cross(x, once))
+}
+
+/// ẋ = (∂J_R/∂p)ᵀ ω and ṗ = −(∂J_R/∂x)ᵀ ω: with u = ½ω + c x×ω they are ω + x×u and
+/// p×u + cω×(x×p) + 2c′ ((x×ω)·(x×p)) x.
+#[inline(always)]
+pub fn rates<T: Number>(x: V3<T>, p: V3<T>, omega: V3<T>, degree: usize) -> [V3<T>; 2] {
+    let [c, slope] = bernoulli(x, degree);
+    let (turned, once) = (cross(x, omega), cross(x, p));
+    let u = plus(by(0.5, omega), c, turned);
+    let force = plus_cross(cross(p, u), scaled(c, omega), once);
+    [plus_cross(omega, x, u), plus(force, slope * dot(turned, once), x)]
+}

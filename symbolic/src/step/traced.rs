@@ -1,0 +1,138 @@
+//! Formulas that write the nodes of a graph as they run.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use coadjoint_geometry::number::Number;
+
+use crate::graph::{Graph, Id};
+use crate::step::vector::Matrix;
+
+/// A number that is known, which needs no graph, or a node of a graph.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Traced<'g> {
+    Constant(f64),
+    Node(&'g Graph, Id),
+}
+
+use Traced::{Constant, Node};
+
+/// The first N nodes of a list, as numbers.
+pub(crate) fn traced<'g, const N: usize>(graph: &'g Graph, list: &[Id]) -> [Traced<'g>; N] {
+    std::array::from_fn(|i| Traced::new(graph, list[i]))
+}
+
+/// The nodes of numbers.
+pub(crate) fn nodes<const N: usize>(graph: &Graph, list: [Traced<'_>; N]) -> Vec<Id> {
+    list.into_iter().map(|number| number.id(graph)).collect()
+}
+
+/// The nodes of a matrix, given row by row.
+pub(crate) fn matrix<const R: usize, const C: usize>(
+    graph: &Graph,
+    rows: [[Traced<'_>; C]; R],
+) -> Matrix {
+    Matrix::new(R, C, |i, j| rows[i][j].id(graph))
+}
+
+impl<'g> Traced<'g> {
+    /// The number of a node.
+    fn new(graph: &'g Graph, id: Id) -> Self {
+        graph.known_number(id).map_or(Node(graph, id), Constant)
+    }
+
+    /// The node of the number.
+    pub(crate) fn id(self, graph: &Graph) -> Id {
+        match self {
+            Constant(value) => graph.constant(value),
+            Node(_, id) => id,
+        }
+    }
+
+    /// What a function makes of numbers: by `fold` where all are known, else nodes by `write`.
+    fn make<const N: usize>(
+        list: [Self; N],
+        fold: impl Fn([f64; N]) -> f64,
+        write: impl Fn(&Graph, [Id; N]) -> Id,
+    ) -> Self {
+        let graph = list.iter().find_map(|number| match number {
+            Node(graph, _) => Some(*graph),
+            Constant(_) => None,
+        });
+        match graph {
+            Some(graph) => Self::new(graph, write(graph, list.map(|number| number.id(graph)))),
+            None => Constant(fold(list.map(|number| match number {
+                Constant(value) => value,
+                Node(..) => f64::NAN,
+            }))),
+        }
+    }
+}
+
+impl Add for Traced<'_> {
+    type Output = Self;
+
+    fn add(self, b: Self) -> Self {
+        Self::make([self, b], |[a, b]| a + b, |graph, [a, b]| graph.add(a, b))
+    }
+}
+
+impl Sub for Traced<'_> {
+    type Output = Self;
+
+    fn sub(self, b: Self) -> Self {
+        Self::make([self, b], |[a, b]| a - b, |graph, [a, b]| graph.sub(a, b))
+    }
+}
+
+impl Mul for Traced<'_> {
+    type Output = Self;
+
+    fn mul(self, b: Self) -> Self {
+        Self::make([self, b], |[a, b]| a * b, |graph, [a, b]| graph.mul(a, b))
+    }
+}
+
+impl Div for Traced<'_> {
+    type Output = Self;
+
+    fn div(self, b: Self) -> Self {
+        Self::make([self, b], |[a, b]| a / b, |graph, [a, b]| graph.div(a, b))
+    }
+}
+
+impl Neg for Traced<'_> {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self::make([self], |[a]| -a, |graph, [a]| graph.neg(a))
+    }
+}
+
+impl Number for Traced<'_> {
+    fn of(value: f64) -> Self {
+        Constant(value)
+    }
+
+    fn times_plus(self, a: Self, b: Self) -> Self {
+        let fold = |[s, a, b]: [f64; 3]| s.mul_add(a, b);
+        Self::make([self, a, b], fold, |graph, [s, a, b]| graph.times_plus(s, a, b))
+    }
+
+    fn abs(self) -> Self {
+        Self::make([self], |[a]| a.abs(), |graph, [a]| graph.abs(a))
+    }
+
+    fn sqrt(self) -> Self {
+        Self::make([self], |[a]| a.sqrt(), |graph, [a]| graph.sqrt(a))
+    }
+
+    fn round(self) -> Self {
+        Self::make([self], |[a]| a.round_ties_even(), |graph, [a]| graph.round(a))
+    }
+
+    fn at_most(self, other: Self, then: Self, otherwise: Self) -> Self {
+        let fold = |[a, b, then, otherwise]: [f64; 4]| if a <= b { then } else { otherwise };
+        let write = |graph: &Graph, [a, b, c, d]: [Id; 4]| graph.select(a, b, c, d);
+        Self::make([self, other, then, otherwise], fold, write)
+    }
+}
