@@ -62,12 +62,15 @@ impl<T: Number> Angle<T> {
     /// The functions at x.
     #[inline(always)]
     pub fn new<const N: usize>(x: [T; N], length: Length) -> Self {
-        let short = || Self::short(x, QUARTER_TURN);
-        match length {
-            Length::Short => short(),
-            Length::Long => Self::long(x),
-            Length::Any if T::squares(x).all_at_most(QUARTER) => short(),
-            Length::Any => Self::either(x),
+        let known = match length {
+            Length::Short => Some(true),
+            Length::Long => Some(false),
+            Length::Any => T::squares(x).known_at_most(QUARTER),
+        };
+        match known {
+            Some(true) => Self::short(x, QUARTER_TURN),
+            Some(false) => Self::far(x),
+            None => Self::either(x),
         }
     }
 
@@ -103,6 +106,12 @@ impl<T: Number> Angle<T> {
         let whole = (half_sine * half_cosine).by(2.0);
         let c = t.at_most(one, T::even(x, &SMALL.c, 0), (one - whole) / t);
         Self { half_cosine, half_sine, b, c }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn far<const N: usize>(x: [T; N]) -> Self {
+        Self::long(x)
     }
 
     #[cold]

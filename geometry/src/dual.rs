@@ -107,8 +107,8 @@ impl<T: Number> Number for Dual<T> {
         }
     }
     #[inline(always)]
-    fn all_at_most(self, limit: f64) -> bool {
-        self.real.all_at_most(limit)
+    fn known_at_most(self, limit: f64) -> Option<bool> {
+        self.real.known_at_most(limit)
     }
     #[inline(always)]
     fn even<const N: usize>(x: [Self; N], series: &'static Series, order: usize) -> Self {

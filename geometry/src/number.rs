@@ -3,6 +3,8 @@
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::series::{List, Series};
+#[cfg(feature = "simba")]
+use simba::simd::SimdBool as _;
 
 /// A number, or several side by side.
 pub trait Number:
@@ -26,12 +28,12 @@ pub trait Number:
     /// `then` where self ≤ other, else `otherwise`; that also where one of them is not a number.
     fn at_most(self, other: Self, then: Self, otherwise: Self) -> Self;
 
-    /// Whether all these numbers are known to be at most `limit`, so that a formula may leave out what `at_most` would not
-    /// select. Numbers without values know nothing.
+    /// True where all these numbers are known to be at most `limit`, false where none is, so that a formula may leave out what
+    /// `at_most` would not select. Numbers without values know nothing.
     #[inline(always)]
-    fn all_at_most(self, limit: f64) -> bool {
+    fn known_at_most(self, limit: f64) -> Option<bool> {
         let _ = limit;
-        false
+        None
     }
 
     // Operations that dual numbers have a shorter way for.
@@ -137,7 +139,11 @@ where
         then.select(self.simd_le(other), otherwise)
     }
     #[inline(always)]
-    fn all_at_most(self, limit: f64) -> bool {
-        simba::simd::SimdBool::all(self.simd_le(Self::of(limit)))
+    fn known_at_most(self, limit: f64) -> Option<bool> {
+        let lanes = self.simd_le(Self::of(limit));
+        if lanes.all() {
+            return Some(true);
+        }
+        if lanes.any() { None } else { Some(false) }
     }
 }

@@ -1,8 +1,9 @@
 //! SE(2), the motions of space that keep the third axis: coordinates (ω, v₁, v₂), elements (cos(θ/2), sin(θ/2), t₁, t₂).
 
-use crate::angle::Length;
+use crate::angle::{Angle, Length};
 use crate::motion::{self, Motion};
 use crate::number::Number;
+use crate::rotation::Turn;
 
 /// The coordinates of se(3).
 #[inline(always)]
@@ -63,7 +64,14 @@ pub fn rates<T: Number>(x: [T; 3], p: [T; 3], omega: [T; 3], degree: usize) -> [
 /// exp x, as a motion of space.
 #[inline(always)]
 pub fn exp<T: Number>(x: [T; 3], length: Length) -> Motion<T> {
-    Motion::exp(lifted(x), length)
+    let ([turn, a, b], zero) = (x, T::of(0.0));
+    let angle = Angle::new([turn], length);
+    // Products of ω̂ with v, as those of SE(3) without their zeros.
+    let once = [(-turn) * b, turn * a];
+    let twice = [(-turn) * once[1], turn * once[0]];
+    let entry = |v: T, i: usize| twice[i].times_plus(angle.c, once[i].times_plus(angle.b, v));
+    let turn = Turn { w: angle.half_cosine, s: angle.half_sine, x: [zero, zero, turn] };
+    Motion { turn, place: [entry(a, 0), entry(b, 1), zero] }
 }
 
 /// cay x, as a motion of space.

@@ -86,11 +86,13 @@ impl<T: Number, const M: usize> Number for Row<T, M> {
         Self(row)
     }
     #[inline(always)]
-    fn all_at_most(self, limit: f64) -> bool {
-        let mut all = true;
-        for i in 0..M {
-            all &= self.0[i].all_at_most(limit);
+    fn known_at_most(self, limit: f64) -> Option<bool> {
+        let first = self.0.first()?.known_at_most(limit)?;
+        for i in 1..M {
+            if self.0[i].known_at_most(limit) != Some(first) {
+                return None;
+            }
         }
-        all
+        Some(first)
     }
 }

@@ -2,6 +2,7 @@
 
 use core::ops::{Add, BitAnd, Div, Mul, Neg, Not, Sub};
 
+use coadjoint_geometry::number as geometry;
 use nalgebra::{RealField, SimdBool, SimdRealField, SimdValue};
 
 /// Numbers that programs compute with: scalars, lanes of them, and registers of the processor.
@@ -46,24 +47,19 @@ impl<T: Scalar> Number for T {
 
     #[inline(always)]
     fn times_plus(self, a: Self, b: Self) -> Self {
-        Scalar::times_plus(self, a, b)
+        geometry::Number::times_plus(self, a, b)
     }
     #[inline(always)]
     fn simd_abs(self) -> Self {
-        nalgebra::SimdComplexField::simd_abs(self)
+        geometry::Number::abs(self)
     }
     #[inline(always)]
     fn simd_sqrt(self) -> Self {
-        nalgebra::SimdComplexField::simd_sqrt(self)
+        geometry::Number::sqrt(self)
     }
     #[inline(always)]
     fn simd_round(self) -> Self {
-        // Numbers from here on are whole, and so is what is added to it.
-        let whole = T::of(1.0) / <T as Scalar>::epsilon();
-        let size = self.simd_abs();
-        let rounded = size + whole - whole;
-        let size = rounded.select(size.simd_le(whole), size);
-        nalgebra::SimdRealField::simd_copysign(size, self)
+        geometry::Number::round(self)
     }
     #[inline(always)]
     fn scale(self, k: Self) -> Self {
@@ -146,7 +142,7 @@ pub trait Scalar: SimdRealField<Element: RealField + Copy> + Copy {
     #[inline(always)]
     #[must_use]
     fn of(value: f64) -> Self {
-        nalgebra::convert(value)
+        geometry::Number::of(value)
     }
 
     /// The machine epsilon of one lane.
@@ -161,7 +157,7 @@ pub trait Scalar: SimdRealField<Element: RealField + Copy> + Copy {
     #[inline(always)]
     #[must_use]
     fn times_plus(self, a: Self, b: Self) -> Self {
-        if cfg!(target_feature = "fma") { self.simd_mul_add(a, b) } else { self * a + b }
+        geometry::Number::times_plus(self, a, b)
     }
 
     /// The larger of two in each lane, NaN if either is: unlike `simd_max`, it hides nothing.

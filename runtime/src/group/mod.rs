@@ -1,9 +1,9 @@
 //! The trait of Lie groups, implemented once per group.
 
+mod arrays;
 pub(crate) mod element_error;
-pub(crate) mod entire;
+mod log;
 pub(crate) mod middle;
-mod nodes;
 pub(crate) mod phase;
 pub(crate) mod product;
 pub(crate) mod se2;

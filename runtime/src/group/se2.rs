@@ -2,14 +2,14 @@
 
 use core::marker::PhantomData;
 
-use nalgebra::{
-    Complex, Isometry2, Isometry3, SimdBool, Translation2, Unit, Vector2, Vector3, Vector6,
-};
+use coadjoint_geometry::angle::Length;
+use coadjoint_geometry::motion::Motion;
+use coadjoint_geometry::plane;
+use nalgebra::{Complex, Isometry2, SimdBool, Translation2, Unit, Vector2, Vector3};
 
+use crate::group::arrays::{Rows3, array, nodes, rows};
 use crate::group::element_error::{ElementError, finite, fixed, within};
-use crate::group::entire::{dexp_inverse, entire};
-use crate::group::nodes::Rows3;
-use crate::group::se3::{Rows6, SE3};
+use crate::group::log::dexp_inverse;
 use crate::group::{CayleyGroup, FixedDimension, LieGroup};
 use crate::number::Scalar;
 
@@ -41,38 +41,12 @@ impl<T> FixedDimension for SE2<T> {
     const DIM: usize = 3;
 }
 
-/// The coordinates of se(2) in se(3).
-const PLACES: [usize; 3] = [2, 3, 4];
-
-#[inline(always)]
-fn lift<T: Scalar>(x: &Vector3<T>) -> Vector6<T> {
-    let zero = T::of(0.0);
-    Vector6::new(zero, zero, x.x, x.y, x.z, zero)
-}
-
-#[inline(always)]
-fn drop<T: Scalar>(x: &Vector6<T>) -> Vector3<T> {
-    Vector3::from_fn(|i, _| x[PLACES[i]])
-}
-
-#[inline(always)]
-fn lift_rows<T: Scalar, const M: usize>(x: &Rows3<T, M>) -> Rows6<T, M> {
-    let zero = [T::of(0.0); M];
-    [zero, zero, x[0], x[1], x[2], zero]
-}
-
-#[inline(always)]
-fn drop_rows<T: Scalar, const M: usize>(x: &Rows6<T, M>) -> Rows3<T, M> {
-    PLACES.map(|place| x[place])
-}
-
 /// The motion of the plane that a motion of space keeping the third axis makes.
 #[inline(always)]
-fn flatten<T: Scalar>(g: &Isometry3<T>) -> Isometry2<T> {
+fn flatten<T: Scalar>(g: Motion<T>) -> Isometry2<T> {
     // (w + iz)² = cos θ + i sin θ, scaled to the unit circle by the quaternion's norm.
-    let q = g.rotation.as_ref();
-    let t = &g.translation.vector;
-    motion(q.w * q.w - q.k * q.k, T::of(2.0) * q.w * q.k, t.x, t.y)
+    let ([w, _, _, k], [x, y, _]) = (g.turn.quaternion(), g.place);
+    motion(w * w - k * k, T::of(2.0) * w * k, x, y)
 }
 
 #[inline(always)]
@@ -115,19 +89,15 @@ impl<T: Scalar> LieGroup for SE2<T> {
     }
 
     fn exp(&self, x: &Self::Vector) -> Self::Element {
-        // The translation is (sin ω/ω) v + ((1 − cos ω)/ω) Jv.
-        let [cosine, along, b, ..] = entire(x.x * x.x);
-        let across = x.x * b;
-        motion(cosine, along * x.x, along * x.y - across * x.z, across * x.y + along * x.z)
+        flatten(plane::exp(array(x), Length::Any))
     }
 
     fn log(&self, g: &Self::Element) -> Option<Self::Vector> {
         let (c, s, x, y) = parts(g);
         let angle = s.simd_atan2(c);
         // V⁻¹ = 1 − ½ω̂ + κ ω̂², κ = (1 − (ω/2) cot(ω/2))/ω².
-        let t = angle * angle;
-        let along = T::of(1.0) - t * dexp_inverse(t);
         let across = angle * T::of(0.5);
+        let along = T::of(1.0) - angle * angle * dexp_inverse([across]);
         Some(Vector3::new(angle, along * x + across * y, along * y - across * x))
     }
 
@@ -142,12 +112,11 @@ impl<T: Scalar> LieGroup for SE2<T> {
     }
 
     fn dexp_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        drop(&SE3::new().dexp_transpose(&lift(x), &lift(mu)))
+        plane::pull_back(array(x), array(mu), Length::Any).into()
     }
 
     fn exp_extent(&self, x: &Self::Vector) -> T {
-        let finite = (x.y + x.z) * T::of(0.0);
-        (x.x * x.x).times_plus(T::of(1.0 / (core::f64::consts::PI * core::f64::consts::PI)), finite)
+        plane::extent(array(x), core::f64::consts::PI)
     }
 
     fn node_momenta<const M: usize>(
@@ -156,7 +125,7 @@ impl<T: Scalar> LieGroup for SE2<T> {
         p: &Rows3<T, M>,
         degree: usize,
     ) -> Rows3<T, M> {
-        drop_rows(&SE3::new().node_momenta(&lift_rows(x), &lift_rows(p), degree))
+        rows(plane::momentum(nodes(x), nodes(p), degree))
     }
 
     fn node_rates<const M: usize>(
@@ -166,8 +135,7 @@ impl<T: Scalar> LieGroup for SE2<T> {
         omega: &Rows3<T, M>,
         degree: usize,
     ) -> [Rows3<T, M>; 2] {
-        let [x, p, omega] = [x, p, omega].map(lift_rows);
-        SE3::new().node_rates(&x, &p, &omega, degree).each_ref().map(drop_rows)
+        plane::rates(nodes(x), nodes(p), nodes(omega), degree).map(rows)
     }
 
     fn element_defect(&self, g: &Self::Element) -> T {
@@ -223,11 +191,11 @@ impl<T: Scalar> LieGroup for SE2<T> {
 
 impl<T: Scalar> CayleyGroup for SE2<T> {
     fn cayley(&self, x: &Self::Vector) -> Self::Element {
-        flatten(&SE3::new().cayley(&lift(x)))
+        flatten(plane::cayley(array(x)))
     }
 
     fn cayley_extent(&self, x: &Self::Vector) -> T {
-        (x.x * x.x).times_plus(T::of(0.25), (x.y + x.z) * T::of(0.0))
+        plane::extent(array(x), 2.0)
     }
 
     fn cayley_inverse(&self, g: &Self::Element) -> Option<Self::Vector> {
@@ -242,6 +210,6 @@ impl<T: Scalar> CayleyGroup for SE2<T> {
     }
 
     fn dcay_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        drop(&SE3::new().dcay_transpose(&lift(x), &lift(mu)))
+        plane::cayley_pull_back(array(x), array(mu)).into()
     }
 }

@@ -1,13 +1,12 @@
 //! Group elements as the numbers that straight-line programs compute with.
 
-use nalgebra::{Isometry2, Isometry3, Translation2, Translation3};
-use nalgebra::{Quaternion, UnitComplex, UnitQuaternion, Vector3};
+use nalgebra::{Isometry2, Translation2, UnitComplex};
 
 use crate::group::LieGroup;
 use crate::group::product::{pair::Product, row::Power};
 use crate::group::se2::SE2;
-use crate::group::se3::SE3;
-use crate::group::so3::Quaternions;
+use crate::group::se3::{self, SE3};
+use crate::group::so3::{self, Quaternions};
 use crate::number::Scalar;
 use crate::table::fixed::{StaticAlgebra, StaticMatrixGroup};
 
@@ -23,31 +22,17 @@ pub trait ElementNumbers: LieGroup {
     fn read(numbers: &[Self::Scalar]) -> Self::Element;
 }
 
-#[inline(always)]
-fn write_quaternion<T: Scalar>(q: &UnitQuaternion<T>, numbers: &mut [T]) {
-    let q = q.as_ref();
-    numbers[0] = q.w;
-    numbers[1] = q.i;
-    numbers[2] = q.j;
-    numbers[3] = q.k;
-}
-
-#[inline(always)]
-fn read_quaternion<T: Scalar>(n: &[T]) -> UnitQuaternion<T> {
-    UnitQuaternion::new_unchecked(Quaternion::new(n[0], n[1], n[2], n[3]))
-}
-
 impl<T: Scalar, const DOUBLE_COVER: bool> ElementNumbers for Quaternions<T, DOUBLE_COVER> {
     const COUNT: usize = 4;
 
     #[inline(always)]
     fn write(g: &Self::Element, numbers: &mut [T]) {
-        write_quaternion(g, numbers);
+        numbers[..4].copy_from_slice(&so3::numbers(g));
     }
 
     #[inline(always)]
-    fn read(numbers: &[T]) -> Self::Element {
-        read_quaternion(numbers)
+    fn read(n: &[T]) -> Self::Element {
+        so3::quaternion([n[0], n[1], n[2], n[3]])
     }
 }
 
@@ -56,16 +41,12 @@ impl<T: Scalar> ElementNumbers for SE3<T> {
 
     #[inline(always)]
     fn write(g: &Self::Element, numbers: &mut [T]) {
-        write_quaternion(&g.rotation, numbers);
-        for i in 0..3 {
-            numbers[4 + i] = g.translation.vector[i];
-        }
+        numbers[..7].copy_from_slice(&se3::numbers(g));
     }
 
     #[inline(always)]
     fn read(n: &[T]) -> Self::Element {
-        let translation = Translation3::from(Vector3::new(n[4], n[5], n[6]));
-        Isometry3::from_parts(translation, read_quaternion(n))
+        se3::element([n[0], n[1], n[2], n[3], n[4], n[5], n[6]])
     }
 }
 

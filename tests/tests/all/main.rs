@@ -17,6 +17,7 @@ mod documents;
 mod emitted_steps;
 mod fields;
 mod front_ends;
+mod geometry;
 mod golden_files;
 mod hygiene;
 mod implementations;
