@@ -121,6 +121,9 @@ pub(crate) struct SimulateOptions {
     /// The duration T
     #[arg(long, value_name = "T")]
     pub time: Option<f64>,
+    /// The time at the start; the file's, or else 0, if not given
+    #[arg(long, value_name = "t0", allow_negative_numbers = true, conflicts_with = "model")]
+    pub t0: Option<f64>,
     /// The momentum at the start of a learned model, with commas
     #[arg(long, value_name = "mu", value_delimiter = ',', allow_hyphen_values = true)]
     #[arg(requires = "model")]
@@ -128,8 +131,8 @@ pub(crate) struct SimulateOptions {
     /// Record every n-th step, and the last
     #[arg(long, value_name = "n")]
     pub every: Option<usize>,
-    /// Record these times, from 0 to the end of the run (negative where it goes backwards), with commas between them or in
-    /// a file: alone, or besides every n-th step
+    /// Record these times, from the start to the end of the run, with commas between them or in a file: alone, or besides
+    /// every n-th step
     #[arg(long, value_name = "TIMES", allow_hyphen_values = true)]
     #[arg(requires = "out", conflicts_with = "model")]
     pub at: Option<String>,
@@ -180,6 +183,9 @@ pub(crate) struct EnsembleOptions {
     /// The duration T
     #[arg(long, value_name = "T")]
     pub time: Option<f64>,
+    /// The time at the start; the file's, or else 0, if not given
+    #[arg(long, value_name = "t0", allow_negative_numbers = true, conflicts_with = "model")]
+    pub t0: Option<f64>,
     /// Write the states at these times, as simulate's --at has them, in place of those at the end: in .npy an array of rows,
     /// times and columns, in .parquet a line for each row and time
     #[arg(long, value_name = "TIMES", allow_hyphen_values = true)]
@@ -228,6 +234,9 @@ pub(crate) struct VerifyOptions {
     /// Judge n rows, evenly spread over the file, and say so; all rows if not given
     #[arg(long, value_name = "n", value_parser = clap::value_parser!(u64).range(1..))]
     pub sample: Option<u64>,
+    /// The time at which an ensemble started; the file's, or else 0, if not given
+    #[arg(long, value_name = "t0", allow_negative_numbers = true, requires = "input")]
+    pub t0: Option<f64>,
     /// The step size h, where the output does not say
     #[arg(long, value_name = "h", allow_negative_numbers = true)]
     pub step: Option<f64>,
@@ -251,6 +260,9 @@ pub(crate) struct CheckOptions {
     /// The step size h; the file's, or else 0.1, if not given
     #[arg(long, value_name = "h", allow_negative_numbers = true)]
     pub step: Option<f64>,
+    /// The time at the start; the file's, or else 0, if not given
+    #[arg(long, value_name = "t0", allow_negative_numbers = true)]
+    pub t0: Option<f64>,
     /// How many random momenta
     #[arg(long, value_name = "n", default_value_t = 3)]
     pub points: usize,

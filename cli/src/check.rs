@@ -15,7 +15,8 @@ use crate::named::Format;
 /// Tries all laws, prints them, and fails if one does not hold.
 pub(crate) fn run(options: &CheckOptions) -> Result<(), CliError> {
     let path = &options.source.file;
-    let (system, _) = load::settled(&options.source, options.step, Parameters::Substituted)?;
+    let (mut system, _) = load::settled(&options.source, options.step, Parameters::Substituted)?;
+    system.run.initial_time = options.t0.unwrap_or(system.run.initial_time);
     let trial = Trial::new(options.step, &system.run, options.points, options.seed)?;
     let system = Derived::of_file(path, system)?;
     let (laws, ratio) = check(&system, &trial)?;

@@ -9,7 +9,7 @@ use coadjoint_learn::GroupChoice;
 use coadjoint_run::{System, meet_tolerance as meet, read_group, read_varying};
 
 use crate::error::{CliError, unread};
-use crate::source::{Accuracy, Source};
+use crate::source::Source;
 
 /// The text of the file at `path`.
 pub(crate) fn text(path: &Path) -> Result<String, CliError> {
@@ -47,18 +47,13 @@ pub(crate) fn source(source: &Source, parameters: Parameters) -> Result<System, 
 }
 
 /// Picks truncation, step and frame where a tolerance is asked for, on the command line or in the file,
-/// and says so on the error stream; what was picked. `truncation` and `time` are what the command line gives.
+/// and says so on the error stream; what was picked.
 pub(crate) fn meet_tolerance(
     path: &Path,
     system: &mut System,
-    asked: &Accuracy,
-    truncation: Option<usize>,
-    time: Option<f64>,
+    asked: &coadjoint_run::Accuracy,
 ) -> Result<Option<Choice>, CliError> {
-    let Accuracy { step, tolerance, region } = *asked;
-    let comoving = None;
-    let asked = coadjoint_run::Accuracy { step, tolerance, region, truncation, time, comoving };
-    let choice = meet(path, system, &asked)?;
+    let choice = meet(path, system, asked)?;
     choice.iter().for_each(|choice| eprintln!("{choice}"));
     Ok(choice)
 }

@@ -81,3 +81,17 @@ pub(crate) struct Accuracy {
     #[arg(long, value_name = "radius")]
     pub region: Option<f64>,
 }
+
+impl Accuracy {
+    /// What is asked of a run with this truncation, start and duration, as far as the command line gives them.
+    pub(crate) fn of_run(
+        &self,
+        truncation: Option<usize>,
+        t0: Option<f64>,
+        time: Option<f64>,
+    ) -> coadjoint_run::Accuracy {
+        let Self { step, tolerance, region } = *self;
+        let comoving = None;
+        coadjoint_run::Accuracy { step, tolerance, region, truncation, t0, time, comoving }
+    }
+}

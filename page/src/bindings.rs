@@ -8,7 +8,7 @@ use crate::file::Mistake;
 use crate::formula;
 use crate::orbit::{Curve, Orbit};
 use crate::run::Run;
-use crate::system::{Factor, Source, System};
+use crate::system::{Factor, START, Source, System};
 
 /// The systems to choose from, as JSON: `[{id, title, family, about, fields}]`.
 #[wasm_bindgen]
@@ -215,7 +215,7 @@ impl Session {
                 };
         }
         let Some(Orbit { surface, spread, .. }) = &self.orbit else { return Vec::new() };
-        let own = self.orbit.as_ref().map(|orbit| orbit.level(energy.value(momentum)));
+        let own = self.orbit.as_ref().map(|orbit| orbit.level(energy.value(START, momentum)));
         let mut out =
             vec![surface.radius.unwrap_or(0.0) as f32, surface.extent as f32, spread.len() as f32];
         let mut push = |curve: &Curve| {

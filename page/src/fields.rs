@@ -55,6 +55,9 @@ impl Fields {
         }
         let table = |key: &str| root.get(key).and_then(|value| value.get_ref().as_table());
         let within = |of: &str, key: &str| table(of).and_then(|table| table.get(key));
+        if within("initial", "time").is_some() {
+            return None;
+        }
         let raw = |range: Range<usize>| text.get(range).unwrap_or_default();
         let plain = |value: &toml::Spanned<DeValue<'_>>| match value.get_ref() {
             DeValue::String(content) => content.trim().to_owned(),

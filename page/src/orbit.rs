@@ -5,6 +5,8 @@ use std::collections::HashMap;
 use coadjoint_codegen::poly::Numeric;
 use coadjoint_codegen::step::Energy;
 
+use crate::system::START;
+
 /// Cells of the grid along an axis.
 const CELLS: usize = 34;
 /// Surfaces other than spheres are looked at up to this multiple of |μ|.
@@ -40,7 +42,7 @@ impl Orbit {
     /// The orbit through μ; none where it is no surface.
     pub fn new(energy: &Energy, casimir: &Numeric, mu: &[f64]) -> Option<Self> {
         let surface = Surface::new(casimir, mu)?;
-        let values: Vec<f64> = surface.points.iter().map(|p| energy.value(p)).collect();
+        let values: Vec<f64> = surface.points.iter().map(|p| energy.value(START, p)).collect();
         let finite = || values.iter().copied().filter(|value| value.is_finite());
         let least = finite().fold(f64::INFINITY, f64::min);
         let most = finite().fold(f64::NEG_INFINITY, f64::max);

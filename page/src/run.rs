@@ -4,7 +4,7 @@ use coadjoint_codegen::step::{Spatial, Start};
 use coadjoint_program::{Attempt, Program, Stepper};
 
 use crate::history::{History, Sample};
-use crate::system::System;
+use crate::system::{START, System};
 
 /// Moments of the trail behind a momentum.
 const TRAIL: usize = 1200;
@@ -53,9 +53,9 @@ impl Run {
         let identity: Vec<f64> =
             (0..size * size).map(|at| f64::from(u8::from(at / size == at % size))).collect();
         let g = system.step.element_of(&identity);
-        let rate = system.rival.rate(0.0, momentum);
+        let rate = system.rival.rate(START, momentum);
         let now = State { g, mu: momentum.to_vec(), rate: rate.clone() };
-        let start = system.invariants.start(momentum, momentum, Vec::new);
+        let start = system.invariants.start(START, momentum, momentum, Vec::new);
         let mut run = Self {
             h: system.h,
             substeps: 1,
@@ -107,7 +107,7 @@ impl Run {
 
     /// t after the last step.
     pub fn time(&self) -> f64 {
-        self.steps as f64 * self.h
+        START + self.steps as f64 * self.h
     }
 
     pub fn momentum(&self) -> &[f64] {
@@ -115,7 +115,7 @@ impl Run {
     }
 
     pub fn energy(&self, system: &System) -> f64 {
-        system.energy_at(self.time(), &self.now.mu)
+        system.energy.value(self.time(), &self.now.mu)
     }
 
     /// μ a part of the way from the last state but one to the last. Only for pictures.
@@ -180,8 +180,8 @@ impl Run {
 
     /// Of energy, spatial momentum and Casimirs; NaN where there is none.
     fn drift(&self, system: &System, mu: &[f64], spatial: &[f64]) -> [f64; 3] {
-        let [momentum, casimirs, energy] =
-            self.start.drift(&system.invariants.conserved(mu, spatial, Vec::new)).numbers();
+        let conserved = system.invariants.conserved(self.time(), mu, spatial, Vec::new);
+        let [momentum, casimirs, energy] = self.start.drift(&conserved).numbers();
         [energy, momentum, casimirs]
     }
 
@@ -198,7 +198,7 @@ fn substeps(system: &System, start: &State) -> usize {
     let (State { mut g, mut mu, .. }, mut slots) = (start.clone(), system.slots.clone());
     let (mut steps, mut corrections) = (0_u64, 0_u64);
     while steps < 16 {
-        system.step.set_time(&mut slots, system.h, steps as f64 * system.h);
+        system.step.set_time(&mut slots, system.h, START + steps as f64 * system.h);
         let outcome = kernel.advance(&slots, &mut g, &mut mu, 1);
         if outcome.steps == 0 {
             break;

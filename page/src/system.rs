@@ -20,6 +20,9 @@ const MOST_OPERATIONS: usize = 60_000;
 /// Series may become this large: beyond, a page would stand still.
 pub const LIMIT: TermLimit = TermLimit { terms: 20_000, products: 4_000_000 };
 
+/// The time at which runs start: no field gives another one.
+pub const START: f64 = 0.0;
+
 /// The kind of a factor of the group, for pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -166,7 +169,7 @@ impl System {
             rival,
             units: read.units,
         };
-        match system.undefined(0.0, &system.momentum) {
+        match system.undefined(START, &system.momentum) {
             Some(what) => {
                 let help = "give a momentum at which the Hamiltonian is defined";
                 Err(vec![Mistake::of("momentum", what, help).at(0..fields.momentum.len())])
@@ -193,14 +196,6 @@ impl System {
         made(g) || {
             self.step.forget(g);
             made(g)
-        }
-    }
-
-    /// H(t, μ).
-    pub fn energy_at(&self, time: f64, mu: &[f64]) -> f64 {
-        match &self.energy {
-            Energy::Smooth(smooth, symbols) => smooth.energy(symbols, time, mu),
-            polynomial => polynomial.value(mu),
         }
     }
 

@@ -36,7 +36,7 @@ pub fn picture(file: &Path) -> Fallible<Picture> {
     let text = text.map_err(|e| format!("cannot read {}: {e}", file.display()))?;
     let mut system = read_varying(&file.display().to_string(), &text, options, &[])?;
     meet_tolerance(file, &mut system, &Accuracy::default())?;
-    let schedule = Schedule::new(file, None, None, &system.run)?;
+    let schedule = Schedule::new(file, &Accuracy::default(), &system.run)?;
     let momentum = system.run.momentum.clone();
     let missing = || format!("{}: [initial] momentum is missing", file.display());
     let mut setup = Setup::new(schedule, momentum.ok_or_else(missing)?);

@@ -108,6 +108,8 @@ pub struct Clock {
     pub first: usize,
     /// The times, from the beginning of a step on, in its lengths.
     pub times: Vec<f64>,
+    /// The time at which the first step of a trajectory begins, where the programs count its steps.
+    pub start: f64,
 }
 
 /// Kicks between the flows of a step.
@@ -178,6 +180,13 @@ impl Kernel {
     #[must_use]
     pub fn with_clock(self, clock: Clock) -> Self {
         Self { clock: Some(clock), ..self }
+    }
+
+    /// The same where the first step of a trajectory begins at this time.
+    #[must_use]
+    pub fn starting_at(self, start: f64) -> Self {
+        let clock = self.clock.map(|clock| Clock { start, ..clock });
+        Self { clock, ..self }
     }
 
     /// The same step in numbers of this length, whose rounding the tolerance follows.

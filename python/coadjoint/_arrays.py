@@ -106,6 +106,19 @@ def bare(value: Any, what: str, unit: Units) -> Any:
         raise InputError(f"{what} is in {own}, {said}") from None
 
 
+def shown(value: Any) -> str:
+    """A value as Python has it, with plain numbers in place of NumPy's."""
+    if isinstance(value, np.generic):
+        return repr(value.item())
+    if type(value) in (list, tuple):
+        ends = "[]" if type(value) is list else "()"
+        inside = ", ".join(map(shown, value)) + ("," if type(value) is tuple and len(value) == 1 else "")
+        return ends[0] + inside + ends[1]
+    if type(value) is dict:
+        return "{" + ", ".join(f"{key!r}: {shown(entry)}" for key, entry in value.items()) + "}"
+    return repr(value)
+
+
 def real(value: Any, what: str, unit: Units = None) -> float:
     """One number."""
     array = floats(value, what, finite=False, unit=unit)
@@ -122,7 +135,7 @@ def count(value: Any, what: str, least: int = 0) -> int:
     except (TypeError, ValueError, OverflowError):
         same = False
     if not same or not least <= whole < 2**63:
-        raise InputError(f"{what}={value!r}: a whole number, at least {least}, is needed")
+        raise InputError(f"{what}={shown(value)}: a whole number, at least {least}, is needed")
     return whole
 
 
@@ -130,14 +143,14 @@ def text(value: Any, what: str, known: Sequence[str] = ()) -> str:
     """A text, one of those that are known."""
     if not isinstance(value, str) or (known and value not in known):
         need = f"there are {', '.join(map(repr, known))}" if known else "a text is needed"
-        raise InputError(f"{what}={value!r}: {need}")
+        raise InputError(f"{what}={shown(value)}: {need}")
     return value
 
 
 def flag(value: Any, what: str) -> bool:
     """True or False."""
     if not isinstance(value, (bool, np.bool_)):
-        raise InputError(f"{what}={value!r}: True or False is needed")
+        raise InputError(f"{what}={shown(value)}: True or False is needed")
     return bool(value)
 
 
@@ -148,7 +161,7 @@ def listed(values: Any, what: str) -> list[Any]:
             return list(values)
     except TypeError:
         pass
-    raise InputError(f"{what}={values!r}: a list is needed")
+    raise InputError(f"{what}={shown(values)}: a list is needed")
 
 
 def vector(value: Any, what: str, length: int | None = None, unit: Units = None) -> Floats:

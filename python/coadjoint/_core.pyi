@@ -63,15 +63,19 @@ class Core:
     def columns(
         self, names: list[str] | None, width: int
     ) -> tuple[list[str], list[int | None], list[str], int]: ...
-    def hamiltonian(
-        self, momenta: NDArray[np.float64]
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+    def hamiltonian(self, time: float, momenta: NDArray[np.float64]) -> NDArray[np.float64]: ...
+    def velocities(
+        self,
+        times: NDArray[np.float64],
+        momenta: NDArray[np.float64],
+        matrices: NDArray[np.float64],
+    ) -> NDArray[np.float64]: ...
     def choice(self) -> tuple[int, float] | None: ...
     def stepper(self, step: float | None, backend: str) -> Stepper: ...
     def series(self, form: str, truncation: int | None) -> str: ...
     def casimirs(self, degree: int) -> list[str]: ...
     def check(
-        self, step: float | None, points: int, seed: int
+        self, step: float | None, t0: float | None, points: int, seed: int
     ) -> tuple[list[tuple[str, str, float, float, bool]], str | None]: ...
     def verify(
         self,
@@ -79,6 +83,7 @@ class Core:
         names: list[str],
         *,
         starts: NDArray[np.float64] | None,
+        t0: float,
         steps: int,
         step: float,
         truncation: int,
@@ -96,6 +101,7 @@ class Stepper:
         self,
         momentum: NDArray[np.float64],
         group_element: NDArray[np.float64] | None,
+        time: float,
         steps: int,
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
 

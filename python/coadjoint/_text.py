@@ -51,7 +51,7 @@ def number(value: Any, what: str) -> str:
         if value.free_symbols:
             raise InputError(f"{what}: {value} is no number")
         return quoted(expression(value, what))
-    raise InputError(f"{what}: {value!r} is no number (a {type(value).__name__})")
+    raise InputError(f"{what}: {_arrays.shown(value)} is no number (a {type(value).__name__})")
 
 
 def numbers(value: Any, what: str) -> str:
@@ -153,7 +153,7 @@ def symbols(*values: Any) -> dict[str, Any]:
 def mapping(value: Any, what: str) -> dict[str, Any]:
     """A dictionary with texts, or SymPy's symbols, as keys; none is an empty one."""
     if not isinstance(value, Mapping | None):
-        raise InputError(f"{what}={value!r}: a dictionary is needed")
+        raise InputError(f"{what}={_arrays.shown(value)}: a dictionary is needed")
     return {str(key): entry for key, entry in (value or {}).items()}
 
 

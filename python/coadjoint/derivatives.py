@@ -60,6 +60,7 @@ def _asked(run: Run, names: Iterable[str]) -> tuple[dict[str, Any], dict[str, tu
         "core": core,
         "step": run.step,
         "steps": run.steps,
+        "t0": run.t0,
         "truncation": run.truncation,
         "comoving": "comoving" in run.label,
         "parameters": list(shapes),
@@ -69,8 +70,9 @@ def _asked(run: Run, names: Iterable[str]) -> tuple[dict[str, Any], dict[str, tu
 
 def _steps(run: Run) -> list[int]:
     """The number of steps made up to each record."""
-    steps = np.rint(run.time / run.step)
-    if (np.abs(run.time - steps * run.step) > _SLACK * (np.abs(run.time) + abs(run.step))).any():
+    steps = np.rint((run.time - run.t0) / run.step)
+    apart = np.abs(run.time - (run.t0 + steps * run.step))
+    if (apart > _SLACK * (np.abs(run.time - run.t0) + abs(run.step))).any():
         raise InputError("derivatives are of whole steps: record every n-th step, or times that are multiples of the step")
     return [int(step) for step in steps]
 

@@ -131,7 +131,8 @@ def orbit(
     figure: Figure | None = None,
     view: tuple[float, float] = VIEW,
 ) -> Figure:
-    """The orbit of a momentum with three coordinates on its sphere; with the ``system``, the level curves of H too.
+    """The orbit of a momentum with three coordinates on its sphere; with the ``system``, the level curves of H too, of one that
+    depends on time those at the start.
 
     ``view`` is the elevation and the azimuth of the eye, in degrees. Curves behind the sphere are dashed.
     """
@@ -146,7 +147,7 @@ def orbit(
     figure = _figure(figure, (5.4, 5.4))
     axes, project = _sphere(figure, radius, run.coordinates, view)
     if system is not None:
-        for curve in _level_curves(system, radius, levels):
+        for curve in _level_curves(system, radius, levels, run.t0):
             _on_sphere(axes, project(curve), color="0.62", linewidth=0.7)
     _on_sphere(axes, project(run.momentum), color=_COLOURS[0], linewidth=1.6)
     start = project(run.momentum[:1])[0]
@@ -161,7 +162,9 @@ def levels(system: System, *, count: int = 9, figure: Figure | None = None) -> F
     """The level curves of H on a sphere of momenta, which every motion follows: for SO(3) and SU(2)."""
     if system.group not in ("SO3", "SU2"):
         raise InputError(f"the momenta of {system.name} lie on no spheres about the origin")
-    curves = _level_curves(system, 1.0, count)
+    if system._facts["moves"]:
+        raise InputError(f"{system.name} depends on time, so its motions follow no level curves")
+    curves = _level_curves(system, 1.0, count, 0.0)
     if not curves:
         raise InputError(f"the Hamiltonian of {system.name} is one number on each sphere")
     figure = _figure(figure, (5.4, 5.4))
@@ -203,8 +206,8 @@ def _on_sphere(axes: Axes, points: Floats, **style: Any) -> None:
         axes.plot(shown[:, 0], shown[:, 1], **style, **more)
 
 
-def _level_curves(system: System, radius: float, count: int) -> list[Floats]:
-    """The curves of equal energy on the sphere, from a grid of longitude and latitude; none where H is one number."""
+def _level_curves(system: System, radius: float, count: int, time: float) -> list[Floats]:
+    """The curves of equal energy at this time on the sphere, from a grid of longitude and latitude; none where H is one number."""
     from matplotlib.figure import Figure
 
     def place(longitude: Any, latitude: Any) -> Floats:
@@ -212,7 +215,7 @@ def _level_curves(system: System, radius: float, count: int) -> list[Floats]:
         return np.stack([flat * np.cos(longitude), flat * np.sin(longitude), radius * np.sin(latitude)], axis=-1)
 
     grid = np.meshgrid(np.linspace(-np.pi, np.pi, 361), np.linspace(-np.pi / 2, np.pi / 2, 181))
-    values = system._core.hamiltonian(place(*grid).reshape(-1, 3))[0].reshape(grid[0].shape)
+    values = system._core.hamiltonian(time, place(*grid).reshape(-1, 3)).reshape(grid[0].shape)
     if np.ptp(values) < 1e-12 * np.abs(values).max():
         return []
     # As many momenta lie between one curve and the next.

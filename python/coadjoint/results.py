@@ -153,10 +153,14 @@ class Run:
 
     @property
     def angular_velocity(self) -> Floats:
-        """The velocity in the Lie algebra, ξ = ∂H/∂μ, (N, n): for rotations the angular velocity in axes of the body."""
-        if not hasattr(self._source._core, "hamiltonian"):
+        """The velocity in the Lie algebra, ξ = g⁻¹ġ, (N, n): for rotations the angular velocity in axes of the body. It is
+        ∂H/∂μ at the time of each record, and what damping adds to it.
+        """
+        if not hasattr(self._source._core, "velocities"):
             raise InputError("a learned map has steps, and no velocity between them")
-        found: Floats = self._source._core.hamiltonian(self.momentum)[1]
+        count = len(self)
+        matrices = self.group_element.reshape(count, -1) if self._source._facts["damped"] else np.zeros((count, 0))
+        found: Floats = self._source._core.velocities(self.time, self.momentum, matrices)
         return found
 
     @property
@@ -290,6 +294,11 @@ class Run:
         return found
 
     @property
+    def t0(self) -> float:
+        """The time at the start."""
+        return float(self._found["t0"])
+
+    @property
     def step(self) -> float:
         """The step size used: the one asked for, or a little less, so that whole steps end at the time."""
         return float(self._found["step"])
@@ -410,7 +419,8 @@ class States(np.ndarray[Any, np.dtype[np.float64]]):
     backend: str
     #: The names of the columns.
     columns: list[str]
-    #: The step size used, and how many steps were made.
+    #: The time at the start, the step size used, and how many steps were made.
+    t0: float
     step: float
     steps: int
     #: K.
@@ -418,7 +428,7 @@ class States(np.ndarray[Any, np.dtype[np.float64]]):
     #: What was chosen: the step for a tolerance, a step that divides the time.
     notes: list[str]
 
-    _FACTS = ("failed", "drift", "backend", "columns", "step", "steps", "truncation", "notes")
+    _FACTS = ("failed", "drift", "backend", "columns", "t0", "step", "steps", "truncation", "notes")
 
     def __getattr__(self, name: str) -> Any:
         if name in States._FACTS:
@@ -447,7 +457,7 @@ class States(np.ndarray[Any, np.dtype[np.float64]]):
         named = zip(_NAMES, drifts, whys, strict=True)
         states.drift = Drift(*(Unknown(f"drift of the {name}", why) if value is None else value for name, value, why in named))
         states.backend, states.columns = facts["backend"], facts["columns"]
-        states.step, states.steps = facts["step"], facts["steps"]
+        states.t0, states.step, states.steps = facts["t0"], facts["step"], facts["steps"]
         states.truncation = facts["truncation"]
         notes = [facts["choice"], facts["announcement"], *facts["notes"]]
         states.notes = [note for note in notes if note]

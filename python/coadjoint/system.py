@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import os
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -46,8 +47,8 @@ class System:
     (``"exp"`` or ``"cayley"``), ``frame`` (``"auto"``, ``"fixed"`` or ``"comoving"``), ``solver``, ``method`` (``"series"`` or
     ``"collocation"``, if it is not to follow from the Hamiltonian), and for a ``potential`` V(g),
     a function of ``g[0][0]``, …, the ``splitting``. ``damping`` is that of the double bracket, a number or one for each
-    coordinate. ``momentum``, ``group_element``, ``step`` or ``tolerance``,
-    ``region`` and ``time`` are defaults of runs.
+    coordinate. ``momentum``, ``group_element``, ``t0`` (the time at the start), ``step`` or ``tolerance``,
+    ``region`` and ``time`` (the duration) are defaults of runs.
 
     >>> import numpy as np
     >>> import coadjoint as ca
@@ -88,6 +89,7 @@ class System:
         region: Numbers | None = None,
         momentum: Numbers | None = None,
         group_element: Numbers | Rotation | None = None,
+        t0: Real | str | None = None,
         time: Real | str | None = None,
         name: str = "system",
     ) -> None:
@@ -141,6 +143,7 @@ class System:
                 "region": exact(region, "region", each),
             },
             "initial": {
+                "time": exact(t0, "t0", shown.get("time")),
                 "momentum": exact(momentum, "momentum", each),
                 "group_element": exact(_arrays.rotated(group_element), "group_element"),
             },
@@ -278,6 +281,7 @@ class System:
         self,
         momentum: Numbers | None = None,
         *,
+        t0: Real | None = None,
         time: Real | None = None,
         step: Real | None = None,
         tolerance: Real | None = None,
@@ -297,7 +301,8 @@ class System:
         element is a matrix or, for rotations, a SciPy ``Rotation`` or a quaternion w, x, y, z. Quantities of astropy,
         pint and unyt are converted to the system's ``units``, or refused.
 
-        The run ends at ``time`` exactly; steps are of size ``step`` or a little less. ``tolerance`` picks the step (and
+        The run starts at the time ``t0`` (0, or what the system says, if not given), of which H, torques, inputs and events are
+        functions, and goes on for ``time``, exactly; steps are of size ``step`` or a little less. ``tolerance`` picks the step (and
         the truncation, unless it is given) for this error at the end, along the run or for momenta up to the norm
         ``region``. Every ``every``-th step is recorded, or the times ``at`` (alone, if ``every`` is not given).
         ``backend`` is ``"auto"``, ``"jit"``, ``"c"`` or ``"interpreter"``: the numbers have the same bits.
@@ -329,7 +334,7 @@ class System:
             raise InputError(f"looks={looks}: a step is cut into 1000 parts at most; take a smaller step")
         with listener(progress, "integrating") as told:
             found = self._core.simulate(
-                self._asked(time, step, tolerance, region, truncation),
+                self._asked(t0, time, step, tolerance, region, truncation),
                 momentum=start,
                 group_element=element,
                 every=None if every is None else _arrays.count(every, "every", 1),
@@ -354,7 +359,8 @@ class System:
         if at is None:
             return None
         times = np.atleast_1d(_arrays.floats(at, "at", unit=self._facts["time_unit"]))
-        if times.ndim != 1 or (np.diff(np.abs(times)) <= 0).any():
+        forwards = np.diff(times) > 0
+        if times.ndim != 1 or not (forwards.all() or not forwards.any()) or (np.diff(times) == 0).any():
             raise InputError("at must be a list of times in the order of the run, each once: sort them")
         return times
 
@@ -362,6 +368,7 @@ class System:
         self,
         states: Numbers,
         *,
+        t0: Real | None = None,
         time: Real | None = None,
         step: Real | None = None,
         tolerance: Real | None = None,
@@ -372,7 +379,7 @@ class System:
         threads: int | None = None,
         progress: bool | Progress | None = None,
     ) -> States:
-        """Many trajectories: from states, a row each, to the states at the end.
+        """Many trajectories: from states, a row each, to the states at the end, over the time ``time`` from ``t0`` on.
 
         A row is a momentum, (N, n), or a momentum and the entries of the matrix g row by row, (N, n + d²), or, for
         SO(3), a momentum and a unit quaternion w, x, y, z, (N, n + 4). Data frames, dictionaries and other tables go by
@@ -400,7 +407,7 @@ class System:
         with listener(progress, "trajectories") as told:
             array, failed, facts = self._core.ensemble(
                 rows,
-                self._asked(time, step, tolerance, region, truncation),
+                self._asked(t0, time, step, tolerance, region, truncation),
                 parameters=parameters,
                 at=times,
                 backend=_arrays.text(backend, "backend"),
@@ -426,13 +433,15 @@ class System:
         momentum: Numbers,
         group_element: Numbers | Rotation | None = None,
         *,
+        t0: Real | None = None,
         step: Real | None = None,
         steps: int = 1,
         backend: Backend = "jit",
     ) -> tuple[Floats, Floats]:
         """The state after one step (or `steps` of them): the momentum (n,) and the group element (d, d).
 
-        The first call for a step size compiles it; the next ones take microseconds.
+        ``t0`` is the time of the state given, which is needed where H, a torque or an input depends on it. The first call for a
+        step size compiles it; the next ones take microseconds.
 
         >>> import coadjoint as ca
         >>> body = ca.System("SO3", "x^2/3 + y^2/4 + z^2/5", coordinates="x y z")
@@ -440,6 +449,9 @@ class System:
         >>> mu, g = body.step(mu, g, step=0.1)
         >>> (g @ mu).round(12)
         array([2. , 0.5, 1. ])
+        >>> driven = ca.System("SO3", "x^2/3 + y^2/4 + z^2/5 + sin(t)*x", coordinates="x y z")
+        >>> mu, g = driven.step([2, 0.5, 1], step=0.1, t0=0)
+        >>> mu, g = driven.step(mu, g, step=0.1, t0=0.1)
         """
         size = self._facts["step"] if step is None else step
         if size is None and self._facts["tolerance"] is None:
@@ -454,13 +466,19 @@ class System:
             self._steppers[key] = stepper
         if type(steps) is not int or not 0 <= steps < 2**63:
             steps = _arrays.count(steps, "steps")
+        if t0 is None:
+            if self._facts["moves"]:
+                raise InputError("t0 is missing: the system depends on time; give t0=, the time of this state")
+            t0 = 0.0
+        elif type(t0) is not float or not math.isfinite(t0):
+            t0 = _arrays.real(t0, "t0", self._facts["time_unit"])
         # Results of the last call are taken as they are; the extension checks the numbers as it copies them.
         if _ready(momentum, 1) and (group_element is None or _ready(group_element, 2)):
-            return stepper.advance(momentum, group_element, steps)
+            return stepper.advance(momentum, group_element, t0, steps)
         mu, element = self._state(momentum, group_element)
         if mu is None:
             raise InputError("momentum is missing: give momentum=[…]")
-        return stepper.advance(mu, element, steps)
+        return stepper.advance(mu, element, t0, steps)
 
     # Algebra.
 
@@ -502,8 +520,10 @@ class System:
         """The Hamiltonian and the exact series as an ``align`` environment of LaTeX."""
         return self._core.series("latex", None if truncation is None else _odd(truncation))
 
-    def check(self, *, step: Real | None = None, points: int = 3, seed: int = 1) -> Laws:
-        """The laws of the method, tried on this system at random points.
+    def check(
+        self, *, step: Real | None = None, t0: Real | None = None, points: int = 3, seed: int = 1
+    ) -> Laws:
+        """The laws of the method, tried on this system at random points, from the time ``t0`` on.
 
         >>> import coadjoint as ca
         >>> laws = ca.System("SO3", "x^2/3 + y^2/4 + z^2/5", coordinates="x y z").check()
@@ -511,7 +531,8 @@ class System:
         (True, True)
         """
         size = None if step is None else _arrays.real(step, "step", self._facts["time_unit"])
-        found, warning = self._core.check(size, _arrays.count(points, "points"), _arrays.count(seed, "seed"))
+        start = None if t0 is None else _arrays.real(t0, "t0", self._facts["time_unit"])
+        found, warning = self._core.check(size, start, _arrays.count(points, "points"), _arrays.count(seed, "seed"))
         if warning:
             warnings.warn(warning, CoadjointWarning, stacklevel=2)
         return Laws([Law(*law) for law in found])
@@ -543,6 +564,7 @@ class System:
             np.ascontiguousarray(rows),
             names,
             starts=starts,
+            t0=run.t0,
             steps=steps,
             step=run.step,
             truncation=truncation,
@@ -587,6 +609,7 @@ class System:
 
     def _asked(
         self,
+        t0: Real | None,
         time: Real | None,
         step: Real | None,
         tolerance: Real | None,
@@ -602,6 +625,7 @@ class System:
         if step is None and tolerance is None and self._facts["step"] is None and self._facts["tolerance"] is None:
             raise InputError("step is missing: give step=0.1, or tolerance=1e-9 to have it chosen")
         return {
+            "t0": real(t0, "t0", self._facts["time_unit"]),
             "time": real(time, "time", self._facts["time_unit"]),
             "step": real(step, "step", self._facts["time_unit"]),
             "tolerance": real(tolerance, "tolerance"),
@@ -654,7 +678,7 @@ class System:
             return f"System.from_text(…, name={self._name!r})"
         given = dict(self._given)
         first = [repr(given.pop("group")), repr(str(given.pop("hamiltonian")))]
-        return f"System({', '.join(first + [f'{key}={value!r}' for key, value in given.items()])})"
+        return f"System({', '.join(first + [f'{key}={_arrays.shown(value)}' for key, value in given.items()])})"
 
     def _repr_html_(self) -> str:
         from ._html import system
@@ -746,7 +770,7 @@ def _events(given: Any) -> list[tuple[str, Callable[..., float], int, bool]]:
     found = []
     for function in [given] if callable(given) else _arrays.listed(given, "events"):
         if not callable(function):
-            raise InputError(f"an event is a function of the time, g and μ, not {function!r}")
+            raise InputError(f"an event is a function of the time, g and μ, not {_arrays.shown(function)}")
         name = getattr(function, "__name__", type(function).__name__)
         direction = _arrays.real(getattr(function, "direction", 0), f"the direction of {name}")
         found.append((name, function, int(np.sign(direction)), bool(getattr(function, "terminal", False))))

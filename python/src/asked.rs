@@ -30,6 +30,7 @@ pub struct Asked {
     tolerance: Option<f64>,
     region: Option<f64>,
     truncation: Option<usize>,
+    t0: Option<f64>,
     time: Option<f64>,
     frame: Option<String>,
 }
@@ -40,7 +41,7 @@ impl Asked {
     /// # Errors
     /// Where that cannot be.
     pub fn accuracy(&self, py: Python<'_>) -> PyResult<Accuracy> {
-        let Self { step, tolerance, region, truncation, time, .. } = *self;
+        let Self { step, tolerance, region, truncation, t0, time, .. } = *self;
         let comoving = self.frame.as_ref().map(|frame| frame == "comoving");
         if let Some(k) = truncation
             && (k % 2 == 0 || k > 63)
@@ -51,6 +52,6 @@ impl Asked {
         if step.is_some() && tolerance.is_some() {
             return Err(refused(py, "give step or tolerance, not both".to_owned()));
         }
-        Ok(Accuracy { step, tolerance, region, truncation, time, comoving })
+        Ok(Accuracy { step, tolerance, region, truncation, t0, time, comoving })
     }
 }

@@ -25,6 +25,7 @@ pub struct Run {
     parameters: Vec<String>,
     step: f64,
     steps: u64,
+    t0: f64,
     momentum: Option<Vec<f64>>,
     group_element: Option<Vec<Vec<f64>>>,
     backend: String,
@@ -63,12 +64,13 @@ fn with<T: Send + 'static>(
     let core = run.core.get().here();
     let failures = core.failures.clone();
     let result = work(py, None, move |_| {
-        let Run { truncation, comoving, parameters, step, steps, .. } = run;
+        let Run { truncation, comoving, parameters, step, steps, t0: start, .. } = run;
         let given = core.run();
         let momentum = run.momentum.or_else(|| given.momentum.clone());
         let group_element = run.group_element.or_else(|| given.group_element.clone());
         let derived = derived(&core, truncation, comoving, parameters)?;
-        let schedule = Schedule { asked: step, step, steps, end: step * steps as f64 };
+        let end = start + step * steps as f64;
+        let schedule = Schedule { asked: step, step, steps, start, end };
         let setup = Setup::new(schedule, momentum.unwrap_or_default());
         let setup = Setup { backend, group_element, ..setup };
         job(&Derivatives::new(&derived, &setup)?)

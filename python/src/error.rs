@@ -23,7 +23,7 @@ fn make(py: Python<'_>, kind: &str, message: String, at: (Option<f64>, Option<u6
 /// The exception of a failure.
 pub fn raised(py: Python<'_>, error: &RunError) -> PyErr {
     let at = match error {
-        RunError::Step { time, .. } => (Some(*time), None),
+        RunError::Step { time, .. } => (*time, None),
         RunError::Run { time, step, .. } => (Some(*time), Some(*step)),
         _ => (None, None),
     };

@@ -31,6 +31,7 @@ pub fn result_of<'py>(
     found.set_item("warnings", table.warnings)?;
     found.set_item("announcement", schedule.announcement())?;
     found.set_item("step", schedule.step)?;
+    found.set_item("t0", schedule.start)?;
     found.set_item("steps", outcome.steps)?;
     let end = PyDict::new(py);
     end.set_item("time", outcome.time)?;

@@ -35,13 +35,14 @@ impl Stepper {
         self.single.backend()
     }
 
-    /// The state after `steps` steps: momentum and matrix.
+    /// The state after `steps` steps of one of this time: momentum and matrix.
     #[allow(clippy::type_complexity)]
     fn advance<'py>(
         &self,
         py: Python<'py>,
         momentum: PyReadonlyArray1<'py, f64>,
         group_element: Option<PyReadonlyArray2<'py, f64>>,
+        time: f64,
         steps: u64,
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>)> {
         let size = self.single.matrix_size();
@@ -68,7 +69,7 @@ impl Stepper {
             }
         };
         let made = if steps <= FEW {
-            self.single.advance(&mut matrix, &mut mu, steps)
+            self.single.advance(&mut matrix, &mut mu, time, [0, steps])
         } else {
             let single = self.single.clone();
             let (made, new_matrix, new_mu) = work(py, None, move |control| {
@@ -76,7 +77,8 @@ impl Stepper {
                 let mut made = Ok(());
                 while done < steps && made.is_ok() && !control.stop.load(Ordering::Relaxed) {
                     let count = (steps - done).min(FEW);
-                    made = single.advance(&mut matrix, &mut mu, count);
+                    // With the bits of one call.
+                    made = single.advance(&mut matrix, &mut mu, time, [done, count]);
                     made = made.map_err(|(step, error)| (done + step, error));
                     done += count;
                 }

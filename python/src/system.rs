@@ -16,8 +16,8 @@ use coadjoint_run::ensemble::{
 };
 use coadjoint_run::simulate::{Event, Schedule, Setup, Single, Times, run};
 use coadjoint_run::{
-    Accuracy, Backend, Derived, RunError, System, check, emit, inputs_hash, meet_tolerance,
-    polynomial, read_given, series, verify,
+    Accuracy, Backend, Derived, Grid, Instant, RunError, System, check, emit, inputs_hash,
+    meet_tolerance, polynomial, read_given, series, velocities, verify,
 };
 use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use numpy::{PyArray1, PyArray2, PyUntypedArrayMethods};
@@ -252,6 +252,8 @@ impl Core {
         facts.set_item("step", run.step)?;
         facts.set_item("tolerance", run.tolerance)?;
         facts.set_item("time", run.time)?;
+        facts.set_item("moves", self.system.depends_on_time())?;
+        facts.set_item("damped", self.system.damping.is_some())?;
         facts.set_item("every", run.every)?;
         facts.set_item("momentum", run.momentum.clone())?;
         facts.set_item("group_element", run.group_element.clone())?;
@@ -319,8 +321,7 @@ impl Core {
         let cache = self.derived.clone();
         let result = work(py, progress.as_ref(), move |control| {
             let (system, choice) = here.accurate(&accuracy, None)?;
-            let schedule =
-                Schedule::new(Path::new(&here.name), accuracy.step, accuracy.time, &system.run)?;
+            let schedule = Schedule::new(Path::new(&here.name), &accuracy, &system.run)?;
             let at = at.map(|at| Times::new(at, &schedule)).transpose();
             let at = at.map_err(|what| RunError::Option(format!("at: {what}")))?;
             let setup = Setup {
@@ -404,9 +405,10 @@ impl Core {
             let fastest = finite.max_by(|a, b| size(a).total_cmp(&size(b)));
             let fastest = fastest.map(<[f64]>::to_vec);
             let (system, choice) = here.accurate(&accuracy, Some((varied.clone(), fastest)))?;
-            let schedule = Schedule::new(path, accuracy.step, accuracy.time, &system.run)?;
+            let schedule = Schedule::new(path, &accuracy, &system.run)?;
             let at = at.map(|at| Times::new(at, &schedule)).transpose();
             let at = at.map_err(|what| RunError::Option(format!("at: {what}")))?;
+            let duration = accuracy.time.or(system.run.time);
             let stops = at.map(|times| times.stops(&schedule)).unwrap_or_default();
             let course = Course { steps: schedule.steps, stops };
             let size = 8.0 * (count * width) as f64 * course.kept() as f64;
@@ -422,8 +424,8 @@ impl Core {
             let derived = derive(&cache, &here.name, system, Some(varied))?;
             let lanes = (count as f64 / coadjoint_program::WIDTH as f64).max(1.0);
             let how = How { backend, work: schedule.steps as f64 * lanes, device: None };
-            derived.reaches(schedule.end)?;
-            let engine = Engine::new(&derived, schedule.step, how)?;
+            derived.reaches(&schedule)?;
+            let engine = Engine::new(&derived, schedule.grid(), how)?;
             control.total.store(schedule.steps * count as u64, Ordering::Relaxed);
             // Threads of its own: those of a parent process are not there in a fork.
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
@@ -442,7 +444,7 @@ impl Core {
                 (engine.backend(), engine.casimirs()),
                 notes,
                 layout.names().into_iter().take(layout.state()).collect::<Vec<_>>(),
-                schedule,
+                (schedule, duration),
                 (truncation, frame),
                 choice,
             ))
@@ -454,7 +456,7 @@ impl Core {
             (backend, casimirs),
             notes,
             names,
-            schedule,
+            (schedule, duration),
             (truncation, frame),
             choice,
         ) = result.map_err(|error: RunError| self.raised(py, &error))?;
@@ -473,7 +475,8 @@ impl Core {
         facts.set_item("columns", names)?;
         facts.set_item("step", schedule.step)?;
         facts.set_item("steps", schedule.steps)?;
-        facts.set_item("time", schedule.end)?;
+        facts.set_item("t0", schedule.start)?;
+        facts.set_item("time", duration)?;
         facts.set_item("announcement", schedule.announcement())?;
         facts.set_item("truncation", truncation)?;
         facts.set_item("frame", frame)?;
@@ -516,27 +519,48 @@ impl Core {
         parameters.map(|parameter| (parameter.name.clone(), parameter.shape.lengths())).collect()
     }
 
-    /// H and its gradient at momenta, a row each; a potential is no part of it.
-    #[allow(clippy::type_complexity)]
+    /// H at this time and these momenta, a row each; a potential is no part of it.
     fn hamiltonian<'py>(
         &self,
         py: Python<'py>,
+        time: f64,
         momenta: PyReadonlyArray2<'py, f64>,
-    ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>)> {
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let energy = Energy::new(&self.system.problem);
+        let rows = momenta.as_array();
+        let found: Vec<f64> =
+            rows.rows().into_iter().map(|row| energy.value(time, &row.to_vec())).collect();
+        self.raise(py)?;
+        Ok(found.into_pyarray(py))
+    }
+
+    /// The velocities g⁻¹ġ at these times and momenta, a row each. `matrices` has the elements, a row each, row by row; a width
+    /// of 0 serves where no potential is damped.
+    fn velocities<'py>(
+        &self,
+        py: Python<'py>,
+        times: PyReadonlyArray1<'py, f64>,
+        momenta: PyReadonlyArray2<'py, f64>,
+        matrices: PyReadonlyArray2<'py, f64>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let problem = &self.system.problem;
         let dim = problem.facts().algebra.dim();
         let [count, width] = [momenta.shape()[0], momenta.shape()[1]];
         if width != dim {
             return Err(refused(py, format!("momenta have {width} numbers; {dim} are needed")));
         }
-        let energy = Energy::new(problem);
-        let gradient = energy.gradient(dim);
-        let momenta: Vec<f64> = momenta.as_array().iter().copied().collect();
-        let rows = momenta.chunks_exact(dim.max(1));
-        let energies: Vec<f64> = rows.clone().map(|mu| energy.value(mu)).collect();
-        let velocities: Vec<f64> = rows.flat_map(|mu| gradient(mu)).collect();
+        let rows = |array: PyReadonlyArray2<'py, f64>| -> Vec<Vec<f64>> {
+            array.as_array().rows().into_iter().map(|row| row.to_vec()).collect()
+        };
+        let (momenta, matrices) = (rows(momenta), rows(matrices));
+        let instants = times.as_array().into_iter().zip(&momenta).zip(&matrices);
+        let instants: Vec<Instant<'_>> = instants
+            .map(|((&time, momentum), matrix)| Instant { time, matrix, momentum })
+            .collect();
+        let found = velocities(self.path(), &self.system, &instants);
         self.raise(py)?;
-        Ok((energies.into_pyarray(py), velocities.into_pyarray(py).reshape([count, dim])?))
+        let found = found.map_err(|error| self.raised(py, &error))?;
+        found.concat().into_pyarray(py).reshape([count, dim])
     }
 
     /// Steps of this size, ready to be made.
@@ -597,12 +621,14 @@ impl Core {
         &self,
         py: Python<'_>,
         step: Option<f64>,
+        t0: Option<f64>,
         points: usize,
         seed: u64,
     ) -> PyResult<(Vec<(String, String, f64, f64, bool)>, Option<String>)> {
         let (here, cache) = (self.here(), self.derived.clone());
         let made = work(py, None, move |_| {
-            let (system, _) = here.accurate(&Accuracy { step, ..Accuracy::default() }, None)?;
+            let (mut system, _) = here.accurate(&Accuracy { step, ..Accuracy::default() }, None)?;
+            system.run.initial_time = t0.unwrap_or(system.run.initial_time);
             let trial = check::Trial::new(step, &system.run, points, seed)?;
             let derived = derive(&cache, &here.name, system, None)?;
             let (laws, steep) = check::check(&derived, &trial)?;
@@ -616,7 +642,7 @@ impl Core {
     }
 
     /// Judges rows with these names, or pairs of states without names, in doubled precision; what was found, as JSON.
-    #[pyo3(signature = (rows, names, *, starts, steps, step, truncation, refused_rows))]
+    #[pyo3(signature = (rows, names, *, starts, t0, steps, step, truncation, refused_rows))]
     #[allow(clippy::too_many_arguments)]
     fn verify<'py>(
         &self,
@@ -624,6 +650,7 @@ impl Core {
         rows: PyReadonlyArray2<'py, f64>,
         names: Vec<String>,
         starts: Option<PyReadonlyArray2<'py, f64>>,
+        t0: f64,
         steps: u64,
         step: f64,
         truncation: usize,
@@ -642,7 +669,8 @@ impl Core {
         let made = work(py, None, move |_| -> Result<_, RunError> {
             let path = Path::new(&name);
             let judge = verify::judge_of(path, &system.problem)?;
-            let follower = verify::Follower::new(&judge, &system.problem, step)?;
+            let grid = Grid { start: t0, step };
+            let follower = verify::Follower::new(&judge, &system.problem, grid)?;
             let of = |(width, values): (usize, Vec<f64>)| {
                 table::Table::of_rows(path, names.clone(), width, values)
             };

@@ -218,7 +218,8 @@ fn rows(name: &str, compact: bool, truncation: usize, rows: usize, seed: u64) ->
     let energy_of = Energy::new(&system.problem);
     let derived = Arc::new(Derived::of(system).map_err(|error| said(&error))?);
     let (structure, factors) = (algebra.constants(), algebra.factor_of_coordinates());
-    let truth = Truth { velocity: &energy_of.gradient(dim), structure, factors, compact };
+    let slope = energy_of.gradient(dim);
+    let truth = Truth { velocity: &|mu| slope(0.0, mu), structure, factors, compact };
     let step = Single::new(derived, 1.0, Backend::Interpreter, 1.0);
     let step = step.map_err(|error| said(&error))?;
     let size = step.matrix_size();
@@ -231,7 +232,7 @@ fn rows(name: &str, compact: bool, truncation: usize, rows: usize, seed: u64) ->
         let promised =
             name == "SO3" && truncation >= 5 && least.is_some_and(|i| length / i < PROMISED);
         let mut end = mu.clone();
-        let made = step.advance(&mut identity.clone(), &mut end, 1).is_ok();
+        let made = step.advance(&mut identity.clone(), &mut end, 0.0, [0, 1]).is_ok();
         tally.rows += 1;
         tally.promised += usize::from(promised);
         tally.refused += usize::from(promised && !made);

@@ -12,6 +12,7 @@ use coadjoint_codegen::tolerance::{self, Choice, Region, Target};
 
 use crate::engine::{Motion, Numbers, identity};
 use crate::error::RunError;
+use crate::grid::Grid;
 use crate::load::{Derived, System};
 use crate::simulate::estimate_from;
 
@@ -29,10 +30,19 @@ pub struct Accuracy {
     pub region: Option<f64>,
     /// K, where it is not to be picked.
     pub truncation: Option<usize>,
+    /// The time at the start, where it is not that of the text.
+    pub t0: Option<f64>,
     /// The duration, where it is not that of the text.
     pub time: Option<f64>,
     /// Whether the frame is the comoving one, where it is not that of the text nor to be picked.
     pub comoving: Option<bool>,
+}
+
+impl Accuracy {
+    /// The time at which the run of a text starts.
+    pub(crate) fn start(&self, run: &Run) -> f64 {
+        self.t0.unwrap_or(run.initial_time)
+    }
 }
 
 /// Picks truncation, step and, where the system leaves the choice, frame where a tolerance is asked for, by the settings
@@ -81,7 +91,7 @@ pub fn meet_tolerance(
             choice
         }
         Hamiltonian::Smooth(_) => {
-            let choice = by_running(path, system, &target)?;
+            let choice = by_running(path, system, asked.start(&system.run), &target)?;
             system.problem.set_truncation(choice.truncation);
             choice
         }
@@ -120,7 +130,7 @@ const COUNTED: u32 = 24;
 /// The choice for collocation, where no series says how large its errors are. They are estimated as those of a run are, by
 /// steps of another size beside it, and follow h^(2m); from m nodes on, m + 1 are taken as long as they need fewer gradients
 /// per unit time.
-fn by_running(path: &Path, system: &System, target: &Target) -> Result<Choice, RunError> {
+fn by_running(path: &Path, system: &System, t0: f64, target: &Target) -> Result<Choice, RunError> {
     let facts = system.problem.facts();
     let dim = facts.algebra.dim();
     target.check(dim).map_err(RunError::of(path))?;
@@ -136,7 +146,7 @@ fn by_running(path: &Path, system: &System, target: &Target) -> Result<Choice, R
         let mut system = system.clone();
         system.problem.set_truncation(2 * m - 1);
         let derived = Derived::of_file(path, system)?;
-        let trial = Trial { derived: &derived, starts: &starts, duration: target.duration };
+        let trial = Trial { derived: &derived, starts: &starts, t0, duration: target.duration };
         let Some((step, error)) = trial.step(first, SAFETY * target.tolerance) else { continue };
         // More nodes allow at least this step.
         first = step;
@@ -171,6 +181,7 @@ fn by_running(path: &Path, system: &System, target: &Target) -> Result<Choice, R
 struct Trial<'a> {
     derived: &'a Derived,
     starts: &'a [Vec<f64>],
+    t0: f64,
     duration: f64,
 }
 
@@ -207,11 +218,8 @@ impl Trial<'_> {
     fn error(&self, step: f64) -> Option<f64> {
         let mut worst = 0.0;
         for start in self.starts {
-            let make = |size: f64| -> Result<Box<dyn Motion + '_>, StepError> {
-                Ok(self.derived.steps(size, None)?)
-            };
             let error = estimate_from(
-                make,
+                |size| self.motion(size),
                 &self.state(start, step).ok()?,
                 (step, self.duration),
                 self.derived.order(),
@@ -221,9 +229,14 @@ impl Trial<'_> {
         Some(worst)
     }
 
+    /// Steps of this size.
+    fn motion(&self, step: f64) -> Result<Box<dyn Motion + '_>, StepError> {
+        Ok(self.derived.steps(Grid { start: self.t0, step }, None)?)
+    }
+
     /// The state with this momentum at the identity.
     fn state(&self, mu: &[f64], step: f64) -> Result<Numbers, StepError> {
-        let motion = self.derived.steps(step, None)?;
+        let motion = self.motion(step)?;
         let space = motion.space();
         Ok(Numbers { g: space.numbers(&identity(space.size())), mu: mu.to_vec() })
     }
@@ -232,11 +245,8 @@ impl Trial<'_> {
     fn sweeps(&self, step: f64) -> f64 {
         let mut sum = 0;
         for start in self.starts {
-            let (Ok(motion), Ok(mut state)) =
-                (self.derived.steps(step, None), self.state(start, step))
-            else {
-                continue;
-            };
+            let made = (self.motion(step), self.state(start, step));
+            let (Ok(motion), Ok(mut state)) = made else { continue };
             for number in 0..2 * COUNTED {
                 let made = motion.advance(&mut state, number.into(), 1).ok().flatten();
                 // The first steps have no steps before them to go by.

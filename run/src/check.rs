@@ -15,6 +15,7 @@ use crate::engine::{
     product_group,
 };
 use crate::error::RunError;
+use crate::grid::Grid;
 use crate::load::{Derived, Expansion, Flow};
 use crate::number::maximum;
 
@@ -56,6 +57,8 @@ pub fn unmeasured(system: &Derived) -> Option<String> {
 /// A trial: a step size, and random points.
 #[derive(Clone, Debug)]
 pub struct Trial {
+    /// The time from which steps are made.
+    pub start: f64,
     /// The step size.
     pub step: f64,
     /// The momentum that the points are about; without one each coordinate is between −1 and 1.
@@ -81,7 +84,7 @@ impl Trial {
             return Err(RunError::Option("--points counts from 1; try --points 3".to_owned()));
         }
         let about = run.momentum.clone().filter(|mu| mu.iter().any(|x| *x != 0.0));
-        Ok(Self { step, about, points, seed })
+        Ok(Self { start: run.initial_time, step, about, points, seed })
     }
 
     /// Points at which laws are tried, and starts from which the order is measured.
@@ -145,15 +148,15 @@ fn laws_of<G: Group, C: Chart<G> + Send + Sync>(
     let (integrator, h) = (&series.integrator, trial.step);
     let (points, starts) = trial.states(&group);
     let make = |h| Interpreter::<G, C>::new(integrator, group.clone(), h, &[]);
-    let there = make(h).map_err(RunError::at_start)?;
+    let there = make(h).map_err(RunError::unmade)?;
     let ratios = points.iter().map(|point| there.ratio(&point.momentum));
     let ratio = Some(ratios.fold(0.0, maximum)).filter(|ratio| *ratio > STEEP);
-    let back = make(-h).map_err(RunError::at_start)?;
+    let back = make(-h).map_err(RunError::unmade)?;
     let tried = laws::check(&there, Some(&back), &points).map_err(|error| {
         let works = |step: &Interpreter<'_, G, C>| {
             points.iter().all(|point| advance(step, &mut point.clone()).is_ok())
         };
-        RunError::at_start(advise(error, h, |h| make(h).is_ok_and(|step| works(&step))))
+        RunError::at(trial.start)(advise(error, h, |h| make(h).is_ok_and(|step| works(&step))))
     })?;
     let mut laws = printed(&tried);
     let expected = integrator.order() as f64;
@@ -180,17 +183,16 @@ fn laws_of_steps(
     trial: &Trial,
     group: &DirectProduct<MatrixGroup>,
 ) -> Result<Vec<Law>, RunError> {
-    let h = trial.step;
+    let &Trial { start, step: h, .. } = trial;
     let (points, starts) = trial.states(group);
-    let step = |h: f64, count: u32, phase: &mut Phase<DirectProduct<MatrixGroup>>| {
-        advanced(system, group, phase, (h, count))
+    let from = |start: f64, step: f64, count: u32, phase: &mut _| {
+        advanced(system, group, phase, (Grid { start, step }, count))
     };
+    let step = |h: f64, count: u32, phase: &mut _| from(start, h, count, phase);
     let (mut there, mut back) =
-        (|phase: &mut _| step(h, 1, phase), |phase: &mut _| step(-h, 1, phase));
-    // Where the Hamiltonian depends on time, the step back would begin at another one.
-    let moves = matches!(&system.flow, Flow::Collocation(smooth, ..) if smooth.moves);
-    let back: Option<&mut laws::Advance<'_, _>> = if moves { None } else { Some(&mut back) };
-    let tried = laws::check_map(group, &mut there, back, &points).map_err(RunError::at_start)?;
+        (|phase: &mut _| step(h, 1, phase), |phase: &mut _| from(start + h, -h, 1, phase));
+    let tried = laws::check_map(group, &mut there, Some(&mut back), &points);
+    let tried = tried.map_err(RunError::at(start))?;
     let mut laws = printed(&tried);
     let expected = f64::from(system.order());
     laws.push(measured(h, expected, group, &starts, step));
@@ -204,21 +206,24 @@ fn laws_of_steps(
         laws.iter_mut().filter(|law| law.name == "order").for_each(|law| {
             law.statement = "steps and damping: error ∝ h²";
         });
-        let energy = |state: &Phase<DirectProduct<MatrixGroup>>| {
+        let energy = |time: f64, state: &Phase<DirectProduct<MatrixGroup>>| {
             let matrix = || entries_of(group, &state.group_element);
-            system.invariants.conserved(state.momentum.as_slice(), &[], matrix).energy
+            system.invariants.conserved(time, state.momentum.as_slice(), &[], matrix).energy
         };
-        if points.first().and_then(energy).is_some() {
+        if points.first().and_then(|point| energy(start, point)).is_some() {
             let mut rise = f64::NEG_INFINITY;
             for point in &points {
                 let mut end = point.clone();
-                step(h, 1, &mut end).map_err(RunError::at_start)?;
-                let [before, after] = [point, &end].map(|state| energy(state).unwrap_or(f64::NAN));
-                rise = maximum(rise, (after - before) / before.abs());
+                step(h, 1, &mut end).map_err(RunError::at(start))?;
+                let [before, after] = [(start, point), (start + h, &end)]
+                    .map(|(time, state)| energy(time, state).unwrap_or(f64::NAN));
+                rise = maximum(rise, (after - before) * h.signum() / before.abs());
             }
-            let statement = match system.invariants.potential {
-                Some(_) => "(H + V)(Φ(α)) ≤ (H + V)(α)",
-                None => "H(Φ(α)) ≤ H(α)",
+            let statement = match (&system.invariants.potential, h < 0.0) {
+                (Some(_), false) => "(H + V)(Φ(α)) ≤ (H + V)(α)",
+                (Some(_), true) => "(H + V)(Φ(α)) ≥ (H + V)(α), back in time",
+                (None, false) => "H(Φ(α)) ≤ H(α)",
+                (None, true) => "H(Φ(α)) ≥ H(α), back in time",
             };
             let name = "dissipative";
             laws.push(Law { name, statement, value: rise, bound: 1e-14, pass: rise <= 1e-14 });
@@ -231,22 +236,23 @@ fn laws_of_steps(
 /// The laws that are left to the whole step where a potential breaks the symmetry; where a torque does that is not Hamiltonian,
 /// the order alone.
 fn kicked(system: &Derived, hamiltonian: bool, trial: &Trial) -> Result<Vec<Law>, RunError> {
-    let (h, group) = (trial.step, system.group()?);
+    let (&Trial { start, step: h, .. }, group) = (trial, system.group()?);
     let (points, starts) = trial.states(&group);
-    let [there, back] = [h, -h].map(|h| system.steps(h, None).map_err(RunError::at_start));
+    let grids = [Grid { start, step: h }, Grid { start: start + h, step: -h }];
+    let [there, back] = grids.map(|grid| system.steps(grid, None).map_err(RunError::unmade));
     let (there, back) = (there?, back?);
     let made = |motion: &dyn Motion, state: &mut Phase<_>, time| {
         moved(motion, &group, state, |motion, state| motion.one_at(state, time))
     };
     let (mut symplectic, mut symmetric) = (None, 0.0_f64);
     for point in points.iter().filter(|_| hamiltonian) {
-        let mut step = |state: &mut _| made(&*there, state, 0.0);
+        let mut step = |state: &mut _| made(&*there, state, start);
         let defect = laws::symplectic_defect_of(&group, point, &mut step);
-        let defect = defect.map_err(RunError::at_start)?;
+        let defect = defect.map_err(RunError::at(start))?;
         symplectic = defect.map(|defect| maximum(symplectic.unwrap_or(0.0), defect));
         let mut state = point.clone();
-        made(&*there, &mut state, 0.0).map_err(RunError::at_start)?;
-        made(&*back, &mut state, h).map_err(RunError::at_start)?;
+        made(&*there, &mut state, start).map_err(RunError::at(start))?;
+        made(&*back, &mut state, start + h).map_err(RunError::at(start + h))?;
         let difference = (&state.momentum - &point.momentum).amax() / point.momentum.amax();
         symmetric = maximum(symmetric, difference);
     }
@@ -260,8 +266,8 @@ fn kicked(system: &Derived, hamiltonian: bool, trial: &Trial) -> Result<Vec<Law>
     let symmetric = law("symmetric+V", statement, symmetric, 1e-11);
     let expected = f64::from(system.order());
     let order = unmeasured(system).is_none().then(|| {
-        let order = measured(h, expected, &group, &starts, |h, steps, state| {
-            advanced(system, &group, state, (h, steps))
+        let order = measured(h, expected, &group, &starts, |step, steps, state| {
+            advanced(system, &group, state, (Grid { start, step }, steps))
         });
         let statement = "flows and kicks: that of the splitting";
         Law { name: "order+V", statement, ..order }
@@ -270,14 +276,14 @@ fn kicked(system: &Derived, hamiltonian: bool, trial: &Trial) -> Result<Vec<Law>
     Ok(symplectic.into_iter().chain(symmetric).chain(order).collect())
 }
 
-/// Makes steps of this size and number of a state from time 0 on.
+/// Makes the first steps of a grid.
 fn advanced(
     system: &Derived,
     group: &DirectProduct<MatrixGroup>,
     state: &mut Phase<DirectProduct<MatrixGroup>>,
-    (size, steps): (f64, u32),
+    (grid, steps): (Grid, u32),
 ) -> Result<(), StepError> {
-    moved(&*system.steps(size, None)?, group, state, |motion, state| {
+    moved(&*system.steps(grid, None)?, group, state, |motion, state| {
         motion.advance(state, 0, steps.into()).map(drop).map_err(|(_, error)| error)
     })
 }

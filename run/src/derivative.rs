@@ -43,11 +43,11 @@ impl<'a> Derivatives<'a> {
         if setup.momentum.len() != system.facts().algebra.dim() {
             return Err(RunError::Option("the momentum does not fit the group".to_owned()));
         }
-        let Schedule { step, steps, end, .. } = setup.schedule;
-        system.reaches(end)?;
-        let compiled = system.compiled(step, setup.backend, steps as f64, Trajectories::One)?;
-        let motion = system.steps(step, compiled.as_ref());
-        let motion = motion.map_err(RunError::at_start)?;
+        let schedule = &setup.schedule;
+        system.reaches(schedule)?;
+        let (grid, steps) = (schedule.grid(), schedule.steps as f64);
+        let compiled = system.compiled(grid.step, setup.backend, steps, Trajectories::One)?;
+        let motion = system.steps(grid, compiled.as_ref()).map_err(RunError::unmade)?;
         let start = setup.start(&system.file, motion.space())?;
         Ok(Self { motion, start, schedule: setup.schedule })
     }
@@ -129,7 +129,7 @@ impl<'a> Derivatives<'a> {
         parameters: &DMatrix<f64>,
         at: &[u64],
     ) -> Result<Vec<DMatrix<f64>>, RunError> {
-        let (n, q, k) = (self.dim(), self.parameters(), tangents.ncols());
+        let (n, q, k) = (self.dim(), self.steps()?.parameters(), tangents.ncols());
         if tangents.nrows() != 2 * n || parameters.shape() != (q, k) {
             return Err(RunError::Option(format!(
                 "{k} tangents are {}×{k} numbers of the state and {q}×{k} of the parameters",
@@ -163,6 +163,7 @@ impl<'a> Derivatives<'a> {
     /// # Errors
     /// Where the shapes do not fit, and why the run stopped.
     pub fn backward(&self, cotangents: &[(u64, DMatrix<f64>)]) -> Result<Adjoint, RunError> {
+        let q = self.steps()?.parameters();
         let (n, count) = (self.dim(), cotangents.last().map_or(0, |&(last, _)| last));
         let k = cotangents.first().map_or(0, |(_, first)| first.ncols());
         if cotangents.iter().any(|(_, own)| own.shape() != (2 * n, k)) {
@@ -180,7 +181,7 @@ impl<'a> Derivatives<'a> {
         }
         let (mut left, mut kept) = (cotangents.iter().rev().peekable(), 0);
         let mut now = DMatrix::zeros(2 * n, k);
-        let mut parameters = DMatrix::zeros(self.parameters(), k);
+        let mut parameters = DMatrix::zeros(q, k);
         while let Some(mut state) = checkpoints.pop() {
             let first = checkpoints.len() as u64 * stretch;
             let last = count.min(first + stretch);

@@ -39,10 +39,10 @@ pub enum RunError {
         source: Box<dyn std::error::Error + Send + Sync>,
     },
     /// A step that could not be made.
-    #[error("at time {time}: {source}")]
+    #[error("{}{source}", .time.map_or_else(String::new, |time| format!("at time {time}: ")))]
     Step {
-        /// When.
-        time: f64,
+        /// When, where steps are not of a system's at all times.
+        time: Option<f64>,
         /// Why.
         source: StepError,
     },
@@ -93,9 +93,14 @@ impl RunError {
         Self::Missing { file: file.into(), key, example, option }
     }
 
-    /// The error of a first step that cannot be made.
-    pub(crate) fn at_start(source: StepError) -> Self {
-        Self::Step { time: 0.0, source }
+    /// The error of a step that cannot be made at this time.
+    pub(crate) fn at(time: f64) -> impl Fn(StepError) -> Self {
+        move |source| Self::Step { time: Some(time), source }
+    }
+
+    /// The error of steps that cannot be made at any time.
+    pub(crate) fn unmade(source: StepError) -> Self {
+        Self::Step { time: None, source }
     }
 
     /// Whether what was given is at fault, not what became of it.

@@ -111,16 +111,21 @@ fn from_columns(name: &str, columns: &Columns, read: &Read) -> Result<Signal, St
     })
 }
 
-/// Whether inputs have a value from time 0 to `end`.
+/// Whether inputs have a value from one time to the other.
 ///
 /// # Errors
 /// The first that has not, in the system that is called `file`.
-pub(crate) fn reach(file: &Path, signals: &[Signal], end: f64) -> Result<(), RunError> {
-    let [from, to] = [end.min(0.0), end.max(0.0)];
+pub(crate) fn reach(
+    file: &Path,
+    signals: &[Signal],
+    [start, end]: [f64; 2],
+) -> Result<(), RunError> {
+    let [from, to] = [end.min(start), end.max(start)];
     let short = signals.iter().find(|signal| {
         let [first, last] = signal.range();
         // The last step may end beyond by rounding; its nodes are within it.
-        !(first <= from && to <= last + 1e-12 * to.abs())
+        let rounding = 1e-12 * start.abs().max(end.abs());
+        !(first <= from + rounding && to <= last + rounding)
     });
     let Some(signal) = short else { return Ok(()) };
     let ([first, last], [from, to]) = (signal.range().map(shortest), [from, to].map(shortest));

@@ -8,11 +8,13 @@ pub mod emit;
 mod engine;
 pub mod ensemble;
 mod error;
+mod grid;
 mod inputs;
 mod load;
 pub mod number;
 pub mod series;
 pub mod simulate;
+mod velocity;
 pub mod verify;
 
 use sha2::{Digest, Sha256};
@@ -22,10 +24,12 @@ pub use backend::{Backend, Used};
 pub use derivative::{Adjoint, Derivatives};
 pub use engine::STEEP;
 pub use error::RunError;
+pub use grid::Grid;
 pub use inputs::{inputs_files, inputs_hash};
 pub use load::{
     Derived, Expansion, System, learned, polynomial, read_given, read_group, read_varying,
 };
+pub use velocity::{Instant, velocities};
 
 /// The SHA-256 of a text in hexadecimal digits.
 pub fn text_hash(text: &str) -> String {

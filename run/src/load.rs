@@ -22,7 +22,9 @@ use crate::engine::{
     product_group, whole_group,
 };
 use crate::error::RunError;
+use crate::grid::Grid;
 use crate::inputs;
+use crate::simulate::Schedule;
 
 /// A system as its file has it, its Hamiltonian a polynomial or another smooth function.
 pub type System = system::System<Hamiltonian>;
@@ -190,10 +192,7 @@ impl Derived {
     pub fn of_file(file: &Path, system: System) -> Result<Self, RunError> {
         let System { problem, potential, damping, .. } = system;
         let kicks = potential.as_ref().map(|(kicks, _)| kicks);
-        let mut invariants = Invariants::new(problem.facts().algebra, Energy::new(&problem), kicks);
-        if damping.is_some() {
-            invariants.no_energy.get_or_insert("falls: damping acts");
-        }
+        let invariants = Invariants::new(problem.facts().algebra, Energy::new(&problem), kicks);
         // Kicks look at the matrices of the whole group; a flow alone goes factor by factor.
         let group = match &potential {
             Some(_) => whole_group(file, problem.facts().algebra)?,
@@ -230,12 +229,12 @@ impl Derived {
         }
     }
 
-    /// Whether all inputs have a value from time 0 to `end`.
+    /// Whether all inputs have a value from the start of a run to its end.
     ///
     /// # Errors
     /// The first that has not.
-    pub fn reaches(&self, end: f64) -> Result<(), RunError> {
-        inputs::reach(&self.file, self.signals(), end)
+    pub fn reaches(&self, schedule: &Schedule) -> Result<(), RunError> {
+        inputs::reach(&self.file, self.signals(), [schedule.start, schedule.end])
     }
 
     /// The facts of the system.
@@ -340,33 +339,32 @@ impl Derived {
         }
     }
 
-    /// Steps of this size with the parameters as the file has them, by the programs that were made for it, if any.
+    /// Steps of this grid with the parameters as the file has them, by the programs that were made for their size, if any.
     ///
     /// # Errors
     /// Where the step or the parameters make no sense.
     pub(crate) fn steps(
         &self,
-        step: f64,
+        grid: Grid,
         compiled: Option<&Arc<Compiled>>,
     ) -> Result<Box<dyn Varied + '_>, StepError> {
         let parameters = self.facts().defaults();
         let motion = match &self.flow {
             Flow::Series(series) => {
                 let equations = series.equations(parameters.clone());
-                series.group.steps(equations, step, compiled.cloned())
+                series.group.steps(equations, grid, compiled.cloned())
             }
             Flow::Collocation(smooth, group, _) => {
-                collocated(smooth, group, step, &parameters, compiled)?
+                collocated(smooth, group, grid, &parameters, compiled)?
             }
         };
-        Ok(self.damped(motion, step, &parameters))
+        Ok(self.damped(motion, &parameters))
     }
 
-    /// These steps, of this size, with damping before and after each where there is any.
+    /// These steps, with damping before and after each where there is any.
     fn damped<'a>(
         &'a self,
         motion: Box<dyn Varied + 'a>,
-        size: f64,
         parameters: &[f64],
     ) -> Box<dyn Varied + 'a> {
         let Some(damper) = &self.damping else { return motion };
@@ -375,28 +373,28 @@ impl Derived {
             Flow::Collocation(smooth, ..) => Source::Smooth(smooth),
         };
         let kick = self.kicks().map(|kicks| &kicks.kick);
-        Box::new(Damped::new(motion, size, damper, (energy, kick), parameters))
+        Box::new(Damped::new(motion, damper, (energy, kick), parameters))
     }
 
-    /// The same for another size or other values of the parameters that are kept, by the same programs.
+    /// The same for another grid or other values of the parameters that are kept, by the same programs.
     ///
     /// # Errors
     /// As [`Derived::steps`].
     pub(crate) fn varied(
         &self,
-        step: f64,
+        grid: Grid,
         parameters: &[f64],
         compiled: Option<&Arc<Compiled>>,
     ) -> Result<Box<dyn Motion + '_>, StepError> {
         let motion = match &self.flow {
             Flow::Series(series) => {
-                series.group.anew(series.equations(parameters.to_vec()), step, compiled)?
+                series.group.anew(series.equations(parameters.to_vec()), grid, compiled)?
             }
             Flow::Collocation(smooth, group, _) => {
-                collocated(smooth, group, step, parameters, compiled)?
+                collocated(smooth, group, grid, parameters, compiled)?
             }
         };
-        Ok(self.damped(motion, step, parameters))
+        Ok(self.damped(motion, parameters))
     }
 
     /// The order of accuracy: K + 1, or that of the splitting where it is lower; 2 with damping.

@@ -63,9 +63,9 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let schedule = match schedule {
         Some(schedule) => schedule,
         None => {
-            let truncation = source.truncation;
-            load::meet_tolerance(path, &mut system, accuracy, truncation, options.time)?;
-            simulate::schedule(path, accuracy.step, options.time, &system.run)?
+            let asked = accuracy.of_run(source.truncation, options.t0, options.time);
+            load::meet_tolerance(path, &mut system, &asked)?;
+            simulate::schedule(path, &asked, &system.run)?
         }
     };
     let (step, steps) = (schedule.step, schedule.steps);
@@ -78,8 +78,8 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     // Little is left of what a device makes.
     let work = if device.is_some() { 0.0 } else { work(options, facts.algebra.dim(), steps) };
     let how = How { backend: options.backend, work, device };
-    derived.reaches(schedule.end)?;
-    let engine = Engine::new(&derived, step, how)?;
+    derived.reaches(&schedule)?;
+    let engine = Engine::new(&derived, schedule.grid(), how)?;
     let [chart, frame] = match derived.series().map(|series| &series.integrator.problem) {
         Some(problem) => [problem.chart.to_string(), problem.frame_name().to_owned()],
         None => ["collocation", "fixed"].map(str::to_owned),
@@ -97,6 +97,9 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     ]
     .map(|(key, value)| (key.to_owned(), value))
     .into();
+    // Absent is 0.
+    let start = (schedule.start != 0.0).then(|| schedule.start.to_string());
+    identity.extend(start.map(|start| ("initial time".to_owned(), start)));
     identity.extend(inputs_hash(derived.signals()).map(|hash| ("inputs".to_owned(), hash)));
     // In double precision all devices and processors have the same bits.
     if let Some(Use { precision: Precision::Single, name, device, .. }) = engine.device() {
@@ -121,7 +124,7 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let outcome = outcome?;
     report::warnings(&outcome).iter().for_each(|(_, text)| eprintln!("warning: {text}"));
     let report =
-        report::report(&outcome, (&derived, &parameters), (step, steps), &engine, options.format);
+        report::report(&outcome, (&derived, &parameters), &schedule, &engine, options.format);
     out!("{report}");
     let failed = outcome.journal.rejected;
     if outcome.trajectories > 0 && failed == outcome.trajectories {

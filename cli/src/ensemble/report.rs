@@ -4,7 +4,8 @@ use coadjoint_program::Precision;
 use coadjoint_run::Derived;
 use coadjoint_run::STEEP;
 use coadjoint_run::ensemble::{Engine, Rejected};
-use coadjoint_run::simulate::LARGE;
+use coadjoint_run::number::shortest;
+use coadjoint_run::simulate::{LARGE, Schedule};
 use serde_json::{Value, json};
 
 use super::run::Outcome;
@@ -35,7 +36,7 @@ pub(crate) fn warnings(outcome: &Outcome) -> Vec<(Value, String)> {
 pub(crate) fn report(
     outcome: &Outcome,
     (system, parameters): (&Derived, &[String]),
-    (step, steps): (f64, u64),
+    &Schedule { start, step, steps, .. }: &Schedule,
     engine: &Engine<'_>,
     format: Format,
 ) -> String {
@@ -73,6 +74,10 @@ pub(crate) fn report(
             "warnings": warnings(outcome).into_iter().map(|(object, _)| object).collect::<Value>(),
             "seconds": seconds,
         });
+        // Absent is 0.
+        if start != 0.0 {
+            value["initial_time"] = json!(start);
+        }
         if let Some(problem) = series {
             value["chart"] = json!(problem.chart.to_string());
             value["frame"] = json!(problem.frame_name());
@@ -88,8 +93,9 @@ pub(crate) fn report(
         return format!("{value:#}\n");
     }
     let label = system.label();
+    let from = if start == 0.0 { String::new() } else { format!(" from time {}", shortest(start)) };
     let mut lines =
-        vec![format!("{label}: {trajectories} trajectories of {steps} steps of {step}")];
+        vec![format!("{label}: {trajectories} trajectories of {steps} steps of {step}{from}")];
     if *resumed > 0 {
         lines.push(format!("  {resumed} of them by an earlier run"));
     }

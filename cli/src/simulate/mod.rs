@@ -97,9 +97,10 @@ fn runs(
         let truncation = system.problem.facts().truncation;
         let phase = progress::phase("choosing the step");
         let fixed = (!options.truncation.is_empty()).then_some(truncation);
-        load::meet_tolerance(path, &mut system, &options.accuracy, fixed, options.time)?;
+        let asked = options.accuracy.of_run(fixed, options.t0, options.time);
+        load::meet_tolerance(path, &mut system, &asked)?;
         drop(phase);
-        let setup = settings::setup(options, path, &system.run)?;
+        let setup = settings::setup(options, path, &asked, &system.run)?;
         let settings = Settings::new(options, (path, &hash), out, setup)?;
         let setup = &settings.setup;
         let announcement = setup.schedule.announcement();
@@ -164,15 +165,14 @@ fn unsaid(option: &str) -> CliError {
     CliError::Option(format!("a learned model says nothing about {option}: give --{option}"))
 }
 
-/// The steps that end at the time T, by the options, else by the file. Where it is
+/// The steps of a run, by the options, else by the file. Where it is
 /// not the step asked for, a line on the error stream says so.
 pub(crate) fn schedule(
     file: &Path,
-    step: Option<f64>,
-    time: Option<f64>,
+    asked: &coadjoint_run::Accuracy,
     run: &Run,
 ) -> Result<Schedule, CliError> {
-    let schedule = Schedule::new(file, step, time, run)?;
+    let schedule = Schedule::new(file, asked, run)?;
     if let Some(line) = schedule.announcement() {
         eprintln!("{line}");
     }

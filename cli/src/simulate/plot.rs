@@ -32,22 +32,23 @@ fn settings(runs: &[Trajectory], units: &Units) -> Vec<String> {
     let unit = units.time.as_ref().map(|unit| format!(" {unit}")).unwrap_or_default();
     let Some(first) = runs.first() else { return Vec::new() };
     let said = |name| first.header.text(name);
-    let all = |text: fn(&Trajectory) -> String| {
+    let all = |text: &dyn Fn(&Trajectory) -> String| {
         let mut list: Vec<String> = runs.iter().map(text).collect();
         list.dedup();
         list.join(", ")
     };
-    let step = |run: &Trajectory| {
-        run.header.get("step").and_then(Value::as_f64).map(brief).unwrap_or_default()
-    };
+    let number = |run: &Trajectory, name| run.header.get(name).and_then(Value::as_f64);
+    let step = |run: &Trajectory| number(run, "step").map(brief).unwrap_or_default();
+    let start = number(first, "initial_time");
     let mut settings = vec![format!("group {}", said("group"))];
     // Steps by collocation name none.
     settings.extend(first.header.get("chart").map(|_| format!("chart {}", said("chart"))));
     settings.extend([
-        format!("K = {}", all(|run| run.header.text("truncation"))),
-        format!("h = {}{unit}", all(step)),
-        format!("T = {}{unit}", brief(first.outcome.time)),
+        format!("K = {}", all(&|run| run.header.text("truncation"))),
+        format!("h = {}{unit}", all(&step)),
     ]);
+    settings.extend(start.map(|start| format!("t₀ = {}{unit}", brief(start))));
+    settings.push(format!("T = {}{unit}", brief(first.outcome.time - start.unwrap_or(0.0))));
     let usual = format!("K = {}, {}", said("truncation"), said("chart"));
     let more = first.label.strip_prefix(&usual).unwrap_or(&first.label);
     settings.extend(more.split(", ").filter(|t| !t.is_empty()).map(str::to_owned));

@@ -162,7 +162,9 @@ fn text(run: &Trajectory, units: &Units) -> String {
     let mut out = String::new();
     // Writing into a string cannot fail.
     let time = with_unit(&shortest(end.time), units.time.as_deref());
-    let _ = writeln!(out, "{}: {} steps to time {time}", run.label, end.steps);
+    let from = run.header.get("initial_time").and_then(Value::as_f64);
+    let from = from.map(|start| format!("from time {} ", shortest(start))).unwrap_or_default();
+    let _ = writeln!(out, "{}: {} steps {from}to time {time}", run.label, end.steps);
     if let Some(line) = &run.announcement {
         let _ = writeln!(out, "  {line}");
     }

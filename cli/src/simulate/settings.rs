@@ -12,7 +12,7 @@ use coadjoint_learn::ModelFile;
 use coadjoint_program::quoting::line;
 use coadjoint_run::number::shortest;
 use coadjoint_run::simulate::{Event, Scales, Schedule, Setup, Times};
-use coadjoint_run::{Derived, RunError, System, inputs_hash, read_varying};
+use coadjoint_run::{Accuracy, Derived, RunError, System, inputs_hash, read_varying};
 use serde_json::{Map, Value, json};
 
 use super::target::{Place, Target, paths};
@@ -60,8 +60,13 @@ impl<'a> Settings<'a> {
 }
 
 /// The run of a system, by the options, else by the file.
-pub(crate) fn setup(options: &SimulateOptions, file: &Path, run: &Run) -> Result<Setup, CliError> {
-    let schedule = Schedule::new(file, options.accuracy.step, options.time, run)?;
+pub(crate) fn setup(
+    options: &SimulateOptions,
+    file: &Path,
+    asked: &Accuracy,
+    run: &Run,
+) -> Result<Setup, CliError> {
+    let schedule = Schedule::new(file, asked, run)?;
     let momentum = run.momentum.clone().ok_or_else(|| RunError::Missing {
         file: file.into(),
         key: "[initial] momentum",
@@ -229,8 +234,10 @@ impl Header {
             ("step_asked", json!(schedule.asked)),
             ("steps", json!(schedule.steps)),
             ("time", json!(schedule.end)),
-            ("initial_momentum", json!(momentum)),
         ]);
+        // Absent is 0.
+        list.extend((schedule.start != 0.0).then(|| ("initial_time", json!(schedule.start))));
+        list.push(("initial_momentum", json!(momentum)));
         let element = group_element.as_ref();
         list.extend(element.map(|rows| ("initial_group_element", json!(rows.concat()))));
         list.extend(every.map(|every| ("every", json!(every))));

@@ -11,7 +11,7 @@ use coadjoint_codegen::problem::{FrameChoice, Method};
 use coadjoint_codegen::system::{Options, System};
 use coadjoint_learn::table::{Row, Table};
 use coadjoint_run::verify::{Follower, Found, KICKED, Sample, judge_of, unjudged};
-use coadjoint_run::{RunError, read_varying, text_hash};
+use coadjoint_run::{Grid, RunError, read_varying, text_hash};
 use serde_json::Value;
 
 use crate::arguments::VerifyOptions;
@@ -117,7 +117,11 @@ fn judge(
     let phase = progress::phase("deriving the judge");
     let judge = judge_of(&system, &problem)?;
     drop(phase);
-    let mut follower = Follower::new(&judge, &problem, step)?;
+    // What a file of a run does not say is 0; one of an ensemble says nothing.
+    let of_run = number("initial_time").unwrap_or(0.0);
+    let of_ensemble = options.t0.unwrap_or(run.initial_time);
+    let start = if options.input.is_some() { of_ensemble } else { of_run };
+    let mut follower = Follower::new(&judge, &problem, Grid { start, step })?;
     follower.parameters = &parameters;
     // Rows are counted for a sample and for a bar; a file that cannot be read twice has neither.
     if options.sample.is_some() && !output.is_file() {

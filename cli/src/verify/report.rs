@@ -47,7 +47,9 @@ fn table(path: &Path, report: &Value) -> Option<Table> {
     let end = numbers(&report["momentum"])?;
     let momenta = (1..=end.len()).map(|i| format!("mu_{i}"));
     let mut names: Vec<String> = std::iter::once("time".to_owned()).chain(momenta).collect();
-    let mut rows = [vec![0.0], vec![report["time"].as_f64()?]];
+    // A run that does not say when it starts does so at time 0.
+    let start_time = run.get("initial_time").map_or(Some(0.0), Value::as_f64)?;
+    let mut rows = [vec![start_time], vec![report["time"].as_f64()?]];
     rows[0].extend(start);
     rows[1].extend(end);
     // The blocks of the group element with the number, from 0, of the first row and column of each.

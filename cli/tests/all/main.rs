@@ -26,6 +26,7 @@ mod size;
 mod smooth;
 mod smooth_examples;
 mod support;
+mod time;
 mod tolerance;
 mod verify;
 mod warnings;

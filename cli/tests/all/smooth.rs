@@ -6,7 +6,7 @@ use coadjoint_codegen::signal::Signal;
 use coadjoint_codegen::smooth::Functions;
 use coadjoint_codegen::system::Options;
 use coadjoint_run::simulate::{Schedule, Setup, run};
-use coadjoint_run::{Derived, read_given};
+use coadjoint_run::{Accuracy, Derived, read_given};
 use serde_json::{Value, json};
 
 use crate::support::{Folder, distance, numbers};
@@ -397,7 +397,7 @@ fn inputs_may_be_functions() {
         let v = Signal::of_function("v".to_owned(), |t| 0.5 + 0.2 * t - 0.1 * t * t);
         let given = Functions { inputs: vec![u, v], ..Functions::default() };
         let system = read_given("system", &text, Options::default(), &[], &given)?;
-        let schedule = Schedule::new(Path::new("system"), None, None, &system.run)?;
+        let schedule = Schedule::new(Path::new("system"), &Accuracy::default(), &system.run)?;
         let setup = Setup::new(schedule, system.run.momentum.clone().unwrap());
         run(&Derived::of(system)?, &setup, &mut ())
     };

@@ -29,7 +29,7 @@ pub(crate) enum Mistake {
     #[error("unknown variable `{0}`{did}", did = did_you_mean(.1))]
     UnknownVariable(String, Option<String>, Vec<String>),
     #[error(
-        "unknown variable `{0}`: only Hamiltonians and events depend on time, which is called t"
+        "unknown variable `{0}`: only Hamiltonians, torques and events depend on time, which is called t"
     )]
     Time(String),
     #[error("`{0}` is not known")]
@@ -240,8 +240,8 @@ impl Mistake {
                 return Some(format!("known here: {}", list(known)));
             }
             Self::Time(_) => {
-                "write `t` in the Hamiltonian or in an event; a potential can move as in docs/book/src/forces.md, and a \
-                 constant torque is a potential that is linear on R1"
+                "write `t` in the Hamiltonian, a torque or an event; of a potential that moves give the body torque −g⁻¹dV as \
+                 `torque = […]`, or see docs/book/src/forces.md; a constant torque is a potential that is linear on R1"
             }
             Self::Inverse(_) => {
                 "inv(J) is the inverse of a square matrix J under [parameters] and needs indices: \

@@ -62,9 +62,14 @@ pub(super) fn lower(
         slots: BTreeMap::new(),
         watched: Vec::new(),
         values: Vec::new(),
+        placed: Vec::new(),
         texts: texts(arena, names),
     };
     for (id, node, span) in arena.iter() {
+        let of = |id: ExprId| pass.placed[id.index()];
+        let placed =
+            matches!(node, Node::Coordinate(_)) || node.operands().into_iter().flatten().any(of);
+        pass.placed.push(placed);
         let value = if uses[id.index()] > 0 { pass.node(id, node, span) } else { None };
         pass.values.push(value);
     }
@@ -106,6 +111,8 @@ struct Pass<'a> {
     /// Expressions that may leave their domains: each with its argument, and a number that is not finite where it has.
     watched: Vec<(ExprId, Id, Id)>,
     values: Vec<Option<Value>>,
+    /// Whether each expression depends on coordinates, and not on the time alone.
+    placed: Vec<bool>,
     texts: Vec<(String, u8)>,
 }
 
@@ -202,8 +209,16 @@ impl Pass<'_> {
                 return Some(root);
             }
             Function::Abs => {
-                let help = "write sqrt(a^2 + b^2) with a small b, or powers of what it is of";
-                let message = "`abs` of the momentum has a kink: the Hamiltonian must be smooth";
+                let (message, help) = match self.placed[id.index()] {
+                    true => (
+                        "`abs` of the momentum has a kink: the Hamiltonian must be smooth",
+                        "write sqrt(a^2 + b^2) with a small b, or powers of what it is of",
+                    ),
+                    false => (
+                        "`abs` of the time has a kink: the Hamiltonian must be smooth",
+                        "write sqrt(a^2 + b^2) with a small b, or give a function of the time by its values under [inputs]",
+                    ),
+                };
                 self.diagnostics.report_other(span, message, help);
                 return None;
             }

@@ -3,7 +3,7 @@
 use toml::de::DeValue;
 
 use super::project::project;
-use super::run::Run;
+use super::run::{Run, accepted};
 use super::table::{Table, Value, span};
 use crate::diagnostic::{Mistake, Span};
 use crate::lie::{LieAlgebra, RationalMatrix};
@@ -11,6 +11,7 @@ use crate::number::{Rational, integer, nearest_float};
 use crate::poly::split_at;
 use crate::problem::Problem;
 
+const TIME: &str = "time = 5.0";
 const MOMENTUM: &str = "momentum = [2.0, 0.5, 1.0]";
 const VELOCITY: &str = "angular_velocity = [0.1, 0, 2]";
 const ELEMENT: &str = "group_element = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]";
@@ -27,6 +28,7 @@ pub(super) fn read(
 ) -> Option<(Vec<Rational>, Span)> {
     let table = root.table("initial")?;
     table.check_keys(&[
+        "time",
         "momentum",
         "angular_velocity",
         "group_element",
@@ -34,6 +36,10 @@ pub(super) fn read(
         "translation",
         "project",
     ]);
+    let time = accepted(&table, table.number("time", TIME), TIME, |time| {
+        (!time.is_finite()).then_some("the time must be finite")
+    });
+    run.initial_time = time.unwrap_or(0.0);
     run.group_element = element(&table, algebra);
     let momentum = coordinates(&table, "momentum", MOMENTUM, algebra);
     run.momentum = momentum.map(|(list, _)| list.iter().map(nearest_float).collect());

@@ -111,6 +111,14 @@ impl System<Hamiltonian> {
         }
     }
 
+    /// Whether the Hamiltonian or the torque depends on time, by inputs too.
+    #[must_use]
+    pub fn depends_on_time(&self) -> bool {
+        let torque = self.potential.as_ref().and_then(|(potential, _)| potential.alone());
+        let energy = matches!(&self.problem, Hamiltonian::Smooth(smooth) if smooth.moves);
+        energy || torque.is_some_and(|torque| torque.moves)
+    }
+
     /// Whether it can be written as code.
     ///
     /// # Errors

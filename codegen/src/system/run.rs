@@ -30,6 +30,8 @@ pub struct Run {
     pub events: Vec<Event>,
     /// `None` where the file does not say.
     pub looks: Option<usize>,
+    /// The time at the start t₀, of which energies, torques, inputs and events are functions; 0 if it is not given.
+    pub initial_time: f64,
     /// The body momentum μ at the start.
     pub momentum: Option<Vec<f64>>,
     /// The group element at the start, row by row; the identity if it is not given.
@@ -75,7 +77,7 @@ pub(super) fn read(root: &Table<'_>, integrator: Option<&Table<'_>>) -> Run {
 }
 
 /// A number that was given, refused where `wrong` says why.
-fn accepted<T: Copy>(
+pub(super) fn accepted<T: Copy>(
     table: &Table<'_>,
     given: Option<(T, Span)>,
     example: &str,

@@ -110,8 +110,15 @@ fn comment(kernel: &Kernel, about: &str) -> String {
     // As headers count them.
     let often = if kernel.guesses_from_element() { "often five" } else { "most often one" };
     let time = match kernel.clock() {
-        Some(_) => " * Steps depend on time: step i of a trajectory begins at time i h.\n",
-        None => "",
+        Some(Clock { start: 0.0, .. }) => {
+            String::from(" * Steps depend on time: step i of a trajectory begins at time i h.\n")
+        }
+        Some(Clock { start, .. }) => {
+            format!(
+                " * Steps depend on time: step i of a trajectory begins at time {start:?} + i h.\n"
+            )
+        }
+        None => String::new(),
     };
     text.push_str(&format!(
         " *\n\
@@ -205,12 +212,15 @@ impl Device {
         )
     }
 
-    /// The times of the step that begins, where the steps of a trajectory depend on them: the first begins at time 0.
+    /// The times of the step that begins, where the steps of a trajectory depend on them.
     fn times_of_step(&self, slots: &[f64]) -> String {
         let Some(clock) = &self.clock else { return String::new() };
         let (at, size) = (Id(0), self.literal(slots.get(clock.size).copied().unwrap_or(0.0)));
         let operation = |node, operands: &[&str]| self.operation(node, operands);
-        let now = operation(Node::Mul(at, at), &["(NUMBER)(done_state[row] + done)", &size]);
+        let mut now = operation(Node::Mul(at, at), &["(NUMBER)(done_state[row] + done)", &size]);
+        if clock.start != 0.0 {
+            now = operation(Node::Add(at, at), &[&self.literal(clock.start), &format!("({now})")]);
+        }
         let mut text = format!("const NUMBER now = {now};\n");
         for (place, &part) in clock.times.iter().enumerate() {
             let time = operation(Node::TimesPlus(at, at, at), &[&self.literal(part), &size, "now"]);

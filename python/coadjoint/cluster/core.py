@@ -17,7 +17,7 @@ from ..system import System, hardly_converges
 from .errors import InputError, ShardError
 
 #: What a run does, whatever its rows are.
-_SCHEDULE = ("time", "step", "steps", "truncation", "frame")
+_SCHEDULE = ("t0", "time", "step", "steps", "truncation", "frame")
 
 
 @dataclass(frozen=True)
@@ -75,7 +75,7 @@ def columns(system: System, available: Sequence[str]) -> tuple[list[str], list[s
 
 def advance(job: dict[str, Any], numbers: Floats, threads: int) -> Made:
     """Advances rows."""
-    asked = {"tolerance": None, "region": None} | {key: job[key] for key in ("time", "step", "truncation", "frame")}
+    asked = {"tolerance": None, "region": None} | {key: job[key] for key in ("t0", "time", "step", "truncation", "frame")}
     at = np.array(job["at"]) if "at" in job else None
     states, failed, facts = _core(job["text"]).ensemble(
         numbers, asked, parameters=job.get("parameters", []), at=at, backend=job["backend"], threads=threads, progress=None

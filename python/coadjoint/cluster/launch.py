@@ -21,6 +21,7 @@ def run(
     *,
     states: str | os.PathLike[str] | Sequence[str],
     out: str | os.PathLike[str],
+    t0: Real | None = None,
     time: Real | None = None,
     step: Real | None = None,
     tolerance: Real | None = None,
@@ -55,8 +56,8 @@ def run(
     out : path or fsspec name
         The folder: ``part-00000.parquet`` … with a row for every row of ``states``, and ``_run`` with the manifest,
         records of shards, and lists of bad rows.
-    time, step, tolerance : float, optional
-        The duration, and the step or the tolerance; the system's own if not given.
+    t0, time, step, tolerance : float, optional
+        The time at the start, the duration, and the step or the tolerance; the system's own if not given.
     region : float, optional
         The norm of momenta up to which the tolerance is to hold; along the system's own run if not given.
     truncation : int, optional
@@ -100,7 +101,7 @@ def run(
     ClusterError
         Where not a single row reaches the end.
     """
-    asked = {"time": time, "step": step, "tolerance": tolerance, "region": region, "truncation": truncation}
+    asked = {"t0": t0, "time": time, "step": step, "tolerance": tolerance, "region": region, "truncation": truncation}
     job = Job(system, states, out, asked, backend, rows_per_shard, share, keep, storage_options, at)
     if threads is None:
         threads = 1 if client is not None else _processors()

@@ -7,7 +7,11 @@ use coadjoint_codegen::system::Options;
 use num_traits::ToPrimitive;
 
 use super::*;
+use crate::grid::Grid;
 use crate::load::read_varying;
+
+/// The time at which runs start: derivatives of inputs and of times are those there.
+const START: f64 = 1.5;
 
 /// A system, the parameters in which it is differentiated, a momentum, and a step.
 struct Case {
@@ -103,7 +107,8 @@ impl Case {
     }
 
     fn setup(&self, steps: u64) -> Setup {
-        let schedule = Schedule::of(self.step, self.step * steps as f64).unwrap();
+        let grid = Grid { start: START, step: self.step };
+        let schedule = Schedule::of(grid, self.step * steps as f64).unwrap();
         Setup {
             backend: crate::Backend::Interpreter,
             ..Setup::new(schedule, self.momentum.to_vec())
@@ -146,7 +151,8 @@ fn coordinates(algebra: &LieAlgebra, g: &[f64], change: &[f64]) -> DVector<f64> 
 
 /// The state after steps by the generic solver, its matrix by rows, with other values of the parameters.
 fn end(case: &Case, system: &Derived, parameters: &[f64], start: Numbers, steps: u64) -> Numbers {
-    let motion = system.varied(case.step, parameters, None).unwrap();
+    let grid = Grid { start: START, step: case.step };
+    let motion = system.varied(grid, parameters, None).unwrap();
     let mut state = start;
     motion.advance(&mut state, 0, steps).unwrap();
     state

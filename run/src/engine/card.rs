@@ -7,6 +7,7 @@ use coadjoint_program::print::{DeviceLanguage, device_unit};
 
 use super::compiled::{MOST_OPERATIONS, coefficients};
 use crate::error::RunError;
+use crate::grid::Grid;
 
 /// The programs of a step in this precision, and their folded coefficients. `option` is what the user asked for them by.
 fn programs(
@@ -29,22 +30,22 @@ fn programs(
             "a step has {operations} operations, more than the {MOST_OPERATIONS} that are compiled; lower the truncation"
         )));
     }
-    let slots = coefficients(origin, &step, step_size, &[]).map_err(RunError::at_start)?;
+    let slots = coefficients(origin, &step, step_size, &[]).map_err(RunError::unmade)?;
     Ok((step, slots))
 }
 
-/// Steps of this size on this device, in numbers of this precision.
+/// Steps of this grid on this device, in numbers of this precision.
 ///
 /// # Errors
 /// Where they are not made of programs, or the device cannot be had.
 pub(crate) fn card(
     origin: Origin<'_>,
-    step_size: f64,
+    grid: Grid,
     device: Device,
     precision: Precision,
 ) -> Result<Card, RunError> {
-    let (step, slots) = programs(origin, step_size, precision, "--device")?;
-    let card = Card::new(device, step.kernel(), &slots);
+    let (step, slots) = programs(origin, grid.step, precision, "--device")?;
+    let card = Card::new(device, &step.kernel().clone().starting_at(grid.start), &slots);
     card.map_err(|error| RunError::Option(format!("--device: {error}")))
 }
 

@@ -21,20 +21,21 @@ use super::response::Response;
 use super::space::{Elements, Space};
 use super::tangent::{KickSlope, moved};
 use crate::error::kept;
+use crate::grid::Grid;
 
-/// The steps of this size of a smooth system, for these values of the parameters that it keeps.
+/// The steps of this grid of a smooth system, for these values of the parameters that it keeps.
 ///
 /// # Errors
 /// Where the size makes no sense, or an expression in the parameters is not finite.
 pub(crate) fn collocated<'a>(
     smooth: &'a Smooth,
     group: &Arc<Group>,
-    size: f64,
+    grid: Grid,
     parameters: &[f64],
     compiled: Option<&Arc<Compiled>>,
 ) -> Result<Box<dyn Varied + 'a>, StepError> {
     let own = |compiled: &Arc<Compiled>| {
-        compiled.anew(Origin::Collocation(smooth), size, parameters).map(Arc::new)
+        compiled.anew(Origin::Collocation(smooth), grid.step, parameters).map(Arc::new)
     };
     let compiled = compiled.map(own).transpose()?;
     let energy = Interpreted::new(smooth, parameters);
@@ -43,14 +44,14 @@ pub(crate) fn collocated<'a>(
     }
     let elements = Elements { group: group.clone(), compiled };
     Ok(match smooth.nodes() {
-        1 => Box::new(Collocated::<1>::new(elements, energy, size)?),
-        2 => Box::new(Collocated::<2>::new(elements, energy, size)?),
-        3 => Box::new(Collocated::<3>::new(elements, energy, size)?),
-        4 => Box::new(Collocated::<4>::new(elements, energy, size)?),
-        5 => Box::new(Collocated::<5>::new(elements, energy, size)?),
-        6 => Box::new(Collocated::<6>::new(elements, energy, size)?),
-        7 => Box::new(Collocated::<7>::new(elements, energy, size)?),
-        _ => Box::new(Collocated::<8>::new(elements, energy, size)?),
+        1 => Box::new(Collocated::<1>::new(elements, energy, grid)?),
+        2 => Box::new(Collocated::<2>::new(elements, energy, grid)?),
+        3 => Box::new(Collocated::<3>::new(elements, energy, grid)?),
+        4 => Box::new(Collocated::<4>::new(elements, energy, grid)?),
+        5 => Box::new(Collocated::<5>::new(elements, energy, grid)?),
+        6 => Box::new(Collocated::<6>::new(elements, energy, grid)?),
+        7 => Box::new(Collocated::<7>::new(elements, energy, grid)?),
+        _ => Box::new(Collocated::<8>::new(elements, energy, grid)?),
     })
 }
 
@@ -112,6 +113,7 @@ impl<'a> Kicked<'a> {
 /// Steps of one size at `M` nodes.
 struct Collocated<'a, const M: usize> {
     elements: Elements<Group>,
+    grid: Grid,
     step: Mutex<Collocation<Group, Interpreted<'a>, M>>,
     kicks: Option<Kicked<'a>>,
     /// The second derivatives, and those of kicks, once they were asked for.
@@ -122,12 +124,12 @@ impl<'a, const M: usize> Collocated<'a, M> {
     fn new(
         elements: Elements<Group>,
         energy: Interpreted<'a>,
-        size: f64,
+        grid: Grid,
     ) -> Result<Self, StepError> {
         let group = &*elements.group;
         let kicks = Kicked::new(energy.smooth, group, &energy.parameters)?;
-        let step = Mutex::new(Collocation::new(group.clone(), energy, size)?);
-        Ok(Self { elements, step, kicks, response: OnceLock::new() })
+        let step = Mutex::new(Collocation::new(group.clone(), energy, grid.step)?);
+        Ok(Self { elements, grid, step, kicks, response: OnceLock::new() })
     }
 
     fn step(&self) -> MutexGuard<'_, Collocation<Group, Interpreted<'a>, M>> {
@@ -179,24 +181,29 @@ impl<const M: usize> Motion for Collocated<'_, M> {
         &self.elements
     }
 
+    fn grid(&self) -> Grid {
+        self.grid
+    }
+
     fn advance(
         &self,
         state: &mut Numbers,
         first: u64,
         count: u64,
     ) -> Result<Solves, (u64, StepError)> {
-        let size = self.step().step();
+        let Grid { start, step: size } = self.grid;
         if let Some(compiled) = &self.elements.compiled {
             let rescue =
-                |state: &mut Numbers, number| self.rescue(state, number as f64 * size, size);
-            let made = compiled.advance(state, [first, count], rescue)?;
+                |state: &mut Numbers, number| self.rescue(state, self.grid.time(number), size);
+            let made = compiled.advance(state, start, [first, count], rescue)?;
             return Ok(Some((made.corrections, made.residual)));
         }
         // Steps of a system too large for programs begin anew: so their bits do not depend on how a run is cut.
         let remembers = self.kicks.is_none() && self.step().energy().smooth.given.is_some();
-        let mut numbers = (first..).map(|number| number as f64 * size);
+        let mut number = first;
         one_by_one(count, || {
-            let time = numbers.next().unwrap_or(size);
+            let time = self.grid.time(number);
+            number += 1;
             if remembers {
                 let mut phase = self.elements.phase(state);
                 if let Ok(report) = self.step().advance(&mut phase, time) {
@@ -226,8 +233,7 @@ impl<const M: usize> Motion for Collocated<'_, M> {
         if made {
             return Ok(());
         }
-        let size = self.step().step();
-        self.rescue(state, time, size).map(drop)
+        self.rescue(state, time, self.grid.step).map(drop)
     }
 
     fn lanes(&self) -> Option<&Compiled> {
@@ -246,14 +252,18 @@ impl<const M: usize> Motion for Collocated<'_, M> {
         (given.is_none() && torque.is_none()).then_some(self)
     }
 
-    fn defined(&self, state: &Numbers) -> Result<(), StepError> {
-        let step = self.step();
-        let found = step.energy().undefined(0.0, &DVector::from_column_slice(&state.mu));
+    fn defined(&self, state: &Numbers, time: f64) -> Result<(), StepError> {
+        let (step, mu) = (self.step(), DVector::from_column_slice(&state.mu));
+        let energy = step.energy();
+        // A function of the user's says by its value alone that there is none.
+        let lost = || energy.smooth.given.is_some() && !energy.value(time, &mu).is_finite();
+        let nothing = || Undefined { expression: "H", argument: f64::NAN };
+        let found = energy.undefined(time, &mu).or_else(|| lost().then(nothing));
         if let Some(Undefined { expression, argument }) = found {
-            return Err(StepError::Undefined { expression, argument, time: 0.0, at: None });
+            return Err(StepError::Undefined { expression, argument, time, at: None });
         }
         let kicks = self.kicks.as_ref();
-        kicks.map_or(Ok(()), |kicks| kicks.torque.defined(&self.elements.phase(state)))
+        kicks.map_or(Ok(()), |kicks| kicks.torque.defined(&self.elements.phase(state), time))
     }
 }
 
@@ -296,8 +306,8 @@ impl<const M: usize> Differentiable for Collocated<'_, M> {
                 self.response.get_or_init(|| made)
             }
         };
-        let (mut phase, size) = (self.elements.phase(state), step.step());
-        let time = first as f64 * size;
+        let mut phase = self.elements.phase(state);
+        let (time, size) = (self.grid.time(first), self.grid.step);
         let flow = |step: &Collocation<_, _, M>, phase: &mut Phase<Group>, time| {
             let solution = step.solution(&phase.momentum, time)?;
             let [hessian, mixed] = response.of(group, &solution, step.step())?;
@@ -312,7 +322,7 @@ impl<const M: usize> Differentiable for Collocated<'_, M> {
         let mut total = Linear::identity(phase.momentum.len(), parameters.len());
         compose(kicks.splitting, &mut phase, [time, size], |piece, phase, time, length| {
             let next = match piece {
-                Piece::Kick => slope.linear(phase, length)?,
+                Piece::Kick => slope.linear(phase, [time, length])?,
                 Piece::Flow(_) => {
                     let energy = step.energy().clone();
                     flow(&Collocation::new(group.clone(), energy, length)?, phase, time)?

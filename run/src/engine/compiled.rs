@@ -11,6 +11,7 @@ use coadjoint_program::{Kernel, Outcome, Precision, Trajectories, WIDTH};
 
 use crate::backend::{Backend, Code};
 use crate::error::RunError;
+use crate::grid::Grid;
 
 /// Above this ratio of terms a run says so; above twice this its steps are refused.
 pub const STEEP: f64 = 0.25;
@@ -168,7 +169,7 @@ impl Compiled {
         }
         let backend = if large { Backend::Interpreter } else { backend };
         let folded = fold(origin, step, size, &origin.facts().defaults());
-        let folded = folded.map_err(RunError::at_start)?;
+        let folded = folded.map_err(RunError::unmade)?;
         let framed = parts.frame.is_some();
         let code = match kept.find(backend, trajectories) {
             Some(code) => code,
@@ -276,14 +277,15 @@ impl Compiled {
         self.programs.spatial.momentum(&state.g, &state.mu)
     }
 
-    /// Makes `steps` steps after those already made. A step that the programs refuse is made by `rescue`, which is given the number
-    /// of steps before it, and returns its iterations and residual or says why there is no step.
+    /// Makes `steps` steps after the first ones, which began at the time `start`. A step that the programs refuse is made by `rescue`,
+    /// which is given the number of steps before it, and returns its iterations and residual or says why there is no step.
     ///
     /// # Errors
     /// How many steps were made, and why the next one was not; the state is then that before it.
     pub(crate) fn advance(
         &self,
         numbers: &mut Numbers,
+        start: f64,
         [first, steps]: [u64; 2],
         mut rescue: impl FnMut(&mut Numbers, u64) -> Result<Solves, StepError>,
     ) -> Result<Outcome, (u64, StepError)> {
@@ -294,8 +296,8 @@ impl Compiled {
             let asked = if self.framed || moves { 1 } else { asked };
             let number = first + total.steps;
             if moves {
-                let size = self.folded.size;
-                self.programs.step.set_time(slots.to_mut(), size, number as f64 * size);
+                let grid = Grid { start, step: self.folded.size };
+                self.programs.step.set_time(slots.to_mut(), grid.step, grid.time(number));
             }
             let Numbers { g, mu } = numbers;
             let made = self.code().stepper(self.kernel()).advance(&slots, g, mu, asked);
@@ -340,12 +342,13 @@ impl Compiled {
         self.kernel().programs.matrix.run(g, &[])
     }
 
-    /// Makes steps, after those already made, of [`WIDTH`] trajectories side by side, as
+    /// Makes steps, after the first ones, which began at the time `start`, of [`WIDTH`] trajectories side by side, as
     /// [`Stepper::advance_lanes`](coadjoint_program::Stepper::advance_lanes).
     pub(crate) fn advance_lanes(
         &self,
         g: &mut [f64],
         mu: &mut [f64],
+        start: f64,
         [first, steps]: [u64; 2],
         live: [bool; WIDTH],
     ) -> [u64; WIDTH] {
@@ -359,8 +362,8 @@ impl Compiled {
             if !live.contains(&true) {
                 break;
             }
-            let Folded { size, .. } = self.folded;
-            step.set_time(&mut slots, size, (first + number) as f64 * size);
+            let grid = Grid { start, step: self.folded.size };
+            step.set_time(&mut slots, grid.step, grid.time(first + number));
             let own = stepper.advance_lanes(&slots, g, mu, 1, live);
             made = from_fn(|lane| made[lane] + own[lane]);
         }

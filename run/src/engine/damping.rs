@@ -16,6 +16,7 @@ use super::interpreter::symbols;
 use super::kick::Torque;
 use super::motion::{Motion, Varied, advise, one_by_one};
 use super::space::{Space, entries_of, phase_of};
+use crate::grid::Grid;
 
 /// Moves a state by a step of damping from this time, of this length.
 type Damp<'a> =
@@ -87,7 +88,6 @@ impl Energy<DVector<f64>> for Given<'_> {
 /// Steps between halves of damping.
 pub(crate) struct Damped<'a> {
     motion: Box<dyn Varied + 'a>,
-    size: f64,
     damper: &'a Damper,
     energy: Source<'a>,
     kick: Option<&'a Kick>,
@@ -95,16 +95,15 @@ pub(crate) struct Damped<'a> {
 }
 
 impl<'a> Damped<'a> {
-    /// Of these steps, of this size, with these kicks if there are any, for these values of the parameters that are kept.
+    /// Of these steps, with these kicks if there are any, for these values of the parameters that are kept.
     pub(crate) fn new(
         motion: Box<dyn Varied + 'a>,
-        size: f64,
         damper: &'a Damper,
         (energy, kick): (Source<'a>, Option<&'a Kick>),
         parameters: &[f64],
     ) -> Self {
         let damp = damp(damper, (energy, kick), parameters);
-        Self { motion, size, damper, energy, kick, damp }
+        Self { motion, damper, energy, kick, damp }
     }
 
     /// `step` from this time, of this size, between halves of damping.
@@ -161,13 +160,17 @@ fn damp_by<'a, const M: usize>(
     Box::new(move |phase, time, length| {
         let Some(torque) = &torque else { return damping.advance(phase, time, length).map(drop) };
         let mu = phase.momentum.clone();
-        damping.advance_beside(phase, time, length, |g| torque.torque(g, &mu, 0.0)).map(drop)
+        damping.advance_beside(phase, time, length, |g| torque.torque(g, &mu, time)).map(drop)
     })
 }
 
 impl Motion for Damped<'_> {
     fn space(&self) -> &dyn Space {
         self.motion.space()
+    }
+
+    fn grid(&self) -> Grid {
+        self.motion.grid()
     }
 
     fn advance(
@@ -178,7 +181,7 @@ impl Motion for Damped<'_> {
     ) -> Result<Solves, (u64, StepError)> {
         let mut number = first;
         one_by_one(count, || {
-            let place = [number as f64 * self.size, self.size];
+            let place = [self.grid().time(number), self.grid().step];
             let solved = self.around(state, place, |state| {
                 self.motion.advance(state, number, 1).map_err(|(_, error)| error)
             });
@@ -197,15 +200,15 @@ impl Motion for Damped<'_> {
     }
 
     fn one_at(&self, state: &mut Numbers, time: f64) -> Result<(), StepError> {
-        self.around(state, [time, self.size], |state| self.motion.one_at(state, time))
+        self.around(state, [time, self.grid().step], |state| self.motion.one_at(state, time))
     }
 
     fn ratio(&self, mu: &[f64]) -> f64 {
         self.motion.ratio(mu)
     }
 
-    fn defined(&self, state: &Numbers) -> Result<(), StepError> {
-        self.motion.defined(state)
+    fn defined(&self, state: &Numbers, time: f64) -> Result<(), StepError> {
+        self.motion.defined(state, time)
     }
 }
 

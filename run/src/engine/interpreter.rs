@@ -54,8 +54,13 @@ impl<'a, G: Group, C: Chart<G>> Interpreter<'a, G, C> {
     }
 
     /// The ratio by which steps are judged where it may be above [`STEEP`]: of the last two terms of ∂S at p, or that which
-    /// the rate at which motions part stands for; 0 where it is known to be at most [`STEEP`] and p need not be looked at.
+    /// the rate at which motions part stands for; 0 where it is known to be at most [`STEEP`] and p need not be looked at, and
+    /// where terms are no finite numbers, so that there is no ratio, nor a step.
     pub(crate) fn ratio(&self, p: &DVector<f64>) -> f64 {
+        Some(self.ratio_of_terms(p)).filter(|ratio| ratio.is_finite()).unwrap_or(0.0)
+    }
+
+    fn ratio_of_terms(&self, p: &DVector<f64>) -> f64 {
         let quiet = p.norm() <= self.quiet;
         let of_terms = if quiet { 0.0 } else { self.series_ratio(p) };
         if self.largest_rate() >= f64::MAX {

@@ -98,12 +98,12 @@ impl<'a, G: Group> Torque<'a, G> {
         }))
     }
 
-    /// Whether it is defined in a state at time 0.
+    /// Whether it is defined in a state of this time.
     ///
     /// # Errors
     /// As [`Torque::torque`].
-    pub(super) fn defined(&self, state: &Phase<G>) -> Result<(), StepError> {
-        self.torque(&state.group_element, &state.momentum, 0.0).map(drop)
+    pub(super) fn defined(&self, state: &Phase<G>, time: f64) -> Result<(), StepError> {
+        self.torque(&state.group_element, &state.momentum, time).map(drop)
     }
 
     /// A kick of this length; where the torque depends on μ, that of its value in the middle.

@@ -23,7 +23,7 @@ pub(crate) trait Differentiable {
     /// q, the number of parameters that derivatives are taken in.
     fn parameters(&self) -> usize;
 
-    /// The derivative of the next step of a state that `first` steps from time 0 have reached.
+    /// The derivative of the next step of a state that `first` steps from the start of the grid have reached.
     ///
     /// # Errors
     /// Where there is no step.

@@ -18,6 +18,7 @@ pub use compiled::STEEP;
 pub(crate) use compiled::{Compiled, Kept, Numbers, Solves};
 pub(crate) use damping::{Damped, Damper, Source};
 pub(crate) use interpreter::Interpreter;
+pub(crate) use kick::Torque;
 pub(crate) use linear::{Differentiable, Linear};
 pub(crate) use motion::{Charted, Equations, advise, one_by_one};
 pub(crate) use motion::{Motion, Varied};

@@ -9,6 +9,7 @@ use coadjoint::groups::{
 use coadjoint::{Phase, StepError};
 use coadjoint_codegen::integrator::{Integrator, Kicks};
 use coadjoint_codegen::lie;
+use coadjoint_codegen::potential::Force;
 use coadjoint_codegen::step::Origin;
 use nalgebra::DVector;
 
@@ -19,6 +20,7 @@ use super::linear::{Differentiable, Linear};
 use super::space::{Elements, Restore, Space, cayley_group};
 use super::tangent::Tangent;
 use crate::error::RunError;
+use crate::grid::Grid;
 use crate::number::maximum;
 
 /// Moves states by steps of one size.
@@ -26,8 +28,11 @@ pub(crate) trait Motion: Send + Sync {
     /// The group that the states belong to.
     fn space(&self) -> &dyn Space;
 
-    /// Makes `count` steps of a state that `first` steps from time 0 have reached. The state that comes of them does not
-    /// depend on how many are made at a time.
+    /// The times between steps.
+    fn grid(&self) -> Grid;
+
+    /// Makes `count` steps of a state that `first` steps from the start of the [grid](Motion::grid) have reached. The state
+    /// that comes of them does not depend on how many are made at a time.
     ///
     /// # Errors
     /// How many were made, and why the next one was not; the state is then that before it.
@@ -48,9 +53,7 @@ pub(crate) trait Motion: Send + Sync {
     ///
     /// # Errors
     /// Why there is none.
-    fn one_at(&self, state: &mut Numbers, _time: f64) -> Result<(), StepError> {
-        self.advance(state, 0, 1).map(drop).map_err(|(_, error)| error)
-    }
+    fn one_at(&self, state: &mut Numbers, time: f64) -> Result<(), StepError>;
 
     /// The ratio of the last two terms of the series at a momentum, where it may be worth a warning; else 0.
     fn ratio(&self, mu: &[f64]) -> f64;
@@ -60,13 +63,11 @@ pub(crate) trait Motion: Send + Sync {
         None
     }
 
-    /// Whether the Hamiltonian and the torque of kicks are defined in a state.
+    /// Whether the Hamiltonian and the torque of kicks are defined in a state of this time.
     ///
     /// # Errors
     /// The expression in them that is not.
-    fn defined(&self, _: &Numbers) -> Result<(), StepError> {
-        Ok(())
-    }
+    fn defined(&self, state: &Numbers, time: f64) -> Result<(), StepError>;
 
     /// The programs that move many states side by side, where there are any.
     fn lanes(&self) -> Option<&Compiled> {
@@ -167,33 +168,33 @@ impl Charted {
     pub(crate) fn anew<'a>(
         &self,
         equations: Equations<'a>,
-        size: f64,
+        grid: Grid,
         compiled: Option<&Arc<Compiled>>,
     ) -> Result<Box<dyn Varied + 'a>, StepError> {
         let Equations { integrator, parameters, .. } = &equations;
-        let folded =
-            compiled.map(|compiled| compiled.fold(Origin::Series(integrator), size, parameters));
+        let origin = Origin::Series(integrator);
+        let folded = compiled.map(|compiled| compiled.fold(origin, grid.step, parameters));
         let (folded, parameters) = (folded.transpose()?, parameters.clone());
-        let mut steps = self.steps(equations, size, compiled.cloned());
+        let mut steps = self.steps(equations, grid, compiled.cloned());
         steps.vary(&parameters, folded);
         Ok(steps)
     }
 
-    /// The steps of this size: by programs where there are any.
+    /// The steps of this grid: by programs where there are any.
     pub(crate) fn steps<'a>(
         &self,
         equations: Equations<'a>,
-        size: f64,
+        grid: Grid,
         compiled: Option<Arc<Compiled>>,
     ) -> Box<dyn Varied + 'a> {
         match self {
             Self::Exponential(group) => {
                 let elements = Elements { group: group.clone(), compiled };
-                Box::new(Steps::<_, Exponential>::new(elements, equations, size))
+                Box::new(Steps::<_, Exponential>::new(elements, equations, grid))
             }
             Self::Cayley(group) => {
                 let elements = Elements { group: group.clone(), compiled };
-                Box::new(Steps::<_, Cayley>::new(elements, equations, size))
+                Box::new(Steps::<_, Cayley>::new(elements, equations, grid))
             }
         }
     }
@@ -204,7 +205,7 @@ impl Charted {
 struct Steps<'a, G: Restore, C> {
     elements: Elements<G>,
     equations: Equations<'a>,
-    size: f64,
+    grid: Grid,
     /// The step of the generic solver, once one was needed.
     generic: OnceLock<Map<'a, G>>,
     /// Those of half the size, of a quarter, …, as far as they were needed to advise.
@@ -216,9 +217,9 @@ struct Steps<'a, G: Restore, C> {
 }
 
 impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Steps<'a, G, C> {
-    fn new(elements: Elements<G>, equations: Equations<'a>, size: f64) -> Self {
+    fn new(elements: Elements<G>, equations: Equations<'a>, grid: Grid) -> Self {
         let (generic, flow, shorter, tangent) = Default::default();
-        Self { elements, equations, size, generic, shorter, flow, tangent }
+        Self { elements, equations, grid, generic, shorter, flow, tangent }
     }
 
     fn map(&self, size: f64) -> Result<Map<'a, G>, StepError> {
@@ -231,7 +232,7 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Steps<'a, G, C> {
         // A thread that panicked has left whole steps, if any.
         let mut shorter = self.shorter.lock().unwrap_or_else(PoisonError::into_inner);
         let mut place = 0;
-        advise(error, self.size, |size| {
+        advise(error, self.grid.step, |size| {
             if shorter.len() == place {
                 shorter.push(self.map(size).ok());
             }
@@ -243,11 +244,11 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Steps<'a, G, C> {
 
     /// A step by the generic solver. The error of one that cannot be made names a size that works.
     fn rescue(&self, state: &mut Numbers, number: u64) -> Result<Solves, StepError> {
-        let time = number as f64 * self.size;
+        let time = self.grid.time(number);
         let step = match self.generic.get() {
             Some(step) => step,
             None => {
-                let made = self.map(self.size)?;
+                let made = self.map(self.grid.step)?;
                 self.generic.get_or_init(|| made)
             }
         };
@@ -263,6 +264,10 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Motion for Steps<'a, G
         &self.elements
     }
 
+    fn grid(&self) -> Grid {
+        self.grid
+    }
+
     fn advance(
         &self,
         state: &mut Numbers,
@@ -274,7 +279,7 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Motion for Steps<'a, G
             return one_by_one(count, || self.rescue(state, numbers.next().unwrap_or(first)));
         };
         let rescue = |state: &mut Numbers, number| self.rescue(state, number);
-        let made = compiled.advance(state, [first, count], rescue)?;
+        let made = compiled.advance(state, self.grid.start, [first, count], rescue)?;
         // A bound, which may be far below what rounding leaves.
         Ok(Some((made.corrections, made.residual.max(f64::EPSILON))))
     }
@@ -287,7 +292,7 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Motion for Steps<'a, G
 
     fn one_at(&self, state: &mut Numbers, time: f64) -> Result<(), StepError> {
         if self.equations.moves() {
-            *state = self.beside(state, time, self.size)?;
+            *state = self.beside(state, time, self.grid.step)?;
             return Ok(());
         }
         self.advance(state, 0, 1).map(drop).map_err(|(_, error)| error)
@@ -300,7 +305,7 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Motion for Steps<'a, G
             return 0.0;
         }
         let flow = self.flow.get_or_init(|| {
-            let longest = self.size * integrator.kicks.as_ref().map_or(1.0, longest_flow);
+            let longest = self.grid.step * integrator.kicks.as_ref().map_or(1.0, longest_flow);
             let group = (*self.elements.group).clone();
             Interpreter::new(integrator, group, longest, parameters).ok()
         });
@@ -314,11 +319,15 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Motion for Steps<'a, G
         kicks.and_then(Kicks::torque).is_none().then_some(self)
     }
 
-    fn defined(&self, state: &Numbers) -> Result<(), StepError> {
+    fn defined(&self, state: &Numbers, time: f64) -> Result<(), StepError> {
         let Equations { integrator, parameters } = &self.equations;
+        // A polynomial is defined everywhere.
         let Some(kicks) = &integrator.kicks else { return Ok(()) };
+        if matches!(kicks.kick.potential.force, Force::Polynomial(_)) {
+            return Ok(());
+        }
         let torque = Torque::new(&kicks.kick, (*self.elements.group).clone(), parameters)?;
-        torque.defined(&self.elements.phase(state))
+        torque.defined(&self.elements.phase(state), time)
     }
 
     fn lanes(&self) -> Option<&Compiled> {
@@ -331,17 +340,17 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Differentiable for Ste
         self.equations.parameters.len()
     }
 
-    fn linear(&self, state: &Numbers, _: u64) -> Result<Linear, StepError> {
+    fn linear(&self, state: &Numbers, first: u64) -> Result<Linear, StepError> {
         let tangent = match self.tangent.get() {
             Some(tangent) => tangent,
             None => {
                 let Equations { integrator, parameters } = &self.equations;
                 let group: &G = &self.elements.group;
-                let made = Tangent::new(integrator, group, self.size, parameters)?;
+                let made = Tangent::new(integrator, group, self.grid.step, parameters)?;
                 self.tangent.get_or_init(|| made)
             }
         };
-        tangent.linear(self.elements.phase(state))
+        tangent.linear(self.elements.phase(state), self.grid.time(first))
     }
 }
 

@@ -103,19 +103,19 @@ impl<'a, G: Group + 'a, C: Chart<G>> Tangent<'a, G, C> {
         Ok(Self { flows: flows?, kicks, hessian, frame })
     }
 
-    /// The derivative of the step from a state.
+    /// The derivative of the step from a state of this time.
     ///
     /// # Errors
     /// Where there is no step.
-    pub(crate) fn linear(&self, mut phase: Phase<G>) -> Result<Linear, StepError> {
+    pub(crate) fn linear(&self, mut phase: Phase<G>, time: f64) -> Result<Linear, StepError> {
         let parameters = self.flows.first().map_or(0, |flow| flow.by_parameters.len());
         let mut total = Linear::identity(phase.momentum.len(), parameters);
         let Some((splitting, size, kick)) = &self.kicks else {
             return self.flows.first().map_or(Ok(total), |flow| self.flow(flow, &mut phase));
         };
-        compose(*splitting, &mut phase, [0.0, *size], |piece, phase, _, length| {
+        compose(*splitting, &mut phase, [time, *size], |piece, phase, time, length| {
             let next = match piece {
-                Piece::Kick => kick.linear(phase, length)?,
+                Piece::Kick => kick.linear(phase, [time, length])?,
                 Piece::Flow(number) => self.flow(&self.flows[number], phase)?,
             };
             total = total.then(&next);
@@ -196,11 +196,15 @@ impl<'a, G: Group> KickSlope<'a, G> {
         Ok(Self { torque, by_element, by_coefficients, generators, slopes })
     }
 
-    /// Makes a kick of this length; its derivative.
+    /// Makes a kick at this time, of this length; its derivative.
     ///
     /// # Errors
     /// Where the torque is not defined.
-    pub(super) fn linear(&self, phase: &mut Phase<G>, length: f64) -> Result<Linear, StepError> {
+    pub(super) fn linear(
+        &self,
+        phase: &mut Phase<G>,
+        [time, length]: [f64; 2],
+    ) -> Result<Linear, StepError> {
         let (g, dim) = (&phase.group_element, phase.momentum.len());
         let moved = self.torque.moved(g, &self.generators);
         let by_element = moved.iter().map(|change| self.torque.along(&self.by_element, g, change));
@@ -209,7 +213,7 @@ impl<'a, G: Group> KickSlope<'a, G> {
         let by_parameters =
             slopes.map(|change| self.torque.along(&self.by_coefficients, g, change));
         let by_parameters = matrix(dim, by_parameters);
-        let torque = self.torque.torque(g, &phase.momentum, 0.0)?;
+        let torque = self.torque.torque(g, &phase.momentum, time)?;
         phase.momentum += torque * length;
         Ok(Linear::of_kick(&(by_element * length), &(by_parameters * length)))
     }

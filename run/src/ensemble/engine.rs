@@ -16,6 +16,7 @@ use super::march::{March, STRETCH, Way};
 use crate::backend::Backend;
 use crate::engine::{Compiled, Motion, Numbers, STEEP, Varied, card, identity};
 use crate::error::RunError;
+use crate::grid::Grid;
 use crate::load::{Derived, System};
 use crate::number::{maximum, shortest};
 use crate::simulate::{Stop, estimate};
@@ -154,12 +155,12 @@ pub struct How {
     pub device: Option<(Device, Precision)>,
 }
 
-/// Advances rows of states of one system by steps of one size.
+/// Advances rows of states of one system by the steps of a grid.
 pub struct Engine<'a> {
     system: &'a Derived,
     /// The values of the parameters that are kept, as the file has them.
     parameters: Vec<f64>,
-    step: f64,
+    grid: Grid,
     /// With the parameters as the file has them.
     motion: Box<dyn Motion + 'a>,
     compiled: Option<Arc<Compiled>>,
@@ -178,7 +179,7 @@ impl<'a> Engine<'a> {
     ///
     /// # Errors
     /// Where the step makes no sense, or the backend or device that the user named cannot be had.
-    pub fn new(system: &'a Derived, step: f64, how: How) -> Result<Self, RunError> {
+    pub fn new(system: &'a Derived, grid: Grid, how: How) -> Result<Self, RunError> {
         // Lanes have their coefficients in common.
         let alike = system.facts().parameters.is_empty();
         let (trajectories, work) = if alike && system.alike() {
@@ -194,12 +195,11 @@ impl<'a> Engine<'a> {
         } else {
             (Trajectories::One, how.work * WIDTH as f64)
         };
-        let compiled = system.compiled(step, how.backend, work, trajectories)?;
+        let compiled = system.compiled(grid.step, how.backend, work, trajectories)?;
         let asked = how.device.zip(system.origin());
-        let card = asked.map(|((device, precision), origin)| card(origin, step, device, precision));
+        let card = asked.map(|((device, precision), origin)| card(origin, grid, device, precision));
         let card = card.transpose()?.map(Mutex::new);
-        let motion = system.steps(step, compiled.as_ref());
-        let motion = motion.map_err(RunError::at_start)?;
+        let motion = system.steps(grid, compiled.as_ref()).map_err(RunError::unmade)?;
         let identity = motion.space().numbers(&identity(motion.space().size()));
         // Energies are not measured.
         let invariants =
@@ -210,7 +210,7 @@ impl<'a> Engine<'a> {
         Ok(Self {
             system,
             parameters,
-            step,
+            grid,
             motion,
             compiled,
             card,
@@ -303,7 +303,7 @@ impl<'a> Engine<'a> {
             self.march_varied(layout, before.clone(), &own, course, watch)
         };
         if watch.stop.load(Ordering::Relaxed) {
-            return Err(RunError::Halted { time: 0.0, step: 0 });
+            return Err(RunError::Halted { time: self.grid.start, step: 0 });
         }
         // Every state kept of a row has the row's parameters.
         let long = course.kept() * width;
@@ -422,12 +422,15 @@ impl<'a> Engine<'a> {
         let estimate = |row: &&[f64]| {
             let start = self.read(layout, row)?;
             let parameters = self.parameters(&places, &row[layout.state()..]);
-            let of = |size| self.system.varied(size, &parameters, self.compiled.as_ref());
-            let motion = of(self.step).map_err(|error| error.to_string())?;
+            let of = |step| {
+                let grid = Grid { step, ..self.grid };
+                self.system.varied(grid, &parameters, self.compiled.as_ref())
+            };
+            let motion = of(self.grid.step).map_err(|error| error.to_string())?;
             let mut end = start.clone();
             let made = motion.advance(&mut end, 0, steps);
             made.map_err(|(_, error)| error.to_string())?;
-            let other = |size| of(self.step * size);
+            let other = |size| of(self.grid.step * size);
             let found = estimate(motion.as_ref(), other, [&start, &end], steps, self.order);
             found.map_err(str::to_owned)
         };
@@ -437,7 +440,8 @@ impl<'a> Engine<'a> {
     /// The shorter steps to each stop, where there is one.
     fn shorter(&self, course: &Course) -> Result<Vec<Option<Box<dyn Motion + 'a>>>, StepError> {
         let shorter = |stop: &Stop| {
-            let motion = || self.system.varied(stop.part, &self.parameters, self.compiled.as_ref());
+            let grid = Grid { start: self.grid.time(stop.step), step: stop.part };
+            let motion = || self.system.varied(grid, &self.parameters, self.compiled.as_ref());
             (stop.part != 0.0).then(motion).transpose()
         };
         course.stops.iter().map(shorter).collect()
@@ -471,9 +475,11 @@ impl<'a> Engine<'a> {
     /// The drifts of one row.
     fn drift(&self, before: &Numbers, after: &Numbers) -> Drift {
         let (invariants, space) = (&self.invariants, self.motion.space());
-        let start = invariants.start(&before.mu, &space.spatial_momentum(before), Vec::new);
+        // Energies alone depend on the time, and are not measured.
+        let time = self.grid.start;
+        let start = invariants.start(time, &before.mu, &space.spatial_momentum(before), Vec::new);
         let conserved = |state: &Numbers| {
-            invariants.conserved(&state.mu, &space.spatial_momentum(state), Vec::new)
+            invariants.conserved(time, &state.mu, &space.spatial_momentum(state), Vec::new)
         };
         let mut beside = after.clone();
         nudge(&mut beside.g);
@@ -493,7 +499,7 @@ impl<'a> Engine<'a> {
         watch: &Watch<'_>,
     ) -> Result<Vec<Way>, RunError> {
         let shorter = self.shorter(course);
-        let shorter = shorter.map_err(RunError::at_start)?;
+        let shorter = shorter.map_err(RunError::unmade)?;
         let march = March { motion: self.motion.as_ref(), stop: watch.stop };
         let mut ways: Vec<Way> = states.into_par_iter().map(|state| march.way(state)).collect();
         match &self.card {
@@ -502,8 +508,7 @@ impl<'a> Engine<'a> {
                     march.march(&mut ways, first, end, watch.made);
                     let Some(stop) = stop else { continue };
                     let shorter = shorter[stop].as_deref();
-                    let time = end as f64 * self.step;
-                    ways.par_iter_mut().for_each(|way| March::keep(way, end, time, shorter));
+                    ways.par_iter_mut().for_each(|way| march.keep(way, end, shorter));
                 }
             }
             Some(card) => {
@@ -513,6 +518,7 @@ impl<'a> Engine<'a> {
                 self.redone.fetch_add(redone.map_err(RunError::Device)?, Ordering::Relaxed);
             }
         }
+        ways.par_iter_mut().for_each(|way| march.end(way, course.steps));
         Ok(ways)
     }
 
@@ -526,25 +532,26 @@ impl<'a> Engine<'a> {
         watch: &Watch<'_>,
     ) -> Vec<Way> {
         let (origin, places) = (self.system.origin(), self.places(layout));
-        let parts = course.stops.iter().map(|stop| stop.part);
-        let sizes: Vec<f64> = [self.step].into_iter().chain(parts).collect();
+        let part = |stop: &Stop| Grid { start: self.grid.time(stop.step), step: stop.part };
+        let grids: Vec<Grid> =
+            [self.grid].into_iter().chain(course.stops.iter().map(part)).collect();
         // The steps, and the shorter ones to each stop, where there are any: those of size 0 are not made.
         let motions = || {
-            let size = |&size: &f64| if size == 0.0 { self.step } else { size };
-            let steps = |size| self.system.steps(size, self.compiled.as_ref()).ok();
-            sizes.iter().map(size).filter_map(steps).collect::<Vec<Box<dyn Varied>>>()
+            let made = |&grid: &Grid| if grid.step == 0.0 { self.grid } else { grid };
+            let steps = |grid| self.system.steps(grid, self.compiled.as_ref()).ok();
+            grids.iter().map(made).filter_map(steps).collect::<Vec<Box<dyn Varied>>>()
         };
         let stop = watch.stop;
         let advance = |motions: &mut Vec<Box<dyn Varied>>, (ways, own): (&mut [Way], &[&[f64]])| {
             let parameters = own.iter().map(|own| self.parameters(&places, own));
             let parameters: Vec<Vec<f64>> = parameters.collect();
-            let fold = |&size: &f64| {
-                let compiled = self.compiled.as_ref().filter(|_| size != 0.0);
+            let fold = |&Grid { step, .. }: &Grid| {
+                let compiled = self.compiled.as_ref().filter(|_| step != 0.0);
                 let rows = compiled.zip(origin);
-                let rows = rows.map(|(own, origin)| own.fold_rows(origin, size, &parameters));
+                let rows = rows.map(|(own, origin)| own.fold_rows(origin, step, &parameters));
                 rows.unwrap_or_default().into_iter()
             };
-            let mut folded: Vec<_> = sizes.iter().map(fold).collect();
+            let mut folded: Vec<_> = grids.iter().map(fold).collect();
             for ((way, own), parameters) in ways.iter_mut().zip(own).zip(&parameters) {
                 for (motion, folded) in motions.iter_mut().zip(&mut folded) {
                     match folded.next().transpose() {
@@ -560,7 +567,7 @@ impl<'a> Engine<'a> {
                     }
                 }
                 if way.stopped.is_none() {
-                    follow((motions, self.step), way, course, stop);
+                    follow(motions, way, course, stop);
                 }
             }
         };
@@ -578,13 +585,8 @@ impl<'a> Engine<'a> {
     }
 }
 
-/// Makes the steps of a row alone; `motions` are the steps, of this size, and the shorter ones to each stop.
-fn follow(
-    (motions, size): (&[Box<dyn Varied + '_>], f64),
-    way: &mut Way,
-    course: &Course,
-    stop: &AtomicBool,
-) {
+/// Makes the steps of a row alone; `motions` are the steps, and the shorter ones to each stop.
+fn follow(motions: &[Box<dyn Varied + '_>], way: &mut Way, course: &Course, stop: &AtomicBool) {
     let Some((motion, shorter)) = motions.split_first() else { return };
     let march = March { motion: motion.as_ref(), stop };
     way.ratio = motion.ratio(&way.state.mu);
@@ -598,7 +600,10 @@ fn follow(
         let Some(place) = place else { continue };
         let whole = course.stops[place].part == 0.0;
         let shorter: Option<&dyn Motion> = if whole { None } else { Some(shorter[place].as_ref()) };
-        March::keep(way, end, end as f64 * size, shorter);
+        march.keep(way, end, shorter);
+    }
+    if !stop.load(Ordering::Relaxed) {
+        march.end(way, course.steps);
     }
 }
 

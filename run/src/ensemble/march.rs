@@ -69,7 +69,8 @@ impl March<'_> {
             };
             let (mut g, mut mu) = (beside(|state| &state.g), beside(|state| &state.mu));
             let live = from_fn(|lane| ways.get(lane).is_some_and(|w| w.stopped.is_none()));
-            made = compiled.advance_lanes(&mut g, &mut mu, [first, end - first], live);
+            let (start, steps) = (self.motion.grid().start, [first, end - first]);
+            made = compiled.advance_lanes(&mut g, &mut mu, start, steps, live);
             for (lane, Way { state, .. }) in ways.iter_mut().enumerate() {
                 for (list, own) in [(&g, &mut state.g), (&mu, &mut state.mu)] {
                     let values = list.iter().skip(lane).step_by(WIDTH);
@@ -96,16 +97,25 @@ impl March<'_> {
         }
     }
 
-    /// Keeps the state of a trajectory after `step` steps, or that after a shorter step from there, which is at `time`.
-    pub(super) fn keep(way: &mut Way, step: u64, time: f64, shorter: Option<&dyn Motion>) {
+    /// Keeps the state of a trajectory after `step` steps, or that after a shorter step from there.
+    pub(super) fn keep(&self, way: &mut Way, step: u64, shorter: Option<&dyn Motion>) {
         if way.stopped.is_some() {
             return;
         }
-        let mut state = way.state.clone();
+        let (mut state, time) = (way.state.clone(), self.motion.grid().time(step));
         let made = shorter.map_or(Ok(()), |shorter| shorter.one_at(&mut state, time));
-        match made {
+        let time = time + shorter.map_or(0.0, |shorter| shorter.grid().step);
+        match made.and_then(|()| self.motion.defined(&state, time)) {
             Ok(()) => way.kept.push(state),
             Err(error) => way.stopped = Some((step + 1, error.to_string())),
+        }
+    }
+
+    /// Stops a trajectory whose end, after `steps` steps, is no state in which everything is defined, as runs do.
+    pub(super) fn end(&self, way: &mut Way, steps: u64) {
+        let time = self.motion.grid().time(steps);
+        if let (None, Err(error)) = (&way.stopped, self.motion.defined(&way.state, time)) {
+            way.stopped = Some((steps, error.to_string()));
         }
     }
 

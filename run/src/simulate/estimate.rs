@@ -135,7 +135,8 @@ impl Beside<'_> {
         match self.other.lanes() {
             Some(programs) if self.own > self.others => {
                 let refused = |_: &mut Numbers, _| Err(StepError::InvalidStep { step: f64::NAN });
-                programs.advance(state, [first, count], refused).map(drop)
+                let start = self.other.grid().start;
+                programs.advance(state, start, [first, count], refused).map(drop)
             }
             _ => self.other.advance(state, first, count).map(drop),
         }

@@ -32,6 +32,27 @@ impl Direction {
             _ => Self::Both,
         }
     }
+
+    /// Whether a change from one [sign](signs) to the other counts.
+    fn counts(self, [was, is]: [f64; 2]) -> bool {
+        was * is < 0.0
+            && match self {
+                Self::Up => is > 0.0,
+                Self::Down => is < 0.0,
+                Self::Both => true,
+            }
+    }
+}
+
+/// The signs of functions after one another: 1 or −1, where a function is 0 that which it had before, and 0 as long as it has
+/// none. A function that only touches 0 changes no sign.
+pub(super) fn signs(before: Option<&[f64]>, values: &[f64]) -> Vec<f64> {
+    let before = |place: usize| before.map_or(0.0, |signs| signs[place]);
+    let sign = |(place, value): (usize, &f64)| match *value == 0.0 {
+        true => before(place),
+        false => value.signum(),
+    };
+    values.iter().enumerate().map(sign).collect()
 }
 
 /// A function of the state that is watched for changes of sign, after every step and at equal parts of it.
@@ -79,12 +100,13 @@ pub struct Crossing {
     pub element: Vec<f64>,
 }
 
-/// A moment within a step: its share of the step, the state there, and the values of the events' functions.
+/// A moment within a step: its share of the step, the state there, and the values and [signs] of the events' functions.
 #[derive(Clone, Debug)]
 pub(super) struct Moment {
     pub share: f64,
     pub state: Numbers,
     pub values: Vec<f64>,
+    pub signs: Vec<f64>,
 }
 
 /// Looks for events within a step.
@@ -117,15 +139,15 @@ impl Lookout<'_> {
         let mut found = Vec::new();
         for (place, event) in self.events.iter().enumerate() {
             let (a, b) = (before.values[place], after.values[place]);
-            let counts = match event.direction {
-                Direction::Up => a < 0.0 && b >= 0.0,
-                Direction::Down => a > 0.0 && b <= 0.0,
-                Direction::Both => (a < 0.0 && b >= 0.0) || (a > 0.0 && b <= 0.0),
-            };
-            if counts {
-                let (share, state) = self.root(event, start, (before, a), (after, b))?;
-                found.push((place, self.time + share * self.step, state));
+            if !event.direction.counts([before.signs[place], after.signs[place]]) {
+                continue;
             }
+            // Where it was 0 until here, it changes its sign here.
+            let (share, state) = match a == 0.0 {
+                true => (before.share, before.state.clone()),
+                false => self.root(event, start, (before, a), (after, b))?,
+            };
+            found.push((place, self.time + share * self.step, state));
         }
         let sooner = |time: f64| (time - self.time) / self.step;
         found.sort_by(|a, b| sooner(a.1).total_cmp(&sooner(b.1)));

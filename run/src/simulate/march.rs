@@ -49,8 +49,9 @@ struct March<'a> {
     /// Steps made.
     n: u64,
     moment: Moment,
-    /// The values of the events' functions, and the events that occurred.
+    /// The values and the [signs](event::signs) of the events' functions, and the events that occurred.
     values: Vec<f64>,
+    signs: Vec<f64>,
     crossings: Vec<Crossing>,
     /// When an event ended the run.
     ended: Option<f64>,
@@ -74,12 +75,13 @@ impl Subject<'_> {
         let Self { setup, watched, warnings } = self;
         let state = start.clone();
         warnings.iter().for_each(|warning| sink.warn(&warning.text()));
-        let mut recorder = Recorder::new(watched, motion.space(), &state);
+        let time = setup.schedule.start;
+        let mut recorder = Recorder::new(watched, time, motion.space(), &state);
         let orbit = recorder.orbit();
-        let moment = recorder.visit(0.0, motion.space(), &state);
-        let moment = moment.map_err(|what| RunError::Run { time: 0.0, step: 0, what })?;
+        let moment = recorder.visit(time, motion.space(), &state);
+        let moment = moment.map_err(|what| RunError::Run { time, step: 0, what })?;
         let found = sink.begin(&recorder.begun());
-        let found = found.map_err(|_| RunError::Halted { time: 0.0, step: 0 })?;
+        let found = found.map_err(|_| RunError::Halted { time, step: 0 })?;
         let every = setup.every.unwrap_or(1);
         let steps = setup.schedule.steps;
         let interval = match setup.every {
@@ -87,7 +89,7 @@ impl Subject<'_> {
             _ => every * steps.div_ceil(every.saturating_mul(LOOKS)).max(1),
         };
         let (n, times, ended) = (0, 0, None);
-        let (values, crossings) = (Vec::new(), Vec::new());
+        let (values, signs, crossings) = Default::default();
         let mut march = March {
             setup,
             motion,
@@ -98,12 +100,14 @@ impl Subject<'_> {
             n,
             moment,
             values,
+            signs,
             crossings,
             ended,
             times,
             interval,
         };
-        march.values = march.lookout(0).values(0.0, &march.state).map_err(|w| march.stuck(w))?;
+        march.values = march.lookout(0).values(time, &march.state).map_err(|w| march.stuck(w))?;
+        march.signs = event::signs(None, &march.values);
         let at_start = march.values.clone();
         match found {
             None => march.record()?,
@@ -149,8 +153,20 @@ impl March<'_> {
     }
 
     fn measure(&self) -> Result<Moment, RunError> {
-        let measured = self.recorder.measure(self.motion.space(), &self.state);
+        let measured = self.measured(self.setup.schedule.time(self.n), &self.state);
         measured.map_err(|what| self.stuck(what))
+    }
+
+    /// Measures a state that is given out, in which everything must be defined.
+    fn measured(&self, time: f64, state: &Numbers) -> Result<Moment, String> {
+        self.motion.defined(state, time).map_err(|error| error.to_string())?;
+        self.recorder.measure(time, self.motion.space(), state)
+    }
+
+    /// As [`measured`](Self::measured) for the state of the run, whose drift counts.
+    fn visit(&mut self, time: f64) -> Result<Moment, String> {
+        self.motion.defined(&self.state, time).map_err(|error| error.to_string())?;
+        self.recorder.visit(time, self.motion.space(), &self.state)
     }
 
     /// Makes steps of the grid, up to the next look at them.
@@ -193,8 +209,7 @@ impl March<'_> {
         }
         // Times of `--at` change no report of the drift.
         if self.watched() {
-            let time = schedule.time(self.n);
-            let seen = self.recorder.visit(time, self.motion.space(), &self.state);
+            let seen = self.visit(schedule.time(self.n));
             self.moment = seen.map_err(|what| self.stuck(what))?;
         } else if self.n == next {
             self.moment = self.measure()?;
@@ -215,8 +230,8 @@ impl March<'_> {
         let (setup, space) = (self.setup, self.motion.space());
         let lookout = self.lookout(first);
         let stuck = |what| self.stuck(what);
-        let start =
-            event::Moment { share: 0.0, state: before.clone(), values: self.values.clone() };
+        let (values, signs) = (self.values.clone(), self.signs.clone());
+        let start = event::Moment { share: 0.0, state: before.clone(), values, signs };
         let (mut earlier, mut found) = (start, Vec::new());
         for part in 1..=setup.looks {
             let last = part == setup.looks;
@@ -231,11 +246,12 @@ impl March<'_> {
                 lookout.time + share * lookout.step
             };
             let values = lookout.values(time, &state).map_err(stuck)?;
-            let later = event::Moment { share, state, values };
+            let signs = event::signs(Some(&earlier.signs), &values);
+            let later = event::Moment { share, state, values, signs };
             found.extend(lookout.between(before, [&earlier, &later]).map_err(stuck)?);
             earlier = later;
         }
-        self.values = earlier.values;
+        (self.values, self.signs) = (earlier.values, earlier.signs);
         for (event, time, state) in found {
             let element = self.recorder.entries(space, &state);
             let momentum = state.mu.clone();
@@ -256,16 +272,16 @@ impl March<'_> {
         while let Some(earlier) = self.next_time().filter(|at| (time - at) * direction > 0.0) {
             let between = self.motion.beside(before, here, earlier - here);
             let between = between.map_err(|error| self.stuck(error.to_string()))?;
-            let moment = self.recorder.measure(space, &between);
-            let moment = moment.map_err(|what| self.stuck(what))?;
+            let moment = self.measured(earlier, &between).map_err(|what| self.stuck(what))?;
             self.write(earlier, Some((&between, moment)))?;
             self.times += 1;
         }
         self.state = state;
-        let seen = self.recorder.visit(time, space, &self.state);
-        self.moment = seen.map_err(|what| self.stuck(what))?;
+        self.moment = self.visit(time).map_err(|what| self.stuck(what))?;
         self.sink.look(time, &self.state.mu, &self.moment);
-        match self.setup.recording && every.is_some() {
+        // The grid point itself may be recorded already.
+        let wanted = |every| time != here || !self.n.is_multiple_of(every);
+        match self.setup.recording && every.is_some_and(wanted) {
             true => self.write(time, None),
             false => Ok(()),
         }
@@ -306,8 +322,7 @@ impl March<'_> {
         let mut own = chosen.then_some(here);
         while let Some(time) = self.next_time().filter(|time| schedule.nearest(*time) <= n) {
             let part = time - here;
-            let rounding = 4.0 * f64::EPSILON * time.abs().max(schedule.step.abs());
-            if part.abs() <= rounding {
+            if schedule.same(time, here) {
                 own = Some(time);
             } else {
                 if part * schedule.step > 0.0
@@ -319,7 +334,7 @@ impl March<'_> {
                 let state = self.motion.beside(&self.state, here, part);
                 let state = state
                     .map_err(|source| failed(here, format!("the record at {time}: {source}")))?;
-                let moment = self.recorder.measure(self.motion.space(), &state);
+                let moment = self.measured(time, &state);
                 let moment = moment.map_err(|what| failed(time, what))?;
                 self.write(time, Some((&state, moment)))?;
             }

@@ -68,6 +68,8 @@ pub(crate) struct Watched<'a> {
     pub invariants: &'a Invariants,
     /// Whether attitudes mean something; maps learned from momenta alone have none.
     pub attitude: bool,
+    /// What damping does to the energy, where there is any.
+    pub damped: Option<&'static str>,
 }
 
 impl Watched<'_> {
@@ -86,7 +88,7 @@ impl Watched<'_> {
         let kicked = directions.is_some();
         let none = if kicked { "none that the kicks keep" } else { "none known" };
         let unknown = "not known: a learned map has no Hamiltonian";
-        let energy = no_energy.or_else(|| hamiltonian.is_none().then_some(unknown));
+        let energy = no_energy.or(self.damped).or_else(|| hamiltonian.is_none().then_some(unknown));
         [spatial, casimirs.is_empty().then_some(none), energy]
     }
 }
@@ -102,10 +104,10 @@ pub(crate) struct Recorder<'a> {
 }
 
 impl<'a> Recorder<'a> {
-    /// Measures drifts against a state, which is the start.
-    pub(crate) fn new(watched: Watched<'a>, space: &dyn Space, start: &Numbers) -> Self {
-        let spatial = space.spatial_momentum(start);
-        let mut start = watched.invariants.start(&start.mu, &spatial, || space.matrix(&start.g));
+    /// Measures drifts against a state of this time, which is the start.
+    pub(crate) fn new(watched: Watched<'a>, time: f64, space: &dyn Space, start: &Numbers) -> Self {
+        let (spatial, matrix) = (space.spatial_momentum(start), || space.matrix(&start.g));
+        let mut start = watched.invariants.start(time, &start.mu, &spatial, matrix);
         let mut blocks = blocks(watched.algebra, space.size());
         if !watched.attitude {
             blocks.clear();
@@ -164,7 +166,7 @@ impl<'a> Recorder<'a> {
         space: &dyn Space,
         state: &Numbers,
     ) -> Result<Moment, String> {
-        let moment = self.measure(space, state)?;
+        let moment = self.measure(time, space, state)?;
         let drifts = moment.drift.numbers().into_iter().zip(self.unknown);
         for (since, (drift, unknown)) in self.tally.unmeasured.iter_mut().zip(drifts) {
             if unknown.is_none() && drift.is_nan() {
@@ -175,18 +177,23 @@ impl<'a> Recorder<'a> {
         Ok(moment)
     }
 
-    /// Measures this moment. A quantity has a drift until rounding of the state hides it.
+    /// Measures the moment of this time. A quantity has a drift until rounding of the state hides it.
     ///
     /// # Errors
     /// The name of a number that is not finite.
-    pub(crate) fn measure(&self, space: &dyn Space, state: &Numbers) -> Result<Moment, String> {
+    pub(crate) fn measure(
+        &self,
+        time: f64,
+        space: &dyn Space,
+        state: &Numbers,
+    ) -> Result<Moment, String> {
         for (name, value) in self.watched.coordinates.iter().zip(&state.mu) {
             finite(&format_args!("the momentum {name}"), *value)?;
         }
         state.g.iter().try_for_each(|number| finite("an entry of the group element", *number))?;
         let conserved = |state: &Numbers| {
-            let spatial = space.spatial_momentum(state);
-            self.watched.invariants.conserved(&state.mu, &spatial, || space.matrix(&state.g))
+            let (spatial, matrix) = (space.spatial_momentum(state), || space.matrix(&state.g));
+            self.watched.invariants.conserved(time, &state.mu, &spatial, matrix)
         };
         let now = conserved(state);
         if let (Some(energy), Some(potential)) = (now.energy, &self.watched.invariants.potential)

@@ -22,6 +22,7 @@ use crate::engine::{
     Charted, Elements, Motion, Numbers, Restore, Solves, Space, one_by_one, product_group,
 };
 use crate::error::RunError;
+use crate::grid::Grid;
 use crate::load::Derived;
 
 /// Runs a system from the start to the end.
@@ -34,20 +35,22 @@ pub fn run(system: &Derived, setup: &Setup, sink: &mut dyn Sink) -> Result<Outco
         return Err(RunError::Option("the momentum does not fit the group".to_owned()));
     }
     let schedule = &setup.schedule;
-    system.reaches(schedule.end)?;
-    let (step, expected) = (schedule.step, schedule.steps as f64);
-    let compiled = system.compiled(step, setup.backend, expected, Trajectories::One)?;
-    let motion = system.steps(step, compiled.as_ref());
-    let motion = motion.map_err(RunError::at_start)?;
+    system.reaches(schedule)?;
+    let (grid, expected) = (schedule.grid(), schedule.steps as f64);
+    let compiled = system.compiled(grid.step, setup.backend, expected, Trajectories::One)?;
+    let motion = system.steps(grid, compiled.as_ref()).map_err(RunError::unmade)?;
     let start = setup.start(&system.file, motion.space())?;
-    motion.defined(&start).map_err(RunError::at_start)?;
-    let subject = Subject { setup, watched: system.watched(), warnings: Vec::new() };
+    motion.defined(&start, grid.start).map_err(RunError::at(grid.start))?;
+    let subject = Subject { setup, watched: system.watched(grid.step), warnings: Vec::new() };
     let made = subject.run(motion.as_ref(), &start, sink);
     let code = compiled.as_ref().map(|compiled| compiled.code());
     code.iter().flat_map(|code| code.notes()).for_each(|note| sink.warn(&note));
     let (mut outcome, end) = made?;
     let parameters = facts.defaults();
-    let other = |size| system.varied(step * size, &parameters, compiled.as_ref());
+    let other = |size| {
+        let grid = Grid { step: grid.step * size, ..grid };
+        system.varied(grid, &parameters, compiled.as_ref())
+    };
     let order = system.order();
     let found = match outcome.time == schedule.end {
         true => estimate(motion.as_ref(), other, [&start, &end], schedule.steps, order),
@@ -59,10 +62,14 @@ pub fn run(system: &Derived, setup: &Setup, sink: &mut dyn Sink) -> Result<Outco
 }
 
 impl Derived {
-    /// The quantities watched in a run.
-    pub(crate) fn watched(&self) -> Watched<'_> {
+    /// The quantities watched in a run in steps of this size.
+    pub(crate) fn watched(&self, step: f64) -> Watched<'_> {
         let Facts { algebra, coordinates, .. } = self.facts();
-        Watched { algebra, coordinates, invariants: &self.invariants, attitude: true }
+        let damped = self.damping.is_some().then_some(match step < 0.0 {
+            true => "rises: damping acts, and the run goes back in time",
+            false => "falls: damping acts",
+        });
+        Watched { algebra, coordinates, invariants: &self.invariants, attitude: true, damped }
     }
 }
 
@@ -84,14 +91,15 @@ pub fn run_model(
     }
     let coordinates: Vec<String> = (0..expected).map(|i| format!("mu[{i}]")).collect();
     let (invariants, attitude) = (Invariants::of(&algebra), model.attitude);
-    let watched =
-        Watched { algebra: &algebra, coordinates: &coordinates, invariants: &invariants, attitude };
+    let (algebra, coordinates, invariants) = (&algebra, &coordinates, &invariants);
+    let watched = Watched { algebra, coordinates, invariants, attitude, damped: None };
     let warnings = if attitude { Vec::new() } else { vec![Warning::NoAttitude] };
     let chart = if model.chart == "cayley" { lie::Chart::Cayley } else { lie::Chart::Exponential };
-    let group = Charted::new(file, product_group(file, &algebra)?, chart)?;
+    let group = Charted::new(file, product_group(file, algebra)?, chart)?;
+    let grid = setup.schedule.grid();
     let motion: Box<dyn Motion + '_> = match &group {
-        Charted::Exponential(group) => Box::new(Learned::<_, Exponential>::new(group, model)),
-        Charted::Cayley(group) => Box::new(Learned::<_, Cayley>::new(group, model)),
+        Charted::Exponential(group) => Box::new(Learned::<_, Exponential>::new(group, model, grid)),
+        Charted::Cayley(group) => Box::new(Learned::<_, Cayley>::new(group, model, grid)),
     };
     let start = setup.start(file, motion.space())?;
     let (mut outcome, _) =
@@ -102,19 +110,24 @@ pub fn run_model(
 
 struct Learned<'a, G: Restore, C: Chart<G>> {
     elements: Elements<G>,
+    grid: Grid,
     map: Generating<G, C, &'a Model>,
 }
 
 impl<'a, G: Restore, C: Chart<G>> Learned<'a, G, C> {
-    fn new(group: &Arc<G>, model: &'a ModelFile) -> Self {
+    fn new(group: &Arc<G>, model: &'a ModelFile, grid: Grid) -> Self {
         let map = Generating::new((**group).clone(), &model.model);
-        Self { elements: Elements { group: group.clone(), compiled: None }, map }
+        Self { elements: Elements { group: group.clone(), compiled: None }, grid, map }
     }
 }
 
 impl<G: Restore, C: Chart<G> + Send + Sync> Motion for Learned<'_, G, C> {
     fn space(&self) -> &dyn Space {
         &self.elements
+    }
+
+    fn grid(&self) -> Grid {
+        self.grid
     }
 
     fn advance(&self, state: &mut Numbers, _: u64, count: u64) -> Result<Solves, (u64, StepError)> {
@@ -129,6 +142,14 @@ impl<G: Restore, C: Chart<G> + Send + Sync> Motion for Learned<'_, G, C> {
     /// A learned map has one step.
     fn beside(&self, _: &Numbers, _: f64, size: f64) -> Result<Numbers, StepError> {
         Err(StepError::InvalidStep { step: size })
+    }
+
+    fn one_at(&self, state: &mut Numbers, _: f64) -> Result<(), StepError> {
+        self.advance(state, 0, 1).map(drop).map_err(|(_, error)| error)
+    }
+
+    fn defined(&self, _: &Numbers, _: f64) -> Result<(), StepError> {
+        Ok(())
     }
 
     fn ratio(&self, _: &[f64]) -> f64 {

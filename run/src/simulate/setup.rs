@@ -8,9 +8,11 @@ use coadjoint_codegen::system::Run;
 use sha2::{Digest, Sha256};
 
 use super::event::Event;
+use crate::accuracy::Accuracy;
 use crate::backend::Backend;
 use crate::engine::{Numbers, Space, identity};
 use crate::error::RunError;
+use crate::grid::Grid;
 use crate::number::shortest;
 
 /// The most steps of a run: beyond, the time is surely a slip.
@@ -31,37 +33,37 @@ pub struct Schedule {
     pub step: f64,
     /// How many steps.
     pub steps: u64,
-    /// Where the run ends: T with the sign of h.
+    /// The time at the start, t₀.
+    pub start: f64,
+    /// The time at the end: t₀ and T with the sign of h.
     pub end: f64,
 }
 
 impl Schedule {
-    /// The schedule by the options, else by the file.
+    /// The schedule by what is asked for, else by the file.
     ///
     /// # Errors
     /// Where the step or the time is missing or makes no sense.
-    pub fn new(
-        file: &Path,
-        step: Option<f64>,
-        time: Option<f64>,
-        run: &Run,
-    ) -> Result<Self, RunError> {
-        let asked = step.or(run.step).ok_or_else(|| RunError::no_step(file))?;
-        let time = time.or(run.time).ok_or_else(|| RunError::no_time(file))?;
-        Self::of(asked, time)
+    pub fn new(file: &Path, asked: &Accuracy, run: &Run) -> Result<Self, RunError> {
+        let step = asked.step.or(run.step).ok_or_else(|| RunError::no_step(file))?;
+        let time = asked.time.or(run.time).ok_or_else(|| RunError::no_time(file))?;
+        Self::of(Grid { start: asked.start(run), step }, time)
     }
 
-    /// Steps of about this size that end at this time.
+    /// Steps of about the size of this grid, from its start on, over the duration `time`.
     ///
     /// # Errors
-    /// Where the step or the time makes no sense.
-    pub fn of(asked: f64, time: f64) -> Result<Self, RunError> {
+    /// Where the step or a time makes no sense.
+    pub fn of(Grid { start, step: asked }: Grid, time: f64) -> Result<Self, RunError> {
         let refuse = |what: &str| Err(RunError::Option(what.to_owned()));
         if asked == 0.0 || !asked.is_finite() {
             return refuse("--step must be finite and other than zero; try --step 0.1");
         }
         if time <= 0.0 || !time.is_finite() {
             return refuse("--time must be finite and positive; try --time 100");
+        }
+        if !start.is_finite() {
+            return refuse("--t0 must be finite; leave it out to start at time 0");
         }
         let steps = (time / asked.abs() * (1.0 - SLACK)).ceil().max(1.0);
         if steps > MOST_STEPS {
@@ -73,7 +75,13 @@ impl Schedule {
         if step == 0.0 {
             return refuse("the time is too short to be cut into steps; take a larger --time");
         }
-        Ok(Self { asked, step, steps: steps as u64, end: time.copysign(asked) })
+        let end = start + time.copysign(asked);
+        if !(start.abs().max(end.abs()) * f64::EPSILON < step.abs()) {
+            return refuse(
+                "times so far from 0 are farther apart than the steps; take a smaller --t0",
+            );
+        }
+        Ok(Self { asked, step, steps: steps as u64, start, end })
     }
 
     /// Whole steps of the size that a model was learned for, which end at this time.
@@ -94,22 +102,33 @@ impl Schedule {
                  for: give --time {end}"
             )));
         }
-        Ok(Self { asked: step, step, steps: steps as u64, end })
+        Ok(Self { asked: step, step, steps: steps as u64, start: 0.0, end })
+    }
+
+    /// The times between steps.
+    pub fn grid(&self) -> Grid {
+        Grid { start: self.start, step: self.step }
     }
 
     /// The time after `n` steps; the last is the end itself, not what rounding makes of it.
     pub fn time(&self, n: u64) -> f64 {
-        if n == self.steps { self.end } else { n as f64 * self.step }
+        if n == self.steps { self.end } else { self.grid().time(n) }
     }
 
     /// How many steps end nearest to a time of the run.
     pub(crate) fn nearest(&self, time: f64) -> u64 {
-        (time / self.step).round().min(self.steps as f64) as u64
+        ((time - self.start) / self.step).round().min(self.steps as f64) as u64
+    }
+
+    /// Whether a time is as good as this one of the run: rounding leaves no more.
+    pub(crate) fn same(&self, time: f64, other: f64) -> bool {
+        let size = self.start.abs().max(time.abs()).max(self.step.abs());
+        (time - other).abs() <= 4.0 * f64::EPSILON * size
     }
 
     /// A line about the step, where another is used than was asked for.
     pub fn announcement(&self) -> Option<String> {
-        let Self { asked, step, steps, end } = *self;
+        let Self { asked, step, steps, end, .. } = *self;
         (step != asked).then(|| {
             let plural = if steps == 1 { "step ends" } else { "steps end" };
             let [step, asked, end] = [step, asked, end].map(shortest);
@@ -155,13 +174,13 @@ impl Times {
         if times.is_empty() {
             return Err("no times are given".into());
         }
-        let end = schedule.end;
-        let within = |t: &f64| (0.0..=end.abs()).contains(&(t * end.signum()));
+        let Schedule { start, end, step, .. } = *schedule;
+        let within = |t: &f64| (start.min(end)..=start.max(end)).contains(t);
         if let Some(outside) = times.iter().find(|time| !within(time)) {
-            let end = shortest(end);
-            return Err(format!("{outside} is not between 0 and the end, {end}"));
+            let [start, end] = [start, end].map(shortest);
+            return Err(format!("{outside} is not between {start} and the end, {end}"));
         }
-        times.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+        times.sort_by(|a, b| (a * step.signum()).total_cmp(&(b * step.signum())));
         times.dedup();
         Ok(Self(times))
     }
@@ -170,9 +189,8 @@ impl Times {
     pub fn stops(&self, schedule: &Schedule) -> Vec<Stop> {
         let stop = |&time: &f64| {
             let step = schedule.nearest(time);
-            let part = time - schedule.time(step);
-            let rounding = 4.0 * f64::EPSILON * time.abs().max(schedule.step.abs());
-            Stop { step, part: if part.abs() <= rounding { 0.0 } else { part } }
+            let here = schedule.time(step);
+            Stop { step, part: if schedule.same(time, here) { 0.0 } else { time - here } }
         };
         self.0.iter().map(stop).collect()
     }
@@ -278,10 +296,14 @@ mod tests {
             (0.05, 0.1, 1, 0.05),
             (50.0, -0.8, 63, -50.0 / 63.0),
         ] {
-            let found = Schedule::of(step, time).unwrap();
-            assert_eq!((found.steps, found.step), (steps, used), "{time} by {step}");
-            assert_eq!(found.time(steps), time.copysign(step));
-            assert_eq!(found.announcement().is_some(), step != used);
+            for start in [0.0, -7.5, 1e3] {
+                let found = Schedule::of(Grid { start, step }, time).unwrap();
+                assert_eq!((found.steps, found.step), (steps, used), "{time} by {step}");
+                assert_eq!(found.time(0), start);
+                assert_eq!(found.time(1), if steps == 1 { found.end } else { start + used });
+                assert_eq!(found.time(steps), start + time.copysign(step));
+                assert_eq!(found.announcement().is_some(), step != used);
+            }
         }
     }
 }

@@ -9,6 +9,7 @@ use super::setup::not_an_element;
 use crate::backend::Backend;
 use crate::engine::{Compiled, Motion, Numbers};
 use crate::error::RunError;
+use crate::grid::Grid;
 use crate::load::Derived;
 
 /// Entries this near, relatively, to those of an element are those of one: so far rounding goes in many steps.
@@ -31,10 +32,11 @@ impl<S: AsRef<Derived>> Single<S> {
     /// Where the step makes no sense, or the backend asked for cannot be had.
     pub fn new(system: S, step: f64, backend: Backend, steps: f64) -> Result<Self, RunError> {
         let compiled = system.as_ref().compiled(step, backend, steps, Trajectories::One)?;
-        let motion = system.as_ref().steps(step, compiled.as_ref()).map_err(RunError::at_start)?;
-        let size = motion.space().size();
-        drop(motion);
-        Ok(Self { system, step, size, compiled })
+        let mut single = Self { system, step, size: 0, compiled };
+        // The elements that there are do not depend on the time.
+        let size = single.motion(0.0).map_err(RunError::unmade)?.space().size();
+        single.size = size;
+        Ok(single)
     }
 
     /// The backend that makes the steps.
@@ -42,8 +44,10 @@ impl<S: AsRef<Derived>> Single<S> {
         Compiled::maker(self.compiled.as_deref())
     }
 
-    fn motion(&self) -> Result<Box<dyn Motion + '_>, StepError> {
-        Ok(self.system.as_ref().steps(self.step, self.compiled.as_ref())?)
+    /// The steps from this time on.
+    fn motion(&self, start: f64) -> Result<Box<dyn Motion + '_>, StepError> {
+        let grid = Grid { start, step: self.step };
+        Ok(self.system.as_ref().steps(grid, self.compiled.as_ref())?)
     }
 
     /// Rows of the group's matrices.
@@ -57,7 +61,7 @@ impl<S: AsRef<Derived>> Single<S> {
     /// # Errors
     /// Where it is none.
     pub fn element(&self, matrix: &[f64]) -> Result<Vec<f64>, RunError> {
-        let found = self.motion().map_err(RunError::at_start)?.space().nearest(matrix);
+        let found = self.motion(0.0).map_err(RunError::unmade)?.space().nearest(matrix);
         let found = found.map_err(|error| not_an_element(&self.system.as_ref().file, &error))?;
         let far = found.iter().zip(matrix).any(|(a, b)| (a - b).abs() > SAME * (1.0 + a.abs()));
         Ok(if far { found } else { matrix.to_vec() })
@@ -65,11 +69,11 @@ impl<S: AsRef<Derived>> Single<S> {
 
     /// The ratio of the last two terms of the series at a momentum, where it may be worth a warning; else 0.
     pub fn ratio(&self, mu: &[f64]) -> f64 {
-        self.motion().map_or(0.0, |motion| motion.ratio(mu))
+        self.motion(0.0).map_or(0.0, |motion| motion.ratio(mu))
     }
 
-    /// Makes `steps` steps of the state with this matrix, row by row, and this momentum, in place. The matrix is not
-    /// checked.
+    /// Makes `steps` steps of the state with this matrix, row by row, and this momentum, which `first` steps from `time` on
+    /// have reached, in place. The matrix is not checked.
     ///
     /// # Errors
     /// Which step was not made, from 1, and why; the state is then that before it.
@@ -77,11 +81,12 @@ impl<S: AsRef<Derived>> Single<S> {
         &self,
         matrix: &mut [f64],
         mu: &mut [f64],
-        steps: u64,
+        time: f64,
+        [first, steps]: [u64; 2],
     ) -> Result<(), (u64, StepError)> {
-        let motion = self.motion().map_err(|error| (1, error))?;
+        let motion = self.motion(time).map_err(|error| (1, error))?;
         let mut state = Numbers { g: motion.space().numbers(matrix), mu: mu.to_vec() };
-        let made = motion.advance(&mut state, 0, steps);
+        let made = motion.advance(&mut state, first, steps);
         matrix.copy_from_slice(&motion.space().matrix(&state.g));
         mu.copy_from_slice(&state.mu);
         made.map(drop).map_err(|(done, error)| (done + 1, error))

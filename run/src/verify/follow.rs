@@ -15,6 +15,7 @@ use super::found::Found;
 use super::states::{Columns, DRIFT, Invariants, State, next, refused};
 use crate::ensemble::Shape;
 use crate::error::RunError;
+use crate::grid::Grid;
 use crate::number::maximum;
 
 /// A row's time may be this far from a whole number of steps.
@@ -59,7 +60,7 @@ impl Sample {
 pub struct Follower<'a> {
     judge: &'a Judge,
     hamiltonian: &'a Hamiltonian,
-    step: f64,
+    grid: Grid,
     symbols: Vec<f64>,
     invariants: Invariants,
     /// Rows of the group's matrices.
@@ -73,15 +74,19 @@ pub struct Follower<'a> {
 }
 
 impl<'a> Follower<'a> {
-    /// For steps of this size.
+    /// For the steps of this grid; the start of rows with times is known by these.
     ///
     /// # Errors
     /// Where the step makes no sense, or a parameter is not finite.
     pub fn new(
         judge: &'a Judge,
         hamiltonian: &'a Hamiltonian,
-        step: f64,
+        grid: Grid,
     ) -> Result<Self, RunError> {
+        let Grid { start, step } = grid;
+        if !start.is_finite() {
+            return Err(RunError::Option("--t0 must be finite".into()));
+        }
         if step == 0.0 || !step.is_finite() {
             return Err(RunError::Option("--step must be finite and other than zero".into()));
         }
@@ -94,7 +99,7 @@ impl<'a> Follower<'a> {
         let invariants = Invariants::new(hamiltonian)?;
         let size = Shape::of(hamiltonian.facts().algebra).matrix_size;
         let (parameters, sample, told): (_, _, &dyn Fn(u64)) = (&[], None, &|_| {});
-        Ok(Self { judge, hamiltonian, step, symbols, invariants, size, parameters, sample, told })
+        Ok(Self { judge, hamiltonian, grid, symbols, invariants, size, parameters, sample, told })
     }
 
     /// Rows of one motion. Between rows that are not a whole number of steps apart the last step is shorter.
@@ -114,14 +119,14 @@ impl<'a> Follower<'a> {
             let (number, now, state) = (table.number(), row[time], columns.state(&row));
             let place = format!("row {number}, time {now}");
             if number == 1
-                && now == 0.0
+                && now == self.grid.start
                 && table.values("initial_momentum").is_some_and(|start| start != state.momentum)
             {
                 found.blame(format!(
                     "{place}: the momentum is not that which the file names as the start"
                 ));
             }
-            let energy = self.invariants.energy(&state.momentum);
+            let energy = self.invariants.energy(now, &state.momentum);
             if let Some((said, (energy, size))) =
                 columns.energy.map(|column| row[column]).zip(energy)
                 && !((said - energy).abs() <= DRIFT * size)
@@ -130,20 +135,20 @@ impl<'a> Follower<'a> {
             }
             let mut grid = true;
             if let Some((then, before)) = &last {
-                let steps = (now - then) / self.step;
+                let step = self.grid.step;
+                let (steps, rounding) = ((now - then) / step, 4.0 * f64::EPSILON * now / step);
                 let whole = steps.round();
-                grid = (steps - whole).abs() <= SLACK * whole.max(1.0);
-                if !(steps >= -SLACK) || whole > FARTHEST as f64 {
+                grid = (steps - whole).abs() <= SLACK * whole.max(1.0) + rounding.abs();
+                if !(steps >= -SLACK - rounding.abs()) || whole > FARTHEST as f64 {
                     let what = format!(
-                        "{place}: {steps} steps of {} after the last row; give the run's --step",
-                        self.step
+                        "{place}: {steps} steps of {step} after the last row; give the run's --step",
                     );
                     return Err(refused(table, what));
                 }
                 let (count, rest) = if grid {
                     (whole as u64, 0.0)
                 } else {
-                    (steps.floor() as u64, self.step * (steps - steps.floor()))
+                    (steps.floor() as u64, step * (steps - steps.floor()))
                 };
                 let ends = (before, &state);
                 self.row((number - 1, &place), ends, (*then, count, rest), &mut found);
@@ -196,7 +201,8 @@ impl<'a> Follower<'a> {
                 continue;
             }
             let place = format!("row {number}");
-            self.row((number, &place), (&start, &end), (0.0, steps, 0.0), &mut found);
+            let made = (self.grid.start, steps, 0.0);
+            self.row((number, &place), (&start, &end), made, &mut found);
         }
         let rows = ends.number();
         if next(starts)?.is_some() {
@@ -224,8 +230,9 @@ impl<'a> Follower<'a> {
             return found.blame(format!("{place}: a number is not finite"));
         }
         let mut course = Course::new(&before.momentum, steps, self.size);
-        let last = then + steps as f64 * self.step;
-        for (then, size, count) in [(then, self.step, steps), (last, rest, u64::from(rest != 0.0))]
+        let grid = Grid { start: then, ..self.grid };
+        let last = grid.time(steps);
+        for (then, size, count) in [(then, grid.step, steps), (last, rest, u64::from(rest != 0.0))]
         {
             let Ok(mut setting) = self.judge.at(size, &self.symbols) else { return };
             for done in 1..=count {

@@ -110,10 +110,10 @@ impl Invariants {
         Ok(Self { functions, group })
     }
 
-    /// The energy of a momentum, and the sum of the absolute values of its terms; none where it moves in time.
-    pub(crate) fn energy(&self, mu: &[f64]) -> Option<(f64, f64)> {
+    /// The energy of a momentum at this time, and the sum of the absolute values of its terms; none where it moves in time.
+    pub(crate) fn energy(&self, time: f64, mu: &[f64]) -> Option<(f64, f64)> {
         let energy = self.functions.hamiltonian.as_ref()?;
-        Some((energy.value(mu), energy.magnitude(mu)))
+        Some((energy.value(time, mu), energy.magnitude(time, mu)))
     }
 
     /// By how much each Casimir drifts from one momentum to another, relative to its terms.

@@ -67,36 +67,38 @@ impl Energy {
         }
     }
 
-    /// The value at μ; at time 0 where it moves in time.
-    pub fn value(&self, mu: &[f64]) -> f64 {
+    /// H(t, μ).
+    pub fn value(&self, time: f64, mu: &[f64]) -> f64 {
         match self {
             Self::Polynomial(polynomial) => polynomial.value(mu),
-            Self::Smooth(smooth, symbols) => smooth.energy(symbols, 0.0, mu),
+            Self::Smooth(smooth, symbols) => smooth.energy(symbols, time, mu),
         }
     }
 
     /// The sum of the absolute values of a polynomial's terms; of other functions the absolute value.
-    pub fn magnitude(&self, mu: &[f64]) -> f64 {
+    pub fn magnitude(&self, time: f64, mu: &[f64]) -> f64 {
         match self {
             Self::Polynomial(polynomial) => polynomial.magnitude(mu),
-            Self::Smooth(..) => self.value(mu).abs(),
+            Self::Smooth(..) => self.value(time, mu).abs(),
         }
     }
 
-    /// ∂H/∂μ in `dim` coordinates; at time 0 where it moves in time.
+    /// ∂H/∂μ in `dim` coordinates.
     pub fn gradient(&self, dim: usize) -> Slopes<'_> {
         match self {
             Self::Polynomial(polynomial) => {
                 let slopes = polynomial.gradient(dim);
-                Box::new(move |mu| slopes.iter().map(|slope| slope.value(mu)).collect())
+                Box::new(move |_, mu| slopes.iter().map(|slope| slope.value(mu)).collect())
             }
-            Self::Smooth(smooth, symbols) => Box::new(|mu| smooth.gradient(symbols, 0.0, mu)),
+            Self::Smooth(smooth, symbols) => {
+                Box::new(|time, mu| smooth.gradient(symbols, time, mu))
+            }
         }
     }
 }
 
-/// μ ↦ ∂H/∂μ.
-pub type Slopes<'a> = Box<dyn Fn(&[f64]) -> Vec<f64> + 'a>;
+/// t, μ ↦ ∂H/∂μ(t, μ).
+pub type Slopes<'a> = Box<dyn Fn(f64, &[f64]) -> Vec<f64> + 'a>;
 
 /// The quantities that a motion conserves, as functions of its states.
 #[derive(Clone, Debug, Default)]
@@ -184,10 +186,11 @@ impl Invariants {
         }
     }
 
-    /// The conserved quantities of the state with this momentum and this spatial momentum; `matrix` makes the matrix of
-    /// g, row by row, where a potential needs it.
+    /// The conserved quantities of the state of this time with this momentum and this spatial momentum; `matrix` makes the
+    /// matrix of g, row by row, where a potential needs it.
     pub fn conserved(
         &self,
+        time: f64,
         mu: &[f64],
         spatial: &[f64],
         matrix: impl Fn() -> Vec<f64>,
@@ -199,14 +202,21 @@ impl Invariants {
                 Some(directions) => directions.iter().map(along).collect(),
             },
             casimirs: self.casimirs.iter().map(|casimir| casimir.value(mu)).collect(),
-            energy: self.energy(mu, matrix, Energy::value, PotentialEnergy::value),
+            energy: self.energy(time, mu, matrix, Energy::value, PotentialEnergy::value),
         }
     }
 
     /// The start of a run from that state.
-    pub fn start(&self, mu: &[f64], spatial: &[f64], matrix: impl Fn() -> Vec<f64>) -> Start {
-        let conserved = self.conserved(mu, spatial, &matrix);
-        let magnitude = self.energy(mu, matrix, Energy::magnitude, PotentialEnergy::magnitude);
+    pub fn start(
+        &self,
+        time: f64,
+        mu: &[f64],
+        spatial: &[f64],
+        matrix: impl Fn() -> Vec<f64>,
+    ) -> Start {
+        let conserved = self.conserved(time, mu, spatial, &matrix);
+        let magnitude =
+            self.energy(time, mu, matrix, Energy::magnitude, PotentialEnergy::magnitude);
         let magnitude = magnitude.unwrap_or(0.0);
         let casimirs = self.casimirs.iter();
         let scales = Scales {
@@ -219,12 +229,13 @@ impl Invariants {
 
     fn energy(
         &self,
+        time: f64,
         mu: &[f64],
         matrix: impl Fn() -> Vec<f64>,
-        of_kinetic: fn(&Energy, &[f64]) -> f64,
+        of_kinetic: fn(&Energy, f64, &[f64]) -> f64,
         of: fn(&PotentialEnergy, &[f64]) -> f64,
     ) -> Option<f64> {
-        let kinetic = of_kinetic(self.hamiltonian.as_ref()?, mu);
+        let kinetic = of_kinetic(self.hamiltonian.as_ref()?, time, mu);
         Some(self.potential.as_ref().map_or(kinetic, |v| kinetic + of(v, &matrix())))
     }
 }

@@ -202,7 +202,7 @@ impl Step {
         let clocked = moving.as_ref().filter(|own| kicks.is_none() && own.signals.is_empty());
         if let Some(Moving { first, times, .. }) = clocked {
             let (size, first, times) = (radius_at - 1, *first, times.clone());
-            kernel = kernel.with_clock(Clock { size, first, times });
+            kernel = kernel.with_clock(Clock { size, first, times, start: 0.0 });
         }
         let fold = FoldTable::of_symbols(smooth.symbols.len(), kicks, Some);
         let splitting = kicks.map(|kicks| kicks.splitting);
