@@ -3,8 +3,8 @@
 use coadjoint_codegen::integrator::Kicks;
 use coadjoint_codegen::smooth::Facts;
 use coadjoint_codegen::system::Parameters;
-use coadjoint_run::Derived;
 use coadjoint_run::check::{Law, Trial, check, steep, unmeasured};
+use coadjoint_run::{Accuracy, Derived};
 use serde_json::{Value, json};
 
 use crate::arguments::CheckOptions;
@@ -15,9 +15,10 @@ use crate::named::Format;
 /// Tries all laws, prints them, and fails if one does not hold.
 pub(crate) fn run(options: &CheckOptions) -> Result<(), CliError> {
     let path = &options.source.file;
-    let (mut system, _) = load::settled(&options.source, options.step, Parameters::Substituted)?;
-    system.run.initial_time = options.t0.unwrap_or(system.run.initial_time);
-    let trial = Trial::new(options.step, &system.run, options.points, options.seed)?;
+    let CheckOptions { source, step, t0, points, seed, .. } = options;
+    let asked = Accuracy { step: *step, t0: *t0, ..Accuracy::default() };
+    let (system, _) = load::settled(source, &asked, Parameters::Substituted)?;
+    let trial = Trial::new(&asked, &system.run, *points, *seed)?;
     let system = Derived::of_file(path, system)?;
     let (laws, ratio) = check(&system, &trial)?;
     if let Some(ratio) = ratio {

@@ -3,8 +3,8 @@
 use clap::Args;
 use coadjoint_codegen::system::Parameters;
 use coadjoint_learn::ModelFile;
-use coadjoint_run::polynomial;
 use coadjoint_run::series::{Series, json, latex, learned, text};
+use coadjoint_run::{Accuracy, polynomial};
 
 use crate::error::CliError;
 use crate::load;
@@ -44,7 +44,7 @@ pub(crate) fn run(options: &DeriveOptions) -> Result<(), CliError> {
     let source = options.input.source(options.truncation);
     let system = match source.truncation {
         Some(_) => load::source(&source, Parameters::Substituted)?,
-        None => load::settled(&source, None, Parameters::Substituted)?.0,
+        None => load::settled(&source, &Accuracy::default(), Parameters::Substituted)?.0,
     };
     let system = polynomial(
         &source.file,

@@ -6,6 +6,7 @@ use coadjoint_codegen::file;
 use coadjoint_codegen::system::Parameters;
 use coadjoint_learn::ModelFile;
 use coadjoint_program::Precision;
+use coadjoint_run::Accuracy;
 use coadjoint_run::emit::{Source, header, kernel, rust};
 
 use crate::arguments::EmitOptions;
@@ -60,6 +61,7 @@ fn source(options: &EmitOptions) -> Result<(PathBuf, Source), CliError> {
     let source = options.input.source(options.truncation);
     let parameters =
         if options.keep_parameters { Parameters::Kept } else { Parameters::Substituted };
-    let (system, choice) = load::settled(&source, options.step, parameters)?;
+    let asked = Accuracy { step: options.step, ..Accuracy::default() };
+    let (system, choice) = load::settled(&source, &asked, parameters)?;
     Ok((source.file, Source::System(Box::new(system), choice)))
 }

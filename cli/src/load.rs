@@ -6,7 +6,7 @@ use coadjoint_codegen::diagnostic::read_text;
 use coadjoint_codegen::system::{Options, Parameters};
 use coadjoint_codegen::tolerance::Choice;
 use coadjoint_learn::GroupChoice;
-use coadjoint_run::{System, meet_tolerance as meet, read_group, read_varying};
+use coadjoint_run::{Accuracy, System, meet_tolerance as meet, read_group, read_varying};
 
 use crate::error::{CliError, unread};
 use crate::source::Source;
@@ -51,7 +51,7 @@ pub(crate) fn source(source: &Source, parameters: Parameters) -> Result<System, 
 pub(crate) fn meet_tolerance(
     path: &Path,
     system: &mut System,
-    asked: &coadjoint_run::Accuracy,
+    asked: &Accuracy,
 ) -> Result<Option<Choice>, CliError> {
     let choice = meet(path, system, asked)?;
     choice.iter().for_each(|choice| eprintln!("{choice}"));
@@ -59,10 +59,10 @@ pub(crate) fn meet_tolerance(
 }
 
 /// Reads the system of a command that has no run of its own, with the truncation and the step that the file's tolerance asks
-/// for, as a run of the file has them; the choice is told on the error stream. `step` is given on the command line.
+/// for, as a run of the file has them; the choice is told on the error stream. What is asked for is given on the command line.
 pub(crate) fn settled(
     given: &Source,
-    step: Option<f64>,
+    asked: &Accuracy,
     parameters: Parameters,
 ) -> Result<(System, Option<Choice>), CliError> {
     let mut system = source(given, parameters)?;
@@ -75,7 +75,9 @@ pub(crate) fn settled(
         None
     };
     let choice = match missing {
-        Some(key) if run.tolerance.is_some() && step.is_none() && given.truncation.is_none() => {
+        Some(key)
+            if run.tolerance.is_some() && asked.step.is_none() && given.truncation.is_none() =>
+        {
             return Err(CliError::Option(format!(
                 "{}: `tolerance` picks the truncation, which needs {key}: add it, or give --truncation",
                 given.file.display()
@@ -84,8 +86,7 @@ pub(crate) fn settled(
         // Without a run there is no error at its end, by which a step could be picked.
         Some(_) => None,
         None => {
-            let truncation = given.truncation;
-            let asked = coadjoint_run::Accuracy { step, truncation, ..Default::default() };
+            let asked = Accuracy { truncation: given.truncation, ..*asked };
             meet(&given.file, &mut system, &asked)?
         }
     };

@@ -236,8 +236,12 @@ def state(
 
 def element(value: Any, size: int) -> Floats:
     """The matrix of a group element: given as such, or as :func:`rotated` takes it."""
-    array = floats(rotated(value), "group_element")
+    matrix = rotated(value)
+    array = floats(matrix, "group_element")
     if array.shape != (size, size):
+        if matrix is not value:
+            said = "a rotation or a quaternion is an element of SO3 alone"
+            raise InputError(f"group_element: {said}; give the matrix of {size} rows and columns")
         said = f"must be a matrix of {size} rows and columns; it has the shape {array.shape}"
         raise InputError(f"group_element {said}")
     return array

@@ -130,10 +130,10 @@ def _sympy(value: Any, what: str) -> str:
         if part.is_Function:
             function = _FUNCTIONS.get(type(part).__name__)
             if function is None:
-                known = ", ".join(["sqrt", *_FUNCTIONS])
-                raise refuse(
-                    part, f"has a function that is not known here; there are {known}"
-                )
+                why = f"has a function that is not known here; there are {', '.join(['sqrt', *_FUNCTIONS])}"
+                if {str(symbol) for symbol in part.free_symbols} == {"t"}:
+                    why += "; a function of the time alone may be an input: write u in its place, and give inputs=dict(u=…)"
+                raise refuse(part, why)
             return f"{function}({', '.join(walk(argument) for argument in part.args)})"
         raise refuse(part, f"is a {type(part).__name__}, which is not known here; expand it first")
 

@@ -40,8 +40,9 @@ pub fn raised_by(py: Python<'_>, error: &RunError, failures: &Failures) -> PyErr
 /// An exception with the reason for which functions of Python failed, where they did.
 pub fn explained(py: Python<'_>, error: PyErr, failures: &Failures) -> PyErr {
     let Some(Failure { text, cause }) = failures.take() else { return error };
-    let value = error.value(py);
-    if let Err(error) = value.setattr("args", (format!("{value}: {text}"),)) {
+    let (value, said) = (error.value(py), error.value(py).to_string());
+    let said = if said.ends_with(&text) { said } else { format!("{said}: {text}") };
+    if let Err(error) = value.setattr("args", (said,)) {
         return error;
     }
     error.set_cause(py, cause);

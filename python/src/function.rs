@@ -42,7 +42,8 @@ impl Failures {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).take()
     }
 
-    fn note(&self, text: String, cause: Option<PyErr>) {
+    /// Takes note of a failure, unless there was one before.
+    pub fn note(&self, text: String, cause: Option<PyErr>) {
         let mut failure = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         failure.get_or_insert(Failure { text, cause });
     }

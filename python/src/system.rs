@@ -313,7 +313,7 @@ impl Core {
         let size = self.shape().matrix_size;
         let own = given.events.iter().cloned().map(Event::of);
         let events: Vec<Event> =
-            own.chain(events.into_iter().map(|watched| watched.event(size))).collect();
+            own.chain(events.into_iter().map(|event| event.event(size, self.failures.clone()))).collect();
         let looked_for = events.len();
         let looks = looks.or(given.looks.map(|looks| looks as u32)).unwrap_or(1);
         let here = Self { system, ..self.here() };
@@ -627,9 +627,9 @@ impl Core {
     ) -> PyResult<(Vec<(String, String, f64, f64, bool)>, Option<String>)> {
         let (here, cache) = (self.here(), self.derived.clone());
         let made = work(py, None, move |_| {
-            let (mut system, _) = here.accurate(&Accuracy { step, ..Accuracy::default() }, None)?;
-            system.run.initial_time = t0.unwrap_or(system.run.initial_time);
-            let trial = check::Trial::new(step, &system.run, points, seed)?;
+            let asked = Accuracy { step, t0, ..Accuracy::default() };
+            let (system, _) = here.accurate(&asked, None)?;
+            let trial = check::Trial::new(&asked, &system.run, points, seed)?;
             let derived = derive(&cache, &here.name, system, None)?;
             let (laws, steep) = check::check(&derived, &trial)?;
             let law = |law: check::Law| {

@@ -10,6 +10,7 @@ use coadjoint_codegen::smooth::Hamiltonian;
 use coadjoint_codegen::system::Run;
 use coadjoint_codegen::tolerance::{self, Choice, Region, Target};
 
+use crate::asked::Accuracy;
 use crate::engine::{Motion, Numbers, identity};
 use crate::error::RunError;
 use crate::grid::Grid;
@@ -18,32 +19,6 @@ use crate::simulate::estimate_from;
 
 /// Where a truncation is picked, series may become this large.
 const AFFORDABLE: TermLimit = TermLimit { terms: 20_000, products: 2_000_000 };
-
-/// The accuracy asked for.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Accuracy {
-    /// The step size.
-    pub step: Option<f64>,
-    /// The error wanted at the end of the run.
-    pub tolerance: Option<f64>,
-    /// The norm of the momentum up to which the tolerance is to hold; along the run if not given.
-    pub region: Option<f64>,
-    /// K, where it is not to be picked.
-    pub truncation: Option<usize>,
-    /// The time at the start, where it is not that of the text.
-    pub t0: Option<f64>,
-    /// The duration, where it is not that of the text.
-    pub time: Option<f64>,
-    /// Whether the frame is the comoving one, where it is not that of the text nor to be picked.
-    pub comoving: Option<bool>,
-}
-
-impl Accuracy {
-    /// The time at which the run of a text starts.
-    pub(crate) fn start(&self, run: &Run) -> f64 {
-        self.t0.unwrap_or(run.initial_time)
-    }
-}
 
 /// Picks truncation, step and, where the system leaves the choice, frame where a tolerance is asked for, by the settings
 /// or in the text, and puts them into the system; what was picked. Parameters that are kept have the values of the text for

@@ -10,6 +10,7 @@ use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+use crate::asked::Accuracy;
 use crate::engine::{
     Group, Interpreter, Motion, Numbers, STEEP, advise, cayley_group, entries_of, phase_of,
     product_group,
@@ -70,12 +71,13 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// With this step, else that of the system, and points about its initial momentum.
+    /// With this step and from this time, else those of the system, and points about its initial momentum.
     ///
     /// # Errors
     /// Where a setting makes no sense: by its name.
-    pub fn new(step: Option<f64>, run: &Run, points: usize, seed: u64) -> Result<Self, RunError> {
-        let step = step.or(run.step).unwrap_or(DEFAULT_STEP);
+    pub fn new(asked: &Accuracy, run: &Run, points: usize, seed: u64) -> Result<Self, RunError> {
+        let (start, step) = (asked.start(run), asked.step.or(run.step));
+        let step = step.unwrap_or(DEFAULT_STEP);
         if step == 0.0 || !step.is_finite() {
             let what = "--step must be finite and other than zero; try --step 0.1";
             return Err(RunError::Option(what.to_owned()));
@@ -84,7 +86,7 @@ impl Trial {
             return Err(RunError::Option("--points counts from 1; try --points 3".to_owned()));
         }
         let about = run.momentum.clone().filter(|mu| mu.iter().any(|x| *x != 0.0));
-        Ok(Self { start: run.initial_time, step, about, points, seed })
+        Ok(Self { start, step, about, points, seed })
     }
 
     /// Points at which laws are tried, and starts from which the order is measured.

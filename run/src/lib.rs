@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod accuracy;
+mod asked;
 mod backend;
 pub mod check;
 mod derivative;
@@ -19,7 +20,8 @@ pub mod verify;
 
 use sha2::{Digest, Sha256};
 
-pub use accuracy::{Accuracy, meet_tolerance};
+pub use accuracy::meet_tolerance;
+pub use asked::Accuracy;
 pub use backend::{Backend, Used};
 pub use derivative::{Adjoint, Derivatives};
 pub use engine::STEEP;

@@ -79,8 +79,10 @@ impl Parameters {
                 None => None,
             };
             if let Some(why) = why.filter(|_| varies) {
-                let what = format!("the parameter `{name}` cannot vary from row to row: {why}");
-                let help = "give each group of rows with the same value a system file of its own";
+                let what = format!(
+                    "the parameter `{name}` can neither vary from row to row nor have derivatives: {why}"
+                );
+                let help = "give each value a system file of its own";
                 root.diagnostics.report_other(place, &what, help);
             }
             let kept = (varies || options.parameters == Treatment::Kept) && !numbers.contains(name);

@@ -8,7 +8,7 @@ use coadjoint_codegen::system::Run;
 use sha2::{Digest, Sha256};
 
 use super::event::Event;
-use crate::accuracy::Accuracy;
+use crate::asked::Accuracy;
 use crate::backend::Backend;
 use crate::engine::{Numbers, Space, identity};
 use crate::error::RunError;
