@@ -53,6 +53,9 @@ fn a_run_goes_on_where_another_has_ended() {
             let command = format!("simulate {command} --time 2 --backend {backend}");
             let report = folder.json(&format!("{command} --at 2,3.05,4 --out again.csv"));
             close(&command, &state(&report), &whole);
+            // Steps of other sizes beside it are of its time too.
+            let small = |error: &Value| error.as_f64().is_none_or(|error| error < 0.01);
+            assert!(small(&report["estimated_error"]), "{driven}: {report}");
             assert_eq!(
                 (&report["time"], &report["run"]["initial_time"]),
                 (&4.0.into(), &2.0.into())
@@ -91,7 +94,9 @@ fn a_run_goes_on_where_another_has_ended() {
             }
             let command =
                 format!("ensemble {command} --initial {rows} --time 2 --restart --out ends.csv");
-            folder.run(&command).ok();
+            let said = folder.json(&format!("{command} --estimate 1"));
+            let estimate = &said["estimated_error"]["largest"];
+            assert!(estimate.as_f64().is_none_or(|error| error < 0.01), "{driven}: {said}");
             let ends = folder.table("ends.csv");
             let end: Vec<f64> = ends[1][..12].iter().map(|cell| cell.parse().unwrap()).collect();
             close(&command, &end, &whole);
