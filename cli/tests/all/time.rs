@@ -69,6 +69,22 @@ fn a_run_goes_on_where_another_has_ended() {
                 close("a record", &row(own), &row(right));
             }
         }
+        // A record beside the grid is the end of a run from the grid point before it.
+        folder.json("simulate system.toml --time 4 --at 3,3.05 --out near.csv");
+        let near = folder.table("near.csv");
+        let cells = |row: usize| near[row][1..13].join(",");
+        let g: Vec<String> =
+            near[1][4..13].chunks(3).map(|row| format!("[{}]", row.join(","))).collect();
+        let here = format!(
+            "time = 3\nmomentum = [{}]\ngroup_element = [{}]",
+            near[1][1..4].join(","),
+            g.join(",")
+        );
+        folder.write("near.toml", system(driven, &here));
+        folder.run("simulate near.toml --time 0.05 --step 0.05 --out one.csv").ok();
+        let parsed = |text: &str| text.split(',').map(|x| x.parse().unwrap()).collect::<Vec<f64>>();
+        let one = folder.table("one.csv")[2][1..13].join(",");
+        close("beside the grid", &parsed(&cells(2)), &parsed(&one));
         // Backwards from the end, by the map itself.
         let end = folder.json("simulate file.toml --time 2");
         let last = format!(
@@ -141,6 +157,8 @@ fn everything_said_of_a_run_is_of_its_own_time() {
     assert!(distance(&numbers(&until["momentum"]), &right(6.25)) < 1e-12);
     // The judge takes it from the head of the file, and convicts a run of another time.
     folder.run("verify run.csv").ok().prints(&["no row is wrong"]);
+    folder.run("simulate system.toml --at 5.55,7 --out near.csv").ok();
+    folder.run("verify near.csv").ok().prints(&["no row is wrong"]);
     folder.write("report.json", report.to_string());
     folder.run("verify report.json").ok().prints(&["no row is wrong"]);
     let other = report.to_string().replace("\"initial_time\":5.0", "\"initial_time\":4.5");

@@ -107,7 +107,9 @@ impl March<'_> {
         let time = time + shorter.map_or(0.0, |shorter| shorter.grid().step);
         match made.and_then(|()| self.motion.defined(&state, time)) {
             Ok(()) => way.kept.push(state),
-            Err(error) => way.stopped = Some((step + 1, error.to_string())),
+            Err(error) => {
+                way.stopped = Some((step + u64::from(shorter.is_some()), error.to_string()));
+            }
         }
     }
 
