@@ -1,18 +1,25 @@
-//! The laws of the method, tried on a system at random points.
+//! The laws of the method, tried on a system at random points near its own run.
+// A comparison with what is not a number must refuse.
+#![allow(clippy::neg_cmp_op_on_partial_ord)]
+
+mod course;
+mod order;
 
 use coadjoint::groups::{Cayley, Chart, DirectProduct, Exponential, MatrixGroup};
-use coadjoint::laws::{OrderError, measured_order};
 use coadjoint::steps::advance;
 use coadjoint::{Phase, StepError, laws};
 use coadjoint_codegen::lie;
+use coadjoint_codegen::step::rounding;
 use coadjoint_codegen::system::Run;
+use course::{Course, Start};
 use nalgebra::DVector;
-use rand::{RngExt, SeedableRng};
+use order::measured;
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use crate::engine::{
-    Group, Interpreter, Motion, Numbers, STEEP, advise, cayley_group, entries_of, phase_of,
-    product_group,
+    Group, Interpreter, Motion, Numbers, Restore, STEEP, advise, cayley_group, entries_of,
+    phase_of, product_group,
 };
 use crate::error::RunError;
 use crate::grid::Grid;
@@ -21,6 +28,17 @@ use crate::number::maximum;
 
 /// The step of a system that names none.
 const DEFAULT_STEP: f64 = 0.1;
+
+/// What a trial says of a law.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// It holds, as far as was tried.
+    Holds,
+    /// It does not hold.
+    Fails,
+    /// Nothing is said, for this reason.
+    NotMeasured(&'static str),
+}
 
 /// A law and how well it holds.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,7 +52,21 @@ pub struct Law {
     /// The bound it is compared with.
     pub bound: f64,
     /// Whether it holds.
-    pub pass: bool,
+    pub verdict: Verdict,
+}
+
+impl Law {
+    /// That the value, a relative violation, is at most the bound; where it is not a number, differences did not settle.
+    fn at_most(name: &'static str, statement: &'static str, value: f64, bound: f64) -> Self {
+        let verdict = match value <= bound {
+            true => Verdict::Holds,
+            false if value.is_nan() => {
+                Verdict::NotMeasured("differences do not settle at any of the points")
+            }
+            false => Verdict::Fails,
+        };
+        Self { name, statement, value, bound, verdict }
+    }
 }
 
 /// A warning of a series whose last two terms have this ratio.
@@ -61,8 +93,12 @@ pub struct Trial {
     pub start: f64,
     /// The step size.
     pub step: f64,
-    /// The momentum that the points are about; without one each coordinate is between −1 and 1.
+    /// The momentum that the run of the file starts from; without one each coordinate of a point is between −1 and 1.
     pub about: Option<Vec<f64>>,
+    /// The group element there, row by row; the identity if it is not given.
+    pub element: Option<Vec<Vec<f64>>>,
+    /// The length of that run.
+    pub time: Option<f64>,
     /// How many points.
     pub points: usize,
     /// The seed of the points.
@@ -70,7 +106,7 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// With this step, else that of the system, and points about its initial momentum.
+    /// With this step, else that of the system, and points near its run.
     ///
     /// # Errors
     /// Where a setting makes no sense: by its name.
@@ -84,20 +120,29 @@ impl Trial {
             return Err(RunError::Option("--points counts from 1; try --points 3".to_owned()));
         }
         let about = run.momentum.clone().filter(|mu| mu.iter().any(|x| *x != 0.0));
-        Ok(Self { start: run.initial_time, step, about, points, seed })
+        let (element, time) = (run.group_element.clone(), run.time);
+        Ok(Self { start: run.initial_time, step, about, element, time, points, seed })
     }
 
     /// Points at which laws are tried, and starts from which the order is measured.
-    fn states<G: Group>(&self, group: &G) -> (Vec<Phase<G>>, [Phase<G>; STARTS]) {
+    fn states<G: Group + Restore>(
+        &self,
+        course: &Course,
+        (group, kicked): (&G, bool),
+        mut attempt: impl FnMut(&Phase<G>) -> Result<(), StepError>,
+    ) -> Result<(Vec<Phase<G>>, Vec<Start<G>>), StepError> {
         let mut random = ChaCha8Rng::seed_from_u64(self.seed);
-        let mut phase = || random_phase(group, self, &mut random);
-        ((0..self.points).map(|_| phase()).collect(), [(); STARTS].map(|()| phase()))
+        let mut point = || course.point((group, kicked), &mut random, &mut attempt);
+        let points = (0..self.points).map(|_| point().map(|(phase, _)| phase));
+        let points = points.collect::<Result<_, _>>()?;
+        let starts = (0..STARTS).map(|_| point()).collect::<Result<_, _>>()?;
+        Ok((points, starts))
     }
 
     /// The points in words.
     pub fn place(&self) -> &'static str {
         match self.about {
-            Some(_) => "about the initial momentum",
+            Some(_) => "near the run of the file",
             None => "with coordinates from -1 to 1",
         }
     }
@@ -108,24 +153,29 @@ impl Trial {
 /// # Errors
 /// Where a step cannot be made.
 pub fn check(system: &Derived, trial: &Trial) -> Result<(Vec<Law>, Option<f64>), RunError> {
+    let course = Course::new(system, trial)?;
     if system.damping.is_some() {
-        return Ok((laws_of_steps(system, trial, &system.group()?)?, None));
+        return Ok((laws_of_steps(system, trial, &course, &system.group()?)?, None));
     }
     let group = product_group(&system.file, system.facts().algebra)?;
     let (mut laws, ratio) = match &system.flow {
         Flow::Collocation(..) => {
             let alone = system.without_kicks();
-            (laws_of_steps(alone.as_ref().unwrap_or(system), trial, &group)?, None)
+            (laws_of_steps(alone.as_ref().unwrap_or(system), trial, &course, &group)?, None)
         }
         Flow::Series(series) => match series.integrator.problem.chart {
-            lie::Chart::Exponential => laws_of::<_, Exponential>(series, trial, group)?,
+            lie::Chart::Exponential => laws_of::<_, Exponential>(series, trial, &course, group)?,
             lie::Chart::Cayley => {
-                laws_of::<_, Cayley>(series, trial, cayley_group(&system.file, &group)?)?
+                laws_of::<_, Cayley>(series, trial, &course, cayley_group(&system.file, &group)?)?
             }
         },
     };
     if let Some(kicks) = system.kicks() {
-        laws.extend(kicked(system, kicks.torque().is_none(), trial)?);
+        laws.extend(kicked(system, kicks.torque().is_none(), trial, &course)?);
+    }
+    if let Some((drift, steps)) = course.drift {
+        let statement = "J_L along the run, as far as it is conserved";
+        laws.push(Law::at_most("drift", statement, drift, rounding(steps)));
     }
     Ok((laws, ratio))
 }
@@ -140,27 +190,33 @@ const LAWS: [(&str, &str, &str); 6] = [
     ("symmetric", "symmetric", "Φ₋ₕ(Φₕ(α)) = α"),
 ];
 
-fn laws_of<G: Group, C: Chart<G> + Send + Sync>(
+fn laws_of<G: Group + Restore, C: Chart<G> + Send + Sync>(
     series: &Expansion,
     trial: &Trial,
+    course: &Course,
     group: G,
 ) -> Result<(Vec<Law>, Option<f64>), RunError> {
     let (integrator, h) = (&series.integrator, trial.step);
-    let (points, starts) = trial.states(&group);
     let make = |h| Interpreter::<G, C>::new(integrator, group.clone(), h, &[]);
     let there = make(h).map_err(RunError::unmade)?;
+    let back = make(-h).map_err(RunError::unmade)?;
+    let both = |point: &Phase<G>| {
+        advance(&there, &mut point.clone())?;
+        advance(&back, &mut point.clone()).map(drop)
+    };
+    let refused = |error| {
+        let momentum = trial.about.clone().unwrap_or_else(|| vec![1.0; group.dim()]);
+        let start = Phase::<G>::new(group.identity(), DVector::from_vec(momentum));
+        let works = |h| make(h).is_ok_and(|step| advance(&step, &mut start.clone()).is_ok());
+        RunError::at(trial.start)(advise(error, h, works))
+    };
+    let (points, starts) = trial.states(course, (&group, false), both).map_err(refused)?;
     let ratios = points.iter().map(|point| there.ratio(&point.momentum));
     let ratio = Some(ratios.fold(0.0, maximum)).filter(|ratio| *ratio > STEEP);
-    let back = make(-h).map_err(RunError::unmade)?;
-    let tried = laws::check(&there, Some(&back), &points).map_err(|error| {
-        let works = |step: &Interpreter<'_, G, C>| {
-            points.iter().all(|point| advance(step, &mut point.clone()).is_ok())
-        };
-        RunError::at(trial.start)(advise(error, h, |h| make(h).is_ok_and(|step| works(&step))))
-    })?;
+    let tried = laws::check(&there, Some(&back), &points).map_err(RunError::at(trial.start))?;
     let mut laws = printed(&tried);
     let expected = integrator.order() as f64;
-    laws.push(measured(h, expected, &group, &starts, |h, steps, state| {
+    laws.push(measured(h, expected, &group, &starts, &mut |(h, steps), _, state| {
         let map = make(h)?;
         (0..steps).try_for_each(|_| advance(&map, state).map(|_| ()))
     }));
@@ -171,8 +227,7 @@ fn laws_of<G: Group, C: Chart<G> + Send + Sync>(
 fn printed(tried: &[laws::Law]) -> Vec<Law> {
     let printed = LAWS.iter().filter_map(|&(known, name, statement)| {
         let law = tried.iter().find(|law| law.name == known)?;
-        let (value, bound, pass) = (law.value, law.bound, law.pass());
-        Some(Law { name, statement, value, bound, pass })
+        Some(Law::at_most(name, statement, law.value, law.bound))
     });
     printed.collect()
 }
@@ -181,21 +236,34 @@ fn printed(tried: &[laws::Law]) -> Vec<Law> {
 fn laws_of_steps(
     system: &Derived,
     trial: &Trial,
+    course: &Course,
     group: &DirectProduct<MatrixGroup>,
 ) -> Result<Vec<Law>, RunError> {
     let &Trial { start, step: h, .. } = trial;
-    let (points, starts) = trial.states(group);
-    let from = |start: f64, step: f64, count: u32, phase: &mut _| {
-        advanced(system, group, phase, (Grid { start, step }, count))
+    let grids = [Grid { start, step: h }, Grid { start: start + h, step: -h }];
+    let [forward, backward] = grids.map(|grid| system.steps(grid, None).map_err(RunError::unmade));
+    let (forward, backward) = (forward?, backward?);
+    let one = |motion: &dyn Motion, state: &mut Phase<_>| {
+        moved(motion, group, state, |motion, state| {
+            motion.advance(state, 0, 1).map(drop).map_err(|(_, error)| error)
+        })
     };
-    let step = |h: f64, count: u32, phase: &mut _| from(start, h, count, phase);
     let (mut there, mut back) =
-        (|phase: &mut _| step(h, 1, phase), |phase: &mut _| from(start + h, -h, 1, phase));
+        (|state: &mut _| one(&*forward, state), |state: &mut _| one(&*backward, state));
+    // With damping the potential is a part of these steps.
+    let kicked = system.kicks().is_some();
+    let states = trial.states(course, (group, kicked), |point| {
+        one(&*forward, &mut point.clone())?;
+        one(&*backward, &mut point.clone())
+    });
+    let (points, starts) = states.map_err(RunError::at(start))?;
     let tried = laws::check_map(group, &mut there, Some(&mut back), &points);
     let tried = tried.map_err(RunError::at(start))?;
     let mut laws = printed(&tried);
     let expected = f64::from(system.order());
-    laws.push(measured(h, expected, group, &starts, step));
+    laws.push(measured(h, expected, group, &starts, &mut |steps, from, state| {
+        advanced(system, group, state, steps, from)
+    }));
     if system.damping.is_some() {
         let kept = |law: &Law| match system.invariants.directions {
             None => !["Poisson", "symplectic"].contains(&law.name),
@@ -214,7 +282,7 @@ fn laws_of_steps(
             let mut rise = f64::NEG_INFINITY;
             for point in &points {
                 let mut end = point.clone();
-                step(h, 1, &mut end).map_err(RunError::at(start))?;
+                one(&*forward, &mut end).map_err(RunError::at(start))?;
                 let [before, after] = [(start, point), (start + h, &end)]
                     .map(|(time, state)| energy(time, state).unwrap_or(f64::NAN));
                 rise = maximum(rise, (after - before) * h.signum() / before.abs());
@@ -226,7 +294,7 @@ fn laws_of_steps(
                 (None, true) => "H(Φ(α)) ≥ H(α), back in time",
             };
             let name = "dissipative";
-            laws.push(Law { name, statement, value: rise, bound: 1e-14, pass: rise <= 1e-14 });
+            laws.push(Law::at_most(name, statement, rise, 1e-14));
         }
     }
     laws.retain(|law| law.name != "order" || unmeasured(system).is_none());
@@ -235,40 +303,57 @@ fn laws_of_steps(
 
 /// The laws that are left to the whole step where a potential breaks the symmetry; where a torque does that is not Hamiltonian,
 /// the order alone.
-fn kicked(system: &Derived, hamiltonian: bool, trial: &Trial) -> Result<Vec<Law>, RunError> {
+fn kicked(
+    system: &Derived,
+    hamiltonian: bool,
+    trial: &Trial,
+    course: &Course,
+) -> Result<Vec<Law>, RunError> {
     let (&Trial { start, step: h, .. }, group) = (trial, system.group()?);
-    let (points, starts) = trial.states(&group);
     let grids = [Grid { start, step: h }, Grid { start: start + h, step: -h }];
     let [there, back] = grids.map(|grid| system.steps(grid, None).map_err(RunError::unmade));
     let (there, back) = (there?, back?);
     let made = |motion: &dyn Motion, state: &mut Phase<_>, time| {
         moved(motion, &group, state, |motion, state| motion.one_at(state, time))
     };
-    let (mut symplectic, mut symmetric) = (None, 0.0_f64);
+    let states = trial.states(course, (&group, true), |point| {
+        made(&*there, &mut point.clone(), start)?;
+        made(&*back, &mut point.clone(), start + h)
+    });
+    let (points, starts) = states.map_err(RunError::at(start))?;
+    let (mut symplectic, mut symmetric): (Option<f64>, _) = (None, 0.0_f64);
     for point in points.iter().filter(|_| hamiltonian) {
         let mut step = |state: &mut _| made(&*there, state, start);
         let defect = laws::symplectic_defect_of(&group, point, &mut step);
         let defect = defect.map_err(RunError::at(start))?;
-        symplectic = defect.map(|defect| maximum(symplectic.unwrap_or(0.0), defect));
+        // Where differences do not settle, the other points tell.
+        symplectic = match (symplectic, defect) {
+            (Some(worst), Some(defect)) => Some(worst.max(defect)),
+            (worst, defect) => defect.or(worst),
+        };
         let mut state = point.clone();
         made(&*there, &mut state, start).map_err(RunError::at(start))?;
         made(&*back, &mut state, start + h).map_err(RunError::at(start + h))?;
         let difference = (&state.momentum - &point.momentum).amax() / point.momentum.amax();
         symmetric = maximum(symmetric, difference);
     }
-    let law = |name, statement, value: f64, bound: f64| {
-        let pass = value <= bound;
-        Law { name, statement, value, bound, pass }
-    };
     let statement = "flows and kicks: Φ*ω = ω on T*G";
-    let symplectic = symplectic.map(|value| law("symplectic+V", statement, value, 1e-9));
+    let symplectic = symplectic.map(|value| Law::at_most("symplectic+V", statement, value, 1e-9));
     let statement = "flows and kicks: Φ₋ₕ(Φₕ(α)) = α";
-    let symmetric = law("symmetric+V", statement, symmetric, 1e-11);
-    let expected = f64::from(system.order());
+    let symmetric = Law::at_most("symmetric+V", statement, symmetric, 1e-11);
     let order = unmeasured(system).is_none().then(|| {
-        let order = measured(h, expected, &group, &starts, |step, steps, state| {
-            advanced(system, &group, state, (Grid { start, step }, steps))
+        let starts = match course.is_known() {
+            true => course.forced(&group, h, STARTS),
+            false => starts,
+        };
+        let expected = f64::from(system.order());
+        let mut order = measured(h, expected, &group, &starts, &mut |steps, from, state| {
+            advanced(system, &group, state, steps, from)
         });
+        if starts.is_empty() {
+            let why = "the force does not act on the part of the run that is looked at";
+            order.verdict = Verdict::NotMeasured(why);
+        }
         let statement = "flows and kicks: that of the splitting";
         Law { name: "order+V", statement, ..order }
     });
@@ -276,14 +361,15 @@ fn kicked(system: &Derived, hamiltonian: bool, trial: &Trial) -> Result<Vec<Law>
     Ok(symplectic.into_iter().chain(symmetric).chain(order).collect())
 }
 
-/// Makes the first steps of a grid.
+/// Makes steps of this size and number of a state from this time on.
 fn advanced(
     system: &Derived,
     group: &DirectProduct<MatrixGroup>,
     state: &mut Phase<DirectProduct<MatrixGroup>>,
-    (grid, steps): (Grid, u32),
+    (step, steps): (f64, u32),
+    start: f64,
 ) -> Result<(), StepError> {
-    moved(&*system.steps(grid, None)?, group, state, |motion, state| {
+    moved(&*system.steps(Grid { start, step }, None)?, group, state, |motion, state| {
         motion.advance(state, 0, steps.into()).map(drop).map_err(|(_, error)| error)
     })
 }
@@ -302,76 +388,5 @@ fn moved(
     Ok(())
 }
 
-/// Steps of the coarsest run.
-const STEPS: u32 = 4;
-/// How far the measured order may fall below K + 1.
-const SLACK: f64 = 0.3;
-
-/// The order of accuracy, measured by step halving: the median over these starts, from one of which the leading term of the
-/// error may happen to cancel.
-///
-/// Runs h, h/2 and h/4 over the same time; the differences shrink by 2^order. Among the steps
-/// h·2^j tried, it takes the smallest whose differences are above rounding, where the leading term
-/// of the error dominates best. Where all differences are rounding the map is exact, and the order
-/// counts as infinite.
-fn measured<G: Group>(
-    step: f64,
-    expected: f64,
-    group: &G,
-    starts: &[Phase<G>],
-    mut run: impl FnMut(f64, u32, &mut Phase<G>) -> Result<(), StepError>,
-) -> Law {
-    let mut orders: Vec<f64> =
-        starts.iter().map(|start| order_from(step, group, start, &mut run)).collect();
-    orders.sort_by(f64::total_cmp);
-    let order = orders.get(orders.len() / 2).copied().unwrap_or(f64::INFINITY);
-    Law {
-        name: "order",
-        statement: "error ∝ h^(K+1), by step halving",
-        value: order,
-        bound: expected - SLACK,
-        pass: order >= expected - SLACK,
-    }
-}
-
-/// The order from one start: infinite where all differences are rounding.
-fn order_from<G: Group>(
-    step: f64,
-    group: &G,
-    start: &Phase<G>,
-    mut run: impl FnMut(f64, u32, &mut Phase<G>) -> Result<(), StepError>,
-) -> f64 {
-    for exponent in -6..=12 {
-        let time = f64::from(STEPS) * step * 2_f64.powi(exponent);
-        match measured_order(group, start, time, STEPS, &mut run) {
-            Ok(value) => return value,
-            // Too small to be seen: try larger steps.
-            Err(OrderError::OutOfRange { coarse, .. }) if coarse < 0.5 => {}
-            // Beyond the step where the solve fails nothing is to be measured.
-            Err(_) => break,
-        }
-    }
-    f64::INFINITY
-}
-
 /// The number of starts from which the order is measured.
 const STARTS: usize = 5;
-/// Coordinates of random points differ from those given by up to this part of their size.
-const SPREAD: f64 = 0.1;
-
-/// A group element within the chart, and a momentum: about the one given, coordinate by coordinate, since coordinates may
-/// have different units. One that is 0 is as large as the smallest of the others.
-fn random_phase<G: Group>(group: &G, trial: &Trial, random: &mut ChaCha8Rng) -> Phase<G> {
-    let mut vector = || DVector::from_fn(group.dim(), |_, _| 2.0 * random.random::<f64>() - 1.0);
-    let x = vector();
-    let mut momentum = vector();
-    if let Some(about) = trial.about.as_ref().filter(|about| about.len() == group.dim()) {
-        let sizes = about.iter().map(|x| x.abs());
-        let least = sizes.filter(|size| *size > 0.0).fold(f64::INFINITY, f64::min);
-        for (own, given) in momentum.iter_mut().zip(about) {
-            let size = if *given == 0.0 { least } else { given.abs() };
-            *own = given + SPREAD * size * *own;
-        }
-    }
-    Phase::new(group.exp(&x), momentum)
-}
