@@ -4,10 +4,10 @@ use coadjoint::{Phase, StepError};
 use coadjoint_codegen::step::{Drift, nudge};
 use coadjoint_program::Trajectories;
 use nalgebra::DVector;
-use rand::RngExt;
+use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::Trial;
+use super::trial::Trial;
 use crate::backend::Backend;
 use crate::engine::{Group, Numbers, Restore, Torque, identity, phase_of};
 use crate::error::RunError;
@@ -22,6 +22,8 @@ const DIMENSIONS: f64 = 12.0;
 const STEPS: f64 = 100.0;
 /// How far a point may be moved from a state of the run, in coordinates of the group.
 const SPREAD: f64 = 0.1;
+/// The number of starts from which the order is measured.
+pub(super) const STARTS: usize = 5;
 /// Attempts to find a point from which steps can be made, each four times as near to the run as the one before.
 const ATTEMPTS: i32 = 8;
 
@@ -113,7 +115,7 @@ impl Course {
     ///
     /// # Errors
     /// Why no step can be made there.
-    pub(super) fn point<G: Group + Restore>(
+    fn point<G: Group + Restore>(
         &self,
         (group, kicked): (&G, bool),
         random: &mut ChaCha8Rng,
@@ -144,6 +146,21 @@ impl Course {
             }
         }
         Err(refused)
+    }
+
+    /// Points at which laws are tried, and starts from which the order is measured.
+    pub(super) fn states<G: Group + Restore>(
+        &self,
+        trial: &Trial,
+        (group, kicked): (&G, bool),
+        mut attempt: impl FnMut(&Phase<G>) -> Result<(), StepError>,
+    ) -> Result<(Vec<Phase<G>>, Vec<Start<G>>), StepError> {
+        let mut random = ChaCha8Rng::seed_from_u64(trial.seed);
+        let mut point = || self.point((group, kicked), &mut random, &mut attempt);
+        let points = (0..trial.points).map(|_| point().map(|(phase, _)| phase));
+        let points = points.collect::<Result<_, _>>()?;
+        let starts = (0..STARTS).map(|_| point()).collect::<Result<_, _>>()?;
+        Ok((points, starts))
     }
 
     /// The states of the run where the torque is largest, of which a step turns the momentum by more than rounding.

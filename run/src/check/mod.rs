@@ -3,19 +3,18 @@
 #![allow(clippy::neg_cmp_op_on_partial_ord)]
 
 mod course;
+mod law;
 mod order;
+mod trial;
 
 use coadjoint::groups::{Cayley, Chart, DirectProduct, Exponential, MatrixGroup};
 use coadjoint::steps::advance;
 use coadjoint::{Phase, StepError, laws};
 use coadjoint_codegen::lie;
 use coadjoint_codegen::step::rounding;
-use coadjoint_codegen::system::Run;
-use course::{Course, Start};
+use course::{Course, STARTS};
 use nalgebra::DVector;
 use order::measured;
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
 
 use crate::engine::{
     Group, Interpreter, Motion, Numbers, Restore, STEEP, advise, cayley_group, entries_of,
@@ -26,48 +25,8 @@ use crate::grid::Grid;
 use crate::load::{Derived, Expansion, Flow};
 use crate::number::maximum;
 
-/// The step of a system that names none.
-const DEFAULT_STEP: f64 = 0.1;
-
-/// What a trial says of a law.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
-    /// It holds, as far as was tried.
-    Holds,
-    /// It does not hold.
-    Fails,
-    /// Nothing is said, for this reason.
-    NotMeasured(&'static str),
-}
-
-/// A law and how well it holds.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Law {
-    /// Its name.
-    pub name: &'static str,
-    /// Its statement.
-    pub statement: &'static str,
-    /// The value measured: the largest relative violation, or the order of accuracy.
-    pub value: f64,
-    /// The bound it is compared with.
-    pub bound: f64,
-    /// Whether it holds.
-    pub verdict: Verdict,
-}
-
-impl Law {
-    /// That the value, a relative violation, is at most the bound; where it is not a number, differences did not settle.
-    fn at_most(name: &'static str, statement: &'static str, value: f64, bound: f64) -> Self {
-        let verdict = match value <= bound {
-            true => Verdict::Holds,
-            false if value.is_nan() => {
-                Verdict::NotMeasured("differences do not settle at any of the points")
-            }
-            false => Verdict::Fails,
-        };
-        Self { name, statement, value, bound, verdict }
-    }
-}
+pub use law::{Law, Verdict};
+pub use trial::Trial;
 
 /// A warning of a series whose last two terms have this ratio.
 pub fn steep(ratio: f64) -> String {
@@ -84,68 +43,6 @@ pub fn unmeasured(system: &Derived) -> Option<String> {
         "the order is not measured: the input `{}` may have fewer derivatives than that takes, a table has two everywhere",
         signal.name
     ))
-}
-
-/// A trial: a step size, and random points.
-#[derive(Clone, Debug)]
-pub struct Trial {
-    /// The time from which steps are made.
-    pub start: f64,
-    /// The step size.
-    pub step: f64,
-    /// The momentum that the run of the file starts from; without one each coordinate of a point is between −1 and 1.
-    pub about: Option<Vec<f64>>,
-    /// The group element there, row by row; the identity if it is not given.
-    pub element: Option<Vec<Vec<f64>>>,
-    /// The length of that run.
-    pub time: Option<f64>,
-    /// How many points.
-    pub points: usize,
-    /// The seed of the points.
-    pub seed: u64,
-}
-
-impl Trial {
-    /// With this step, else that of the system, and points near its run.
-    ///
-    /// # Errors
-    /// Where a setting makes no sense: by its name.
-    pub fn new(step: Option<f64>, run: &Run, points: usize, seed: u64) -> Result<Self, RunError> {
-        let step = step.or(run.step).unwrap_or(DEFAULT_STEP);
-        if step == 0.0 || !step.is_finite() {
-            let what = "--step must be finite and other than zero; try --step 0.1";
-            return Err(RunError::Option(what.to_owned()));
-        }
-        if points == 0 {
-            return Err(RunError::Option("--points counts from 1; try --points 3".to_owned()));
-        }
-        let about = run.momentum.clone().filter(|mu| mu.iter().any(|x| *x != 0.0));
-        let (element, time) = (run.group_element.clone(), run.time);
-        Ok(Self { start: run.initial_time, step, about, element, time, points, seed })
-    }
-
-    /// Points at which laws are tried, and starts from which the order is measured.
-    fn states<G: Group + Restore>(
-        &self,
-        course: &Course,
-        (group, kicked): (&G, bool),
-        mut attempt: impl FnMut(&Phase<G>) -> Result<(), StepError>,
-    ) -> Result<(Vec<Phase<G>>, Vec<Start<G>>), StepError> {
-        let mut random = ChaCha8Rng::seed_from_u64(self.seed);
-        let mut point = || course.point((group, kicked), &mut random, &mut attempt);
-        let points = (0..self.points).map(|_| point().map(|(phase, _)| phase));
-        let points = points.collect::<Result<_, _>>()?;
-        let starts = (0..STARTS).map(|_| point()).collect::<Result<_, _>>()?;
-        Ok((points, starts))
-    }
-
-    /// The points in words.
-    pub fn place(&self) -> &'static str {
-        match self.about {
-            Some(_) => "near the run of the file",
-            None => "with coordinates from -1 to 1",
-        }
-    }
 }
 
 /// Tries all laws; and the largest ratio of the last two terms of the series at the points, where it is worth a warning.
@@ -210,7 +107,7 @@ fn laws_of<G: Group + Restore, C: Chart<G> + Send + Sync>(
         let works = |h| make(h).is_ok_and(|step| advance(&step, &mut start.clone()).is_ok());
         RunError::at(trial.start)(advise(error, h, works))
     };
-    let (points, starts) = trial.states(course, (&group, false), both).map_err(refused)?;
+    let (points, starts) = course.states(trial, (&group, false), both).map_err(refused)?;
     let ratios = points.iter().map(|point| there.ratio(&point.momentum));
     let ratio = Some(ratios.fold(0.0, maximum)).filter(|ratio| *ratio > STEEP);
     let tried = laws::check(&there, Some(&back), &points).map_err(RunError::at(trial.start))?;
@@ -252,7 +149,7 @@ fn laws_of_steps(
         (|state: &mut _| one(&*forward, state), |state: &mut _| one(&*backward, state));
     // With damping the potential is a part of these steps.
     let kicked = system.kicks().is_some();
-    let states = trial.states(course, (group, kicked), |point| {
+    let states = course.states(trial, (group, kicked), |point| {
         one(&*forward, &mut point.clone())?;
         one(&*backward, &mut point.clone())
     });
@@ -316,7 +213,7 @@ fn kicked(
     let made = |motion: &dyn Motion, state: &mut Phase<_>, time| {
         moved(motion, &group, state, |motion, state| motion.one_at(state, time))
     };
-    let states = trial.states(course, (&group, true), |point| {
+    let states = course.states(trial, (&group, true), |point| {
         made(&*there, &mut point.clone(), start)?;
         made(&*back, &mut point.clone(), start + h)
     });
@@ -387,6 +284,3 @@ fn moved(
     *phase = phase_of(group, &motion.space().matrix(&state.g), &state.mu);
     Ok(())
 }
-
-/// The number of starts from which the order is measured.
-const STARTS: usize = 5;

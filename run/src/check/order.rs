@@ -4,7 +4,7 @@ use coadjoint::laws::differences;
 use coadjoint::{Phase, StepError};
 
 use super::course::Start;
-use super::{Law, Verdict};
+use super::law::{Law, Verdict};
 use crate::engine::Group;
 
 /// Steps of the coarsest run.

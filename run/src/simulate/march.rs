@@ -268,7 +268,7 @@ impl March<'_> {
 
     /// Ends the run at a time within the step from a state of the grid.
     fn end_at(&mut self, time: f64, before: &Numbers, state: Numbers) -> Result<(), RunError> {
-        let (space, here) = (self.motion.space(), self.setup.schedule.time(self.n));
+        let here = self.setup.schedule.time(self.n);
         let (direction, every) = (self.setup.schedule.step, self.setup.every);
         self.ended = Some(time);
         while let Some(earlier) = self.next_time().filter(|at| (time - at) * direction > 0.0) {

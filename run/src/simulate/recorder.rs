@@ -288,7 +288,8 @@ mod tests {
             drifting(drifts, 100).map(|warning| warning.text()).collect::<Vec<_>>()
         };
         assert_eq!(moved(1e-10), Vec::<String>::new());
-        let text = "the spatial momentum drifted by 1.0e-8, relatively, where rounding explains 1.0e-9: ";
+        let text =
+            "the spatial momentum drifted by 1.0e-8, relatively, where rounding explains 1.0e-9: ";
         assert!(matches!(&moved(1e-8)[..], [only] if only.starts_with(text)), "{:?}", moved(1e-8));
     }
 
