@@ -1,9 +1,9 @@
-//! `coadjoint check`: the laws of the method, tried on this system at random points.
+//! `coadjoint check`: the laws of the method, tried on this system at random points near its run.
 
 use coadjoint_codegen::integrator::Kicks;
 use coadjoint_codegen::smooth::Facts;
 use coadjoint_codegen::system::Parameters;
-use coadjoint_run::check::{Law, Trial, check, steep, unmeasured};
+use coadjoint_run::check::{Law, Trial, Verdict, check, steep, unmeasured};
 use coadjoint_run::{Accuracy, Derived};
 use serde_json::{Value, json};
 
@@ -12,7 +12,7 @@ use crate::error::CliError;
 use crate::load;
 use crate::named::Format;
 
-/// Tries all laws, prints them, and fails if one does not hold.
+/// Tries all laws, prints them, and fails if one is found not to hold.
 pub(crate) fn run(options: &CheckOptions) -> Result<(), CliError> {
     let path = &options.source.file;
     let CheckOptions { source, step, t0, points, seed, .. } = options;
@@ -68,7 +68,8 @@ pub(crate) fn run(options: &CheckOptions) -> Result<(), CliError> {
         laws.iter().for_each(|law| outln!("  {}", line(law)));
         unmeasured(&system).iter().for_each(|why| outln!("  {why}"));
     }
-    let failed: Vec<&str> = laws.iter().filter(|law| !law.pass).map(|law| law.name).collect();
+    let failed = laws.iter().filter(|law| law.verdict == Verdict::Fails);
+    let failed: Vec<&str> = failed.map(|law| law.name).collect();
     if failed.is_empty() {
         return Ok(());
     }
@@ -76,7 +77,11 @@ pub(crate) fn run(options: &CheckOptions) -> Result<(), CliError> {
 }
 
 fn object(law: &Law) -> Value {
-    let mut object = json!({ "name": law.name, "bound": law.bound, "pass": law.pass });
+    let mut object = json!({ "name": law.name, "bound": law.bound });
+    match law.verdict {
+        Verdict::NotMeasured(why) => object["not_measured"] = json!(why),
+        verdict => object["pass"] = json!(verdict == Verdict::Holds),
+    }
     // JSON has no infinity: an order beyond measure, or a value that is no number, has no key.
     if law.value.is_finite() {
         object["value"] = json!(law.value);
@@ -90,7 +95,11 @@ fn line(law: &Law) -> String {
     } else {
         ("<=", format!("{:.1e}", law.value), format!("{:.0e}", law.bound))
     };
-    let verdict = if law.pass { "holds" } else { "FAILS" };
     let (name, statement) = (law.name, law.statement);
+    let verdict = match law.verdict {
+        Verdict::Holds => "holds",
+        Verdict::Fails => "FAILS",
+        Verdict::NotMeasured(why) => return format!("{name:<12} not measured: {why}"),
+    };
     format!("{name:<12} {value:>8} {relation} {bound:<6} {verdict}   {statement}")
 }

@@ -248,28 +248,33 @@ impl Graph {
     pub fn call_from(&self, program: &Program, inputs: &[Id], first_slot: usize) -> Vec<Id> {
         let mut ids: Vec<Id> = Vec::with_capacity(program.nodes().len());
         for node in program.nodes() {
-            ids.push(match node.map(|operand| ids[operand.index()]) {
-                Node::Input(i) => inputs.get(i as usize).copied().unwrap_or_else(|| self.zero()),
-                Node::Slot(i) => self.slot(first_slot + i as usize),
-                Node::Add(a, b) => self.add(a, b),
-                Node::Sub(a, b) => self.sub(a, b),
-                Node::Mul(a, b) => self.mul(a, b),
-                Node::TimesPlus(a, b, c) => self.times_plus(a, b, c),
-                Node::Div(a, b) => self.div(a, b),
-                Node::Neg(a) => self.neg(a),
-                Node::Abs(a) => self.abs(a),
-                Node::Sqrt(a) => self.sqrt(a),
-                Node::Round(a) => self.round(a),
-                Node::Scale(a, k) => self.scale(a, k),
-                Node::Select(a, b, c, d) => self.select(a, b, c, d),
-                Node::Constant(bits) => self.constant(f64::from_bits(bits)),
-                node @ (Node::Zero | Node::Epsilon | Node::Exponent(_)) => self.intern(node),
-            });
+            ids.push(self.copied(node.map(|operand| ids[operand.index()]), inputs, first_slot));
         }
         for &(result, function, a) in program.calls() {
             self.name(function, ids[a.index()], ids[result.index()]);
         }
         program.outputs().iter().map(|output| ids[output.index()]).collect()
+    }
+
+    /// A node of another program whose operands are nodes of this graph.
+    fn copied(&self, node: Node, inputs: &[Id], first_slot: usize) -> Id {
+        match node {
+            Node::Input(i) => inputs.get(i as usize).copied().unwrap_or_else(|| self.zero()),
+            Node::Slot(i) => self.slot(first_slot + i as usize),
+            Node::Add(a, b) => self.add(a, b),
+            Node::Sub(a, b) => self.sub(a, b),
+            Node::Mul(a, b) => self.mul(a, b),
+            Node::TimesPlus(a, b, c) => self.times_plus(a, b, c),
+            Node::Div(a, b) => self.div(a, b),
+            Node::Neg(a) => self.neg(a),
+            Node::Abs(a) => self.abs(a),
+            Node::Sqrt(a) => self.sqrt(a),
+            Node::Round(a) => self.round(a),
+            Node::Scale(a, k) => self.scale(a, k),
+            Node::Select(a, b, c, d) => self.select(a, b, c, d),
+            Node::Constant(bits) => self.constant(f64::from_bits(bits)),
+            node @ (Node::Zero | Node::Epsilon | Node::Exponent(_)) => self.intern(node),
+        }
     }
 
     /// How many nodes there are: a mark for [`Graph::rewind`] and [`Graph::cost_since`].
@@ -512,6 +517,31 @@ impl Program {
     /// The nodes that are a function's value, as (value, function, argument), in order.
     pub fn calls(&self) -> &[(Id, Function, Id)] {
         &self.calls
+    }
+
+    /// The same formula with the values of functions and roots left open: each is an input of its own, after those of this
+    /// program. What holds for all values of these holds for this program; only what rests on a relation between such
+    /// values (sin² + cos² = 1) is lost. No value vanishes by underflow, and none is outside of a domain.
+    pub fn with_open_functions(&self) -> Self {
+        let graph = Graph::new();
+        let inputs: Vec<Id> = (0..self.inputs).map(|i| graph.input(i)).collect();
+        let mut count = self.inputs;
+        let mut ids: Vec<Id> = Vec::with_capacity(self.nodes.len());
+        for (at, node) in self.nodes.iter().enumerate() {
+            let node = node.map(|operand| ids[operand.index()]);
+            let called = self.calls.binary_search_by_key(&at, |(value, ..)| value.index()).is_ok();
+            ids.push(match node {
+                _ if called || matches!(node, Node::Sqrt(_)) => {
+                    count += 1;
+                    graph.input(count - 1)
+                }
+                // Not a number where a logarithm is none, else 0.
+                Node::Sub(a, b) if a == b => graph.zero(),
+                node => graph.copied(node, &inputs, 0),
+            });
+        }
+        let outputs: Vec<Id> = self.outputs.iter().map(|output| ids[output.index()]).collect();
+        graph.finish(count, &outputs)
     }
 
     /// How many nodes are operations.

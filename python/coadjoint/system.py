@@ -426,6 +426,8 @@ class System:
             warnings.warn(text, CoadjointWarning, stacklevel=2)
         if facts["ratio"]:
             warnings.warn(hardly_converges(facts["ratio"]), CoadjointWarning, stacklevel=2)
+        for text in facts["drifted"]:
+            warnings.warn(text, CoadjointWarning, stacklevel=2)
         return found
 
     def step(
@@ -523,7 +525,7 @@ class System:
     def check(
         self, *, step: Real | None = None, t0: Real | None = None, points: int = 3, seed: int = 1
     ) -> Laws:
-        """The laws of the method, tried on this system at random points, from the time ``t0`` on.
+        """The laws of the method, tried on this system at random points near its run, from the time ``t0`` on.
 
         >>> import coadjoint as ca
         >>> laws = ca.System("SO3", "x^2/3 + y^2/4 + z^2/5", coordinates="x y z").check()
@@ -695,22 +697,25 @@ class Law(NamedTuple):
     #: What was measured, and what it is compared with.
     value: float
     bound: float
-    holds: bool
+    #: None where it could not be measured.
+    holds: bool | None
 
     def __repr__(self) -> str:
+        if self.holds is None:
+            return f"{self.name:<12} not measured"
         verdict = "holds" if self.holds else "FAILS"
         relation = ">=" if self.name.startswith("order") else "<="
         return f"{self.name:<12} {self.value:9.2g} {relation} {self.bound:<7.2g} {verdict}   {self.statement}"
 
 
 class Laws:
-    """The laws that were tried; true if all hold."""
+    """The laws that were tried; true if none was found not to hold."""
 
     def __init__(self, laws: list[Law]) -> None:
         self._laws = laws
 
     def __bool__(self) -> bool:
-        return all(law.holds for law in self._laws)
+        return all(law.holds is not False for law in self._laws)
 
     def __iter__(self) -> Iterator[Law]:
         return iter(self._laws)

@@ -14,7 +14,7 @@ use coadjoint_learn::table;
 use coadjoint_run::ensemble::{
     self, Attitude, Course, Engine, Found, How, Known, Layout, Shape, Watch,
 };
-use coadjoint_run::simulate::{Event, Schedule, Setup, Single, Times, run};
+use coadjoint_run::simulate::{Event, Schedule, Setup, Single, Times, drifting, run};
 use coadjoint_run::{
     Accuracy, Backend, Derived, Grid, Instant, RunError, System, check, emit, inputs_hash,
     meet_tolerance, polynomial, read_given, series, velocities, verify,
@@ -470,6 +470,8 @@ impl Core {
         let why = if casimirs == 0 { "none known" } else { "rounding of large numbers hides it" };
         facts.set_item("unknown_casimirs", why)?;
         facts.set_item("ratio", drift.ratio)?;
+        let drifted = drifting(drift.conserved, schedule.steps).map(|warning| warning.text());
+        facts.set_item("drifted", drifted.collect::<Vec<_>>())?;
         facts.set_item("backend", backend)?;
         facts.set_item("notes", notes)?;
         facts.set_item("columns", names)?;
@@ -615,7 +617,7 @@ impl Core {
         made.map_err(|error: String| refused(py, format!("{error}; give a smaller degree=")))
     }
 
-    /// The laws: (name, statement, value, bound, holds) each, and a warning.
+    /// The laws: (name, statement, value, bound, holds) each, none where that could not be measured, and a warning.
     #[allow(clippy::type_complexity)]
     fn check(
         &self,
@@ -624,7 +626,7 @@ impl Core {
         t0: Option<f64>,
         points: usize,
         seed: u64,
-    ) -> PyResult<(Vec<(String, String, f64, f64, bool)>, Option<String>)> {
+    ) -> PyResult<(Vec<(String, String, f64, f64, Option<bool>)>, Option<String>)> {
         let (here, cache) = (self.here(), self.derived.clone());
         let made = work(py, None, move |_| {
             let asked = Accuracy { step, t0, ..Accuracy::default() };
@@ -633,7 +635,11 @@ impl Core {
             let derived = derive(&cache, &here.name, system, None)?;
             let (laws, steep) = check::check(&derived, &trial)?;
             let law = |law: check::Law| {
-                (law.name.to_owned(), law.statement.to_owned(), law.value, law.bound, law.pass)
+                let holds = match law.verdict {
+                    check::Verdict::NotMeasured(_) => None,
+                    verdict => Some(verdict == check::Verdict::Holds),
+                };
+                (law.name.to_owned(), law.statement.to_owned(), law.value, law.bound, holds)
             };
             let laws = laws.into_iter().map(law).collect();
             Ok((laws, steep.map(check::steep).or_else(|| check::unmeasured(&derived))))

@@ -212,7 +212,7 @@ const TERMS: usize = 30;
 
 impl Potential {
     /// A basis of the ξ ∈ 𝔤 with ⟨J_L, ξ⟩ conserved, their largest coordinate being 1: of a polynomial exactly, of another V by
-    /// its slopes at random elements of the group. Of a torque without potential there are none.
+    /// its formula. Of a torque without potential there are none.
     pub(crate) fn directions(&self) -> Vec<Vec<f64>> {
         let found = match &self.force {
             Force::Polynomial(energy) => {
@@ -253,7 +253,7 @@ impl Potential {
     }
 
     /// Whether kicks conserve this function C of the momentum: Σ_k ∂C/∂μ_k τ_k = 0 for all μ and g, τ the body torque; where
-    /// that is no polynomial, as far as random states and times tell.
+    /// that is no polynomial, by its formula.
     pub fn keeps(&self, casimir: &Polynomial) -> bool {
         let torque = match &self.force {
             Force::Polynomial(energy) => self.torque(energy),
@@ -270,29 +270,40 @@ impl Potential {
         sums.values().all(Zero::is_zero)
     }
 
-    /// The ξ along which V does not change at random elements, where enough of them are in its domain.
+    /// The ξ along which V does not change, whatever values its functions have: an identity of its formula, tested at random
+    /// elements and values (J. T. Schwartz, J. ACM 27 (1980) 701). So a force that is next to nothing almost everywhere is
+    /// seen as well as any other.
     fn level(&self, programs: &Programs) -> Vec<Vec<f64>> {
         let (n, size) = (self.algebra.dim(), self.size());
         let Some(slopes) = programs.slopes(size * size) else { return Vec::new() };
-        let (symbols, generators) = (values(&self.symbols), self.generators());
-        // Σ ∂V/∂g_ij (e g)_ij for each e.
+        let slopes = slopes.with_open_functions();
+        let (symbols, generators, mut random) =
+            (values(&self.symbols), self.generators(), random());
+        // Σ ∂V/∂g_ij (e g)_ij for each e, relative to the largest sum of the terms' sizes.
         let row = |g: Vec<f64>| -> Vec<f64> {
-            let slopes = slopes.run(&g, &symbols);
-            let along = |e: &Vec<f64>| -> f64 {
-                product(e, &g, size).iter().zip(&slopes).map(|(a, b)| a * b).sum()
+            let slopes = slopes.run(&opened(g.clone(), &slopes, &mut random), &symbols);
+            let along = |e: &Vec<f64>| {
+                let moved = product(e, &g, size);
+                let terms = moved.iter().zip(&slopes).map(|(a, b)| a * b);
+                terms.fold((0.0, 0.0), |(sum, size), x| (sum + x, size + x.abs()))
             };
-            generators.iter().map(along).collect()
+            let sums: Vec<(f64, f64)> = generators.iter().map(along).collect();
+            let most = sums.iter().fold(0.0_f64, |most, (_, size)| most.max(*size));
+            let scale = if most == 0.0 { 1.0 } else { most };
+            sums.iter().map(|(sum, _)| sum / scale).collect()
         };
         let rows = self.elements(&generators, 2 * n + 5).into_iter().map(row);
         let rows: Vec<Vec<f64>> = rows.filter(|row| row.iter().all(|x| x.is_finite())).collect();
         if rows.len() < n + 2 { Vec::new() } else { kernel(rows, n) }
     }
 
+    /// The sum Σ_k ∂C/∂μ_k τ_k vanishes whatever values the functions in τ have, as in [`Self::level`].
     fn seems_to_keep(&self, programs: &Programs, casimir: &Polynomial) -> bool {
         let (n, generators, symbols) =
             (self.algebra.dim(), self.generators(), values(&self.symbols));
         let slopes: Vec<Numeric> =
             (0..n).map(|k| Numeric::new(&casimir.derivative(k), n, &[])).collect();
+        let torque = programs.torque.with_open_functions();
         let mut random = random();
         let mut tried = 0;
         for g in self.elements(&generators, n + 5) {
@@ -302,7 +313,7 @@ impl Potential {
                 inputs.extend_from_slice(&mu);
                 inputs.extend((0..=programs.signals.len()).map(|_| random()));
             }
-            let torque = programs.torque.run(&inputs, &symbols);
+            let torque = torque.run(&opened(inputs, &torque, &mut random), &symbols);
             let terms = slopes.iter().zip(&torque).map(|(slope, torque)| slope.value(&mu) * torque);
             let (sum, size) = terms.fold((0.0, 0.0), |(sum, size), x| (sum + x, size + x.abs()));
             if sum.is_finite() && sum.abs() > ROUNDING * size {
@@ -328,7 +339,8 @@ impl Potential {
     /// Random elements of the group, row by row; none where they would take long.
     fn elements(&self, generators: &[Vec<f64>], count: usize) -> Vec<Vec<f64>> {
         let size = self.size();
-        if count * TERMS * size.pow(3) > OPERATIONS {
+        let places = (0..size * size).filter(|&at| generators.iter().any(|e| e[at] != 0.0));
+        if count * TERMS * size * places.count() > OPERATIONS {
             return Vec::new();
         }
         let mut random = random();
@@ -350,12 +362,23 @@ impl Potential {
     }
 }
 
-/// The product of two square matrices, row by row.
+/// The product of two square matrices, row by row, the first of which has few entries.
 fn product(a: &[f64], b: &[f64], size: usize) -> Vec<f64> {
-    let entry = |at: usize| -> f64 {
-        (0..size).map(|l| a[at / size * size + l] * b[l * size + at % size]).sum()
-    };
-    (0..size * size).map(entry).collect()
+    let mut product = vec![0.0; size * size];
+    for (at, factor) in a.iter().enumerate().filter(|(_, factor)| **factor != 0.0) {
+        let from = &b[at % size * size..][..size];
+        let row = &mut product[at / size * size..][..size];
+        row.iter_mut().zip(from).for_each(|(sum, x)| *sum += factor * x);
+    }
+    product
+}
+
+/// The inputs of a program whose functions are [open](Program::with_open_functions): those of the formula, and values of all
+/// sizes from 1/1000 to 1000, so that each term is the largest somewhere.
+fn opened(mut inputs: Vec<f64>, program: &Program, random: &mut impl FnMut() -> f64) -> Vec<f64> {
+    let open = program.inputs().saturating_sub(inputs.len());
+    inputs.extend((0..open).map(|_| (10.0 * random()).exp2()));
+    inputs
 }
 
 /// Numbers between −1 and 1, the same at every call (D. E. Knuth's linear congruences, MMIX).

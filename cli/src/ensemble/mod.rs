@@ -122,7 +122,9 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let outcome = run::run(job);
     engine.notes().iter().for_each(|note| eprintln!("warning: {note}"));
     let outcome = outcome?;
-    report::warnings(&outcome).iter().for_each(|(_, text)| eprintln!("warning: {text}"));
+    report::warnings(&outcome, steps, &engine)
+        .iter()
+        .for_each(|(_, text)| eprintln!("warning: {text}"));
     let report =
         report::report(&outcome, (&derived, &parameters), &schedule, &engine, options.format);
     out!("{report}");

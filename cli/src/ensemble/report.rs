@@ -5,14 +5,14 @@ use coadjoint_run::Derived;
 use coadjoint_run::STEEP;
 use coadjoint_run::ensemble::{Engine, Rejected};
 use coadjoint_run::number::shortest;
-use coadjoint_run::simulate::{LARGE, Schedule};
+use coadjoint_run::simulate::{LARGE, Schedule, drifting};
 use serde_json::{Value, json};
 
 use super::run::Outcome;
 use crate::named::Format;
 
 /// Warnings, for programs and for people.
-pub(crate) fn warnings(outcome: &Outcome) -> Vec<(Value, String)> {
+pub(crate) fn warnings(outcome: &Outcome, steps: u64, engine: &Engine<'_>) -> Vec<(Value, String)> {
     let ratio = outcome.journal.drift().ratio;
     let series = (ratio != 0.0).then(|| {
         let text = format!(
@@ -29,7 +29,11 @@ pub(crate) fn warnings(outcome: &Outcome) -> Vec<(Value, String)> {
         );
         (json!({ "kind": "estimated_error", "error": error, "text": text }), text)
     });
-    series.into_iter().chain(error).collect()
+    let single = engine.device().is_some_and(|by| by.precision == Precision::Single);
+    // Of single precision the report says what drifts are.
+    let drift = Some(outcome.journal.drift().conserved).filter(|_| !single).unwrap_or_default();
+    let drifts = drifting(drift, steps).map(|warning| (warning.object(), warning.text()));
+    series.into_iter().chain(error).chain(drifts).collect()
 }
 
 /// The text to print.
@@ -71,7 +75,7 @@ pub(crate) fn report(
             })),
             "drift": known.map(|(name, drift)| (name, json!(drift))).collect::<Value>(),
             "drift_not_measured": drift.unmeasured,
-            "warnings": warnings(outcome).into_iter().map(|(object, _)| object).collect::<Value>(),
+            "warnings": warnings(outcome, steps, engine).into_iter().map(|(object, _)| object).collect::<Value>(),
             "seconds": seconds,
         });
         // Absent is 0.
@@ -110,7 +114,9 @@ pub(crate) fn report(
             lines.push("    in single precision drifts are at 1e-7 and above".to_owned());
         }
     }
-    lines.extend(warnings(outcome).into_iter().map(|(_, text)| format!("  warning: {text}")));
+    lines.extend(
+        warnings(outcome, steps, engine).into_iter().map(|(_, text)| format!("  warning: {text}")),
+    );
     lines.push(format!("  failed           {failed:>10}"));
     lines.extend(first.iter().map(|Rejected { row, step, reason }| match step {
         0 => format!("    row {row}: {reason}"),

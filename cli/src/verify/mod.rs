@@ -22,7 +22,8 @@ use crate::{load, progress};
 /// Judges the file and prints what was found.
 ///
 /// # Errors
-/// Bad input, [`CliError::Laws`] where a row is wrong, and [`CliError::NotJudged`] where nothing can be said of one.
+/// Bad input, [`CliError::Laws`] where a row is wrong, and [`CliError::NotJudged`] where nothing can be said of one or rows
+/// are missing at the end.
 pub(crate) fn run(options: &VerifyOptions) -> Result<(), CliError> {
     let (system, output) = match options.files.as_slice() {
         [output] => (None, output),
@@ -46,6 +47,9 @@ pub(crate) fn run(options: &VerifyOptions) -> Result<(), CliError> {
     }
     if let Some(what) = all.iter().find_map(|found| found.wrong.as_ref()) {
         return Err(CliError::Laws(format!("{}: {what}", output.display())));
+    }
+    if let Some(what) = all.iter().find_map(|found| found.cut.as_ref()) {
+        return Err(CliError::NotJudged(format!("{}: not verified: {what}", output.display())));
     }
     let unjudged: u64 = all.iter().map(|found| found.not_judged).sum();
     match all.iter().find_map(|found| found.why_not_judged.as_ref()) {

@@ -41,8 +41,11 @@ pub(crate) fn tables(path: &Path) -> Result<Vec<Table>, CliError> {
 
 fn table(path: &Path, report: &Value) -> Option<Table> {
     let run = report["run"].as_object()?;
-    let head: BTreeMap<String, String> =
+    let mut head: BTreeMap<String, String> =
         run.iter().map(|(name, value)| (name.clone(), remark(value))).collect();
+    // A report is whole, and holds no records between start and end.
+    head.remove("every");
+    head.insert("complete".to_owned(), "true".to_owned());
     let start = numbers(&report["run"]["initial_momentum"])?;
     let end = numbers(&report["momentum"])?;
     let momenta = (1..=end.len()).map(|i| format!("mu_{i}"));

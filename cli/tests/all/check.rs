@@ -27,7 +27,16 @@ fn the_laws_hold_for_the_examples() {
         let names: Vec<&str> = laws.iter().map(|law| law["name"].as_str().unwrap()).collect();
         assert_eq!(
             names,
-            ["Poisson", "symplectic", "equivariant", "momentum", "diagram", "symmetric", "order"]
+            [
+                "Poisson",
+                "symplectic",
+                "equivariant",
+                "momentum",
+                "diagram",
+                "symmetric",
+                "order",
+                "drift"
+            ]
         );
         let order = laws[6]["value"].as_f64().unwrap();
         let expected = report["truncation"].as_f64().unwrap() + 1.0;
@@ -68,7 +77,7 @@ momentum = [0.5, 1.0, -0.5, 0.25]
     holds(folder.json("check system.toml"));
 }
 
-/// Coordinates of different units have different sizes: points are about the initial momentum, one by one.
+/// Coordinates of different units have different sizes: points are near the run of the file.
 #[test]
 fn points_have_the_scale_of_the_initial_momentum() {
     let folder = Folder::with(

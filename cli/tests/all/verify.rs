@@ -86,11 +86,11 @@ fn a_sample_is_spread_over_the_rows_and_says_that_it_is_one() {
     assert_eq!(few["verdict"], "no row of the sample is wrong");
     // All rows are no sample.
     assert_eq!(right(&folder, "run.csv --sample 1000")["rows"], 100);
-    // The last row is always in it; of the element of a row that is not in it nothing is said.
+    // The last row is always in it; of the element of a row that is not in it nothing is said but that its drift is another.
     let text = folder.text("run.csv");
-    for (line, code) in [(101, 1), (50, 0)] {
+    for (line, words) in [(101, "row 101, time 10: "), (50, "row 50, time 4.9: the drift of the")] {
         folder.write("run.csv", changed(&text, line, 4, &|x| x + 1e-9));
-        folder.run("verify run.csv --sample 1").fails(code, &[]);
+        folder.run("verify run.csv --sample 1").fails(1, &[words]);
         folder.run("verify run.csv").fails(1, &[]);
     }
     folder.refused(&[("verify run.csv --sample 0", "--sample")]);
@@ -145,9 +145,14 @@ fn what_was_changed_is_found_where_it_is() {
         wrong(&folder, "run.csv", words);
     }
     // A row is gone.
-    let gone: Vec<&str> = text.lines().filter(|line| !line.starts_with("1.5,")).collect();
-    folder.write("run.csv", gone.join("\n"));
-    wrong(&folder, "run.csv", "there are 30 rows, and the file says that it has 31");
+    for (time, words) in [
+        ("1.5,", "row 16, time 1.6: 2 steps after the last row, and the file says every 1"),
+        ("3,", "there are 30 rows, and the file says that it has 31"),
+    ] {
+        let gone: Vec<&str> = text.lines().filter(|line| !line.starts_with(time)).collect();
+        folder.write("run.csv", gone.join("\n"));
+        wrong(&folder, "run.csv", words);
+    }
     // A matrix without names.
     folder.run(&format!("simulate {BODY} --time 3 --out run.npy")).ok();
     right(&folder, "run.npy");
@@ -159,6 +164,89 @@ fn what_was_changed_is_found_where_it_is() {
     wrong(&folder, "run.npy", "row 13, time 1.2");
     folder.write("run.npy", &bytes[..1000]);
     folder.refused(&[("verify run.npy", "its shape [31, 17] needs more than the 872 bytes")]);
+}
+
+/// Columns and entries of the head beside the states are read too, and a file that was cut is not verified.
+#[test]
+fn what_a_file_says_beside_its_states_is_judged() {
+    let folder = place("--time 5");
+    let found = right(&folder, "run.csv");
+    // Deviations that are rounding are within a few orders of their bounds, so that no bound is far too wide.
+    for name in ["momentum", "group_element"] {
+        let share = found[name].as_f64().unwrap();
+        assert!(share > 1e-4 && share <= 1.0, "{name}: {share}");
+    }
+    let text = folder.text("run.csv");
+    let names = folder.table("run.csv").remove(0);
+    for (name, what) in [
+        ("spatial_momentum_drift", "spatial momentum"),
+        ("casimir_drift", "Casimirs"),
+        ("energy_drift", "energy"),
+    ] {
+        let column = names.iter().position(|known| known == name).unwrap();
+        folder.write("run.csv", changed(&text, 12, column, &|_| 3.0));
+        wrong(&folder, "run.csv", &format!("row 12, time 1.1: the drift of the {what} is "));
+    }
+    let start = "# initial_momentum: ";
+    for (from, to, words) in [
+        ("# group: SO3\n", "# group: SO6\n", "the head says `group: SO6`, which is SO3"),
+        ("# time: 5\n", "# time: 8\n", "`steps: 50`, which is 80 by time and step"),
+        ("# steps: 50\n", "# steps: 53\n", "`steps: 53`, which is 50 by time and step"),
+        ("# time: 5\n", "# time: 8\n# steps: 80\n", "the file says that the run ends at 8"),
+        ("# every: 1\n", "# every: 2\n", "1 steps after the last row, and the file says every 2"),
+        (start, "# initial_momentum: 1", "the momentum is not that which the file names"),
+        (
+            start,
+            "# initial_group_element: 0,1,0,-1,0,0,0,0,1\n# initial_momentum: ",
+            "row 1, time 0: the group element is not that which the file names as the start",
+        ),
+        ("_momentum_scale: ", "_momentum_scale: 1", "the head's `spatial_momentum_scale`"),
+        ("# casimir_scales: ", "# casimir_scales: 1", "the head's `casimir_scales`"),
+        ("# energy_scale: ", "# energy_scale: 1", "the head's `energy_scale`"),
+    ] {
+        assert!(text.contains(from), "{from}");
+        let other = text.replacen(from, to, 1);
+        let own =
+            if to.contains("steps: 80") { other.replacen("# steps: 50\n", "", 1) } else { other };
+        folder.write("run.csv", own);
+        wrong(&folder, "run.csv", words);
+    }
+    // The first 20 rows, as a process that was killed leaves them.
+    let records = text.lines().filter(|line| !line.starts_with('#')).take(21);
+    let head = text.lines().take_while(|line| line.starts_with('#'));
+    folder.write("run.csv", head.chain(records).collect::<Vec<_>>().join("\n") + "\n");
+    let cut = folder.run("verify run.csv").fails(3, &["the file ends at time 1.9"]);
+    cut.prints(&["not verified: the file is cut before its end"]);
+}
+
+/// Ends that solve the equation of a step which may not be made.
+#[test]
+fn steps_beyond_the_chart_or_the_series_are_wrong() {
+    let folder = Folder::new();
+    // A rotation by 4 radians, and terms of third order half as large as the first.
+    for (hamiltonian, truncation, state, step, words) in [
+        (
+            "mu[0]^2/2 + mu[1]^2/2 + mu[2]^2/2",
+            1,
+            "1,0,0",
+            4.0,
+            "step 1 of 1 lies outside the chart: an eigenvalue has the size 4.000",
+        ),
+        (
+            "mu[0]^4/2 + mu[1]^4 + mu[2]^4/3 + mu[0]*mu[1]*mu[2]",
+            3,
+            "1,0.9,0.8",
+            0.3,
+            "is of a series whose last two terms have the ratio 0.553",
+        ),
+    ] {
+        let integrator = format!("[integrator]\ntruncation = {truncation}\n");
+        let system = format!("group = \"SO3\"\nhamiltonian = \"{hamiltonian}\"\n{integrator}");
+        folder.write("system.toml", system);
+        folder.write("states.csv", format!("mu_1,mu_2,mu_3\n{state}\n"));
+        let judged = "system.toml states.csv --input states.csv --steps 1";
+        wrong(&folder, &format!("{judged} --step {step}"), words);
+    }
 }
 
 /// Steps by collocation: roots, exponentials and cosines, fields that move, inputs by tables, steps off the grid, reports.
@@ -275,9 +363,11 @@ fn ensembles_are_judged_from_their_starts() {
     let found = right(&folder, &fifty);
     assert!(found["rows"] == 3 && found["refused"] == 1 && found["steps"] == 150, "{found}");
     let text = folder.text("ends.csv");
-    for (row, column, change) in [(2, 2, 1e-10), (4, 5, 1e-8)] {
+    for (row, column, change, what) in
+        [(2, 2, 1e-10, "Casimir 1 drifts"), (4, 5, 1e-8, "the spatial momentum drifts by")]
+    {
         folder.write("ends.csv", changed(&text, row, column, &|x| x + change));
-        wrong(&folder, &fifty, &format!("row {row}: "));
+        wrong(&folder, &fifty, &format!("row {row}: {what}"));
     }
     // A row that the run does not list as refused has an end.
     folder.write("ends.csv", &text);

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::event::{self, Crossing, Lookout};
 use super::orbit::Orbit;
-use super::recorder::{Outcome, Recorder, Watched};
+use super::recorder::{Outcome, Recorder, Watched, drifting};
 use super::setup::Setup;
 use super::sink::{Record, Resume, Sink};
 use super::tally::{Moment, Warning};
@@ -133,6 +133,8 @@ impl Subject<'_> {
             outcome.warnings.extend(warnings.inspect(|warning| sink.warn(&warning.text())));
         }
         outcome.events = crossings;
+        let drifting = drifting(outcome.drift, outcome.steps);
+        outcome.warnings.extend(drifting.inspect(|warning| sink.warn(&warning.text())));
         Ok((outcome, state))
     }
 }

@@ -12,13 +12,16 @@ mod single;
 mod sink;
 mod tally;
 
+pub(crate) use setup::not_an_element;
+
 pub use blocks::{Block, Kind, matrix, split};
 pub use estimate::LARGE;
 pub(crate) use estimate::{estimate, estimate_from};
 pub use event::{Crossing, Direction, Event};
-pub use recorder::{Drift, Outcome, Scales};
+pub use recorder::{Drift, Outcome, Scales, drifting};
 pub use run::{run, run_model};
 pub use setup::{Schedule, Setup, Stop, Times};
 pub use single::Single;
+pub(crate) use sink::DRIFTS;
 pub use sink::{Begun, Halt, Record, Resume, Sink};
 pub use tally::{DriftFields, Moment, Solver, Steep, Warning};

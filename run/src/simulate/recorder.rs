@@ -2,7 +2,7 @@
 
 use coadjoint_codegen::lie::LieAlgebra;
 pub use coadjoint_codegen::step::{Drift, Scales};
-use coadjoint_codegen::step::{Invariants, Start, nudge};
+use coadjoint_codegen::step::{Invariants, Start, nudge, rounding};
 
 use super::blocks::{Block, blocks, off_group};
 use super::event::Crossing;
@@ -55,6 +55,16 @@ pub struct Outcome {
     /// An estimate of the error at the end, the larger of the relative errors of μ and of the matrix of g in Euclidean norms;
     /// or why there is none.
     pub estimated_error: Result<f64, &'static str>,
+}
+
+/// Warnings of what every step conserves and has moved by more than rounding explains in this many steps.
+pub fn drifting(drift: Drift, steps: u64) -> impl Iterator<Item = Warning> {
+    let bound = rounding(steps);
+    let drifts = [("spatial momentum", drift.spatial_momentum), ("Casimirs", drift.casimirs)];
+    drifts.into_iter().filter_map(move |(quantity, drift)| {
+        let drift = drift.filter(|drift| *drift > bound)?;
+        Some(Warning::Drift { quantity, drift, bound })
+    })
 }
 
 /// The quantities that are watched in a run.
@@ -269,6 +279,19 @@ fn finite(what: &(impl std::fmt::Display + ?Sized), value: f64) -> Result<(), St
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Ten times the drift that rounding explains in 100 steps, 1e-10 √100, and a tenth of it.
+    #[test]
+    fn drifts_above_rounding_are_warned_of() {
+        let moved = |drift: f64| {
+            let drifts = Drift { spatial_momentum: Some(drift), casimirs: None, energy: Some(1.0) };
+            drifting(drifts, 100).map(|warning| warning.text()).collect::<Vec<_>>()
+        };
+        assert_eq!(moved(1e-10), Vec::<String>::new());
+        let text =
+            "the spatial momentum drifted by 1.0e-8, relatively, where rounding explains 1.0e-9: ";
+        assert!(matches!(&moved(1e-8)[..], [only] if only.starts_with(text)), "{:?}", moved(1e-8));
+    }
 
     #[test]
     fn what_is_not_finite_is_named() {

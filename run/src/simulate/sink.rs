@@ -26,7 +26,7 @@ pub struct Begun<'a> {
 }
 
 /// The drifts of a record, in the order of [`Drift`](super::Drift).
-const DRIFTS: [&str; 3] = ["spatial_momentum_drift", "casimir_drift", "energy_drift"];
+pub(crate) const DRIFTS: [&str; 3] = ["spatial_momentum_drift", "casimir_drift", "energy_drift"];
 
 impl Begun<'_> {
     /// The names of the columns of records: `time`, the coordinates of the momentum as the system file names them (`mu_1`,

@@ -71,6 +71,15 @@ pub enum Warning {
         /// The estimate.
         error: f64,
     },
+    /// A quantity that the symmetry conserves has moved by more than rounding explains.
+    Drift {
+        /// Its name.
+        quantity: &'static str,
+        /// The largest drift, relative.
+        drift: f64,
+        /// The drift that rounding explains.
+        bound: f64,
+    },
     /// An event that was to end the run did not occur.
     NoEvent {
         /// Its name.
@@ -98,6 +107,10 @@ impl Warning {
                 "the error at the end is about {:.0} %: take a smaller step or a larger truncation",
                 error * 100.0
             ),
+            Self::Drift { quantity, drift, bound } => format!(
+                "the {quantity} drifted by {drift:.1e}, relatively, where rounding explains {bound:.1e}: every step \
+                 should conserve it, so the end may be wrong; take a smaller step, and please report it"
+            ),
             Self::NoEvent { name, values: [start, end] } => format!(
                 "the event `{name}` did not occur; its function was {} at the start and is {} at the end",
                 shortest(*start),
@@ -117,6 +130,9 @@ impl Warning {
             Self::Inaccurate { error } => {
                 json!({ "kind": "estimated_error", "error": error, "text": text })
             }
+            Self::Drift { quantity, drift, bound } => json!({
+                "kind": "drift", "quantity": quantity, "drift": drift, "bound": bound, "text": text,
+            }),
             Self::NoEvent { name, values } => {
                 json!({ "kind": "no_event", "event": name, "values": values, "text": text })
             }

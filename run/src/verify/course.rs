@@ -5,7 +5,7 @@
 //! a deviation made on the way may grow, and the bounds of the single steps, times that growth, are what rounding
 //! may do. This is measured, not proven.
 
-use coadjoint_codegen::judge::{Branch, End, Inside, Motion, Setting, Stop};
+use coadjoint_codegen::judge::{Branch, End, Inside, Motion, RightSolution, Setting, Stop};
 use nalgebra::DVector;
 
 use super::states::{State, condition};
@@ -98,8 +98,8 @@ impl Course {
         let momentum = step.momentum().iter().map(|m| m.to_f64());
         let before = DVector::from_iterator(x.len(), momentum).norm();
         let end = step.end(&right, UNIT).map_err(Stop::Judge)?;
-        self.motion.step(setting, Some(right), UNIT)?;
-        Ok(twins.step(setting, (&end, before), &self.motion, self.size)?)
+        self.motion.step(setting, Some(right.clone()), UNIT)?;
+        Ok(twins.step(setting, (&right, &end, before), &self.motion, self.size)?)
     }
 
     /// By how much the motion stretches: the product of the norms of its element and the inverse, where there is one.
@@ -161,12 +161,12 @@ impl Twins {
         Self { motions, momentum: 0.0, element: 0.0, growth: 1.0, turned: 1.0 }
     }
 
-    /// Goes a step with the motion, which this step has led to where it is. Momenta of the end are in its own units, in
+    /// Goes a step with the motion, which this step, by its right solution, has led to where it is. Momenta of the end are in its own units, in
     /// which the step's start had the size `before`.
     fn step(
         &mut self,
         setting: &mut Setting<'_>,
-        (end, before): (&End, f64),
+        (right, end, before): (&RightSolution, &End, f64),
         motion: &Motion,
         size: usize,
     ) -> Result<(), Stop> {
@@ -176,7 +176,8 @@ impl Twins {
         let vector = |values: Vec<f64>| DVector::from_vec(values);
         let (here, whole) = (vector(motion.momentum()), vector(element(motion, size)));
         for (twin, nearest) in &mut self.motions {
-            twin.step(setting, None, UNIT)?;
+            let known = twin.beside(setting, right, end.scale);
+            twin.step(setting, known, UNIT)?;
             let apart = ratio((vector(twin.momentum()) - &here).norm(), here.norm());
             let turned = ratio((vector(element(twin, size)) - &whole).norm(), whole.norm());
             self.growth = maximum(self.growth, apart / *nearest);

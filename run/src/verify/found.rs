@@ -28,6 +28,8 @@ pub struct Found {
     pub why_not_judged: Option<String>,
     /// The file's own statement about its end, where it is a part.
     pub part: Option<String>,
+    /// How the file was cut before its end, where it was.
+    pub cut: Option<String>,
     /// The first wrong row, and what is wrong with it.
     pub wrong: Option<String>,
 }
@@ -54,6 +56,7 @@ impl Found {
         }
         let part = self.part.iter();
         lines.extend(part.map(|part| format!("the file is a part of a run: {part}")));
+        lines.extend(self.cut.clone());
         lines.push(self.verdict().to_owned());
         lines
     }
@@ -62,6 +65,7 @@ impl Found {
     pub(crate) fn verdict(&self) -> &'static str {
         match (&self.wrong, self.not_judged) {
             (Some(_), _) => "wrong",
+            (None, 0) if self.cut.is_some() => "not verified: the file is cut before its end",
             (None, 0) if self.not_sampled.is_some() => "no row of the sample is wrong",
             (None, 0) => "no row is wrong",
             (None, _) => "not verified: some rows could not be judged",
@@ -80,6 +84,11 @@ impl Found {
     /// Records a defect; the first one is reported.
     pub(crate) fn blame(&mut self, what: String) {
         self.wrong.get_or_insert(what);
+    }
+
+    /// Takes note of rows that are missing at the end.
+    pub(crate) fn cut(&mut self, what: String) {
+        self.cut.get_or_insert(what);
     }
 
     /// Takes note of a row that cannot be judged.

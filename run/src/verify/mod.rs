@@ -5,6 +5,7 @@
 mod course;
 mod follow;
 mod found;
+mod said;
 mod states;
 
 use coadjoint_codegen::system::System;

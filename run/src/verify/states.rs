@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use coadjoint::LieGroup;
 use coadjoint::groups::{DirectProduct, MatrixGroup};
 use coadjoint_codegen::problem::Parameter;
 use coadjoint_codegen::smooth::{Facts, Hamiltonian};
@@ -9,9 +10,11 @@ use coadjoint_codegen::step;
 use coadjoint_learn::table::{Row, Table};
 use nalgebra::{DMatrix, Quaternion, UnitQuaternion};
 
-use crate::engine::{phase_of, product_group};
+use crate::engine::{entries_of, phase_of, product_group};
 use crate::ensemble::{Attitude, Found, Known, Shape};
 use crate::error::RunError;
+use crate::number::maximum;
+use crate::simulate::DRIFTS;
 
 /// The drift allowed a step, relative to the sum of the absolute values of the invariant's terms.
 pub(crate) const DRIFT: f64 = 64.0 * f64::EPSILON;
@@ -34,10 +37,12 @@ pub(crate) fn refused(table: &Table, what: impl std::fmt::Display) -> RunError {
     RunError::Option(format!("{}: {what}", table.path().display()))
 }
 
-/// The places of the time, the energy and the state in a row.
+/// The places of the time, the energy, the drifts and the state in a row.
 pub(crate) struct Columns {
     pub time: Option<usize>,
     pub energy: Option<usize>,
+    /// Of the spatial momentum, the Casimirs and the energy.
+    pub drifts: [Option<usize>; 3],
     found: Found,
 }
 
@@ -59,7 +64,8 @@ impl Columns {
             return Err(refused(table, what));
         }
         let place = |name: &str| names.iter().position(|known| known == name);
-        Ok(Self { time: place("time"), energy: place("energy"), found })
+        let drifts = DRIFTS.map(place);
+        Ok(Self { time: place("time"), energy: place("energy"), drifts, found })
     }
 
     /// The state of a row.
@@ -129,19 +135,85 @@ impl Invariants {
         })
     }
 
-    /// By how much the spatial momentum Ad\*_g μ drifts from one state to another, relative to what rounding of g and μ may
-    /// leave of it; none where a matrix has no inverse, or no element is given.
-    pub(crate) fn spatial_drift(&self, before: &State, after: &State) -> Option<f64> {
-        let spatial = |state: &State| {
-            let size = condition(state.element.as_ref()?)?;
-            let phase = phase_of(&self.group, state.element.as_ref()?, &state.momentum);
-            Some((phase.spatial_momentum(&self.group), size * phase.momentum.norm()))
+    /// What is conserved in a state, and the sizes that drifts from it are relative to.
+    pub(crate) fn start(&self, time: f64, state: &State) -> step::Start {
+        let spatial = self.spatial(state).unwrap_or_default();
+        self.functions.start(time, &state.momentum, &spatial, Vec::new)
+    }
+
+    /// The drifts of the spatial momentum, the Casimirs and the energy from the start to another state, where they are known,
+    /// each with what rounding may do to it.
+    pub(crate) fn drifts(
+        &self,
+        (first, start): (&State, &step::Start),
+        (time, state): (f64, &State),
+    ) -> [Option<(f64, f64)>; 3] {
+        let spatial = self.spatial(state).unwrap_or_default();
+        let now = self.functions.conserved(time, &state.momentum, &spatial, Vec::new);
+        let drift = start.drift(&now);
+        let over = |size: f64, scale: f64| if scale == 0.0 { size } else { size / scale };
+        let both = |size: &dyn Fn(&State) -> Option<f64>| Some(size(first)? + size(state)?);
+        let turned = both(&|state| {
+            let length = state.momentum.iter().map(|mu| mu * mu).sum::<f64>().sqrt();
+            Some(condition(state.element.as_ref()?)? * length)
+        });
+        let casimirs = self.functions.casimirs.iter().zip(&start.scales.casimirs);
+        let sizes = casimirs.map(|(casimir, scale)| {
+            let size = casimir.magnitude(&first.momentum) + casimir.magnitude(&state.momentum);
+            over(size, *scale)
+        });
+        let energy = both(&|state| Some(self.energy(time, &state.momentum)?.1));
+        let scales = &start.scales;
+        let sizes = [
+            turned.map(|size| over(size, scales.spatial_momentum)),
+            sizes.reduce(f64::max),
+            energy.map(|size| over(size, scales.energy)),
+        ];
+        let drifts = [drift.spatial_momentum, drift.casimirs, drift.energy];
+        let mut pairs = drifts.into_iter().zip(sizes);
+        std::array::from_fn(|_| {
+            let (drift, size) = pairs.next()?;
+            drift.zip(size.map(|size| DRIFT * size))
+        })
+    }
+
+    /// The element of the group that this matrix, row by row, is but for rounding.
+    pub(crate) fn nearest(&self, matrix: &[f64]) -> Option<Vec<f64>> {
+        let size = matrix.len().isqrt();
+        let element = self.group.element_from_matrix(|i, j| matrix[i * size + j]).ok()?;
+        Some(entries_of(&self.group, &element))
+    }
+
+    fn spatial(&self, state: &State) -> Option<Vec<f64>> {
+        let phase = phase_of(&self.group, state.element.as_ref()?, &state.momentum);
+        Some(phase.spatial_momentum(&self.group).as_slice().to_vec())
+    }
+
+    /// By how much the spatial momentum Ad\*_g μ drifts from one state to another, relative to its largest coordinate, as runs
+    /// measure it, and what rounding of the numbers of both states may do to it; none where a matrix has no inverse, or no
+    /// element is given.
+    pub(crate) fn spatial_drift(&self, before: &State, after: &State) -> Option<(f64, f64)> {
+        let largest =
+            |values: &[f64]| values.iter().fold(0.0, |size, value| maximum(size, value.abs()));
+        let apart = |a: &[f64], b: &[f64]| {
+            largest(&a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>())
         };
-        let ((one, size), (other, next)) = (spatial(before)?, spatial(after)?);
-        let difference = (one - other).amax();
+        // By how much rounding of the numbers of a state may move it.
+        let rounding = |state: &State, here: &[f64]| {
+            condition(state.element.as_ref()?)?;
+            let (mut momentum, mut element) = (state.momentum.clone(), state.element.clone()?);
+            step::nudge(&mut momentum);
+            step::nudge(&mut element);
+            let beside = self.spatial(&State { momentum, element: Some(element) })?;
+            Some(apart(here, &beside) * (f64::EPSILON / step::NUDGE))
+        };
+        let (one, other) = (self.spatial(before)?, self.spatial(after)?);
+        let (drift, scale) = (apart(&one, &other), largest(&one));
+        let moved = rounding(before, &one)? + rounding(after, &other)?;
+        let relative = |size: f64| if size == 0.0 { 0.0 } else { size / scale };
         // The inverse of a long element may overflow.
-        let drift = if difference == 0.0 { 0.0 } else { difference / (size + next) };
-        (!drift.is_nan()).then_some(drift)
+        let (drift, moved) = (relative(drift), relative(moved));
+        (!(drift.is_nan() || moved.is_nan())).then_some((drift, moved))
     }
 }
 

@@ -30,11 +30,13 @@ const CORRECTIONS: usize = 6;
 const SAME: f64 = 1e-9;
 const APART: f64 = 1e-6;
 
-/// F(x) = x − s G(x), G(x), whether G contracts next to x, and the factors of ∂F/∂x with the sign of its determinant.
+/// F(x) = x − s G(x), G(x), whether G contracts next to x, a bound on ‖s ∂G/∂x‖, and the factors of ∂F/∂x with the sign of
+/// its determinant.
 struct Model {
     residual: DMatrix<f64>,
     value: DMatrix<f64>,
     contracts: bool,
+    slope: f64,
     jacobian: LU<f64, Dyn, Dyn>,
     sign: f64,
 }
@@ -45,8 +47,11 @@ impl Model {
         solution.ok_or(JudgeError::OutOfRange)
     }
 
-    /// ‖(∂F/∂x)⁻¹‖.
+    /// ‖(∂F/∂x)⁻¹‖, or a bound that is at most twice as large.
     fn response(&self) -> f64 {
+        if self.slope <= 0.5 {
+            return 1.0 / (1.0 - self.slope);
+        }
         self.jacobian.try_inverse().map_or(f64::INFINITY, |inverse| spectral(&inverse))
     }
 
@@ -62,9 +67,7 @@ impl Step<'_> {
         let n = x.nrows();
         let value = self.right_side(x)?;
         let slope = self.slope(x, &value)?;
-        // No eigenvalue is larger than a half where the eighth power is that small.
-        let power = (0..3).fold(slope.clone(), |power, _| &power * &power);
-        let contracts = norm(&power) < 0.5_f64.powi(8);
+        let (most, contracts) = (spectral(&slope), contracts(&slope));
         let jacobian = DMatrix::identity(n, n) - slope * s;
         let residual = x - &value * s;
         if !(size(&residual).is_finite() && size(&jacobian).is_finite()) {
@@ -72,7 +75,7 @@ impl Step<'_> {
         }
         let jacobian = jacobian.lu();
         let sign = jacobian.determinant().signum();
-        Ok(Model { residual, value, contracts, jacobian, sign })
+        Ok(Model { residual, value, contracts, slope: most * s, jacobian, sign })
     }
 
     /// The solution that Newton's method finds from the first guess, where G contracts at 0, there and half way: then it is
@@ -82,10 +85,12 @@ impl Step<'_> {
         if !start.contracts {
             return Ok(None);
         }
-        let solution = self.polish(&start.solve(&start.value)?)?;
-        let x = doubles(&solution.x);
-        let contracts = self.model(&x, 1.0)?.contracts && self.model(&(x * 0.5), 1.0)?.contracts;
-        Ok(contracts.then_some(solution))
+        let (solution, there) = self.polished(&start.solve(&start.value)?)?;
+        let half = doubles(&solution.x) * 0.5;
+        let half_way = || -> Result<bool, JudgeError> {
+            Ok(contracts(&self.slope(&half, &self.right_side(&half)?)?))
+        };
+        Ok((there && half_way()?).then_some(solution))
     }
 
     /// Follows the solution from s = 0 to 1 in double precision. A step in s is taken where Newton's method
@@ -148,7 +153,12 @@ impl Step<'_> {
     }
 
     /// Newton's method in doubled precision with factors of double precision.
-    fn polish(&self, x: &DMatrix<f64>) -> Result<RightSolution, JudgeError> {
+    pub(super) fn polish(&self, x: &DMatrix<f64>) -> Result<RightSolution, JudgeError> {
+        self.polished(x).map(|(solution, _)| solution)
+    }
+
+    /// The same, and whether G contracts where the last factors were taken, which is next to the solution.
+    fn polished(&self, x: &DMatrix<f64>) -> Result<(RightSolution, bool), JudgeError> {
         let mut last = f64::INFINITY;
         let mut model = self.model(x, 1.0)?;
         let mut response = model.response();
@@ -165,7 +175,7 @@ impl Step<'_> {
                 || length == 0.0
                 || (length < 1e-24 * whole && length >= last)
             {
-                return Ok(RightSolution { x, response });
+                return Ok((RightSolution { x, response }, model.contracts));
             }
             if !length.is_finite() || (length > last && length > whole) {
                 return Err(JudgeError::OutOfRange);
@@ -218,6 +228,12 @@ impl Step<'_> {
     fn grain(&self, x: &DMatrix<f64>) -> f64 {
         self.bound(x, 0.5 * f64::EPSILON).map_or(f64::INFINITY, |(bound, _)| bound)
     }
+}
+
+/// Whether no eigenvalue of a slope is larger than a half: it is that small itself, or its eighth power is.
+fn contracts(slope: &DMatrix<f64>) -> bool {
+    let eighth = || norm(&(0..3).fold(slope.clone(), |power, _| &power * &power));
+    spectral(slope) < 0.5 || eighth() < 0.5_f64.powi(8)
 }
 
 /// |a − b| / |a|; infinite where that is not a number.

@@ -9,7 +9,7 @@ use num_traits::{One, Zero};
 
 use super::energy::Energy;
 use super::geometry::Geometry;
-use super::linear::{Real, column, size};
+use super::linear::{Real, column, derivative, size};
 use super::{DoubleDouble, JudgeError};
 
 /// Gauss's method and a Hamiltonian.
@@ -129,26 +129,88 @@ impl Stage<'_> {
         rates: &DMatrix<T>,
         shift: f64,
     ) -> Result<DMatrix<T>, JudgeError> {
-        let Collocation { times, weights, chart, .. } = self.collocation;
-        let (n, m) = (geometry.dim, times.len());
-        let shift = T::from(1.0 + shift);
-        let mu = mu * shift;
-        let x = self.increment(rates);
-        let p = geometry.pull_back(geometry.chart, &x, &mu)?;
-        let rates = rates.clone().reshape_generic(Dyn(n), Dyn(2 * m));
-        let matrix = weights.rows(1, m).map(T::of).transpose();
-        let (xs, ps) = (rates.columns(0, m) * &matrix, rates.columns(m, m) * &matrix);
-        let beta: Vec<T> = chart.iter().map(|b| T::of(*b)).collect();
-        let step = T::from(self.step);
+        let (n, m) = (geometry.dim, self.collocation.times.len());
+        let mu = mu * T::from(1.0 + shift);
+        let p = geometry.pull_back(geometry.chart, &self.increment(rates), &mu)?;
+        let beta: Vec<T> = self.collocation.chart.iter().map(|b| T::of(*b)).collect();
         let mut next = DMatrix::zeros(n, 2 * m);
-        for i in 0..m {
-            let (x, p) = (xs.columns(i, 1).into_owned(), &p + ps.columns(i, 1));
-            let time = (T::of(self.middle) + step * T::of(times[i])) * shift;
-            let omega = self.velocity(time, &geometry.momentum(&beta, &x, &p))?;
-            let [x, p] = geometry.canonical(&beta, &x, &p, &omega);
+        for (i, [x, p]) in self.nodes(rates, &p).enumerate() {
+            let [x, p] = self.node(geometry, &beta, (i, shift), [&x, &p])?;
             next.set_column(i, &x.column(0));
             next.set_column(m + i, &p.column(0));
         }
         Ok(next.reshape_generic(Dyn(2 * n * m), Dyn(1)))
+    }
+
+    /// x and p at the nodes, where the step has these rates and this p in its middle.
+    fn nodes<T: Real>(
+        &self,
+        rates: &DMatrix<T>,
+        p: &DMatrix<T>,
+    ) -> impl Iterator<Item = [DMatrix<T>; 2]> {
+        let (n, m) = (p.nrows(), self.collocation.times.len());
+        let rates = rates.clone().reshape_generic(Dyn(n), Dyn(2 * m));
+        let matrix = self.collocation.weights.rows(1, m).map(T::of).transpose();
+        let (xs, ps) = (rates.columns(0, m) * &matrix, rates.columns(m, m) * &matrix);
+        let p = p.clone();
+        (0..m).map(move |i| [xs.columns(i, 1).into_owned(), &p + ps.columns(i, 1)])
+    }
+
+    /// The rates at node i, where x and p are these.
+    fn node<T: Real>(
+        &self,
+        geometry: &Geometry,
+        beta: &[T],
+        (i, shift): (usize, f64),
+        [x, p]: [&DMatrix<T>; 2],
+    ) -> Result<[DMatrix<T>; 2], JudgeError> {
+        let time = T::of(self.middle) + T::from(self.step) * T::of(self.collocation.times[i]);
+        let momentum = geometry.momentum(beta, x, p);
+        let omega = self.velocity(time * T::from(1.0 + shift), &momentum)?;
+        Ok(geometry.canonical(beta, x, p, &omega))
+    }
+
+    /// The derivative of the rates that follow in those that they follow from: at each node by differences over this
+    /// spacing in its own x and p, which are linear in the rates but for the p of the middle.
+    pub(super) fn slope(
+        &self,
+        geometry: &Geometry,
+        mu: &DMatrix<f64>,
+        rates: &DMatrix<f64>,
+        spacing: f64,
+    ) -> Result<DMatrix<f64>, JudgeError> {
+        let Collocation { weights, chart, .. } = self.collocation;
+        let (n, m) = (geometry.dim, self.collocation.times.len());
+        let weights = weights.map(f64::of);
+        let beta: Vec<f64> = chart.iter().map(|b| b.to_f64()).collect();
+        let x = self.increment(rates);
+        let pull_back = |x: &DMatrix<f64>| geometry.pull_back(geometry.chart, x, mu);
+        let p = pull_back(&x)?;
+        let pulled = derivative(&x, &p, spacing, pull_back)?;
+        let mut slope = DMatrix::zeros(2 * n * m, 2 * n * m);
+        for (i, [x, p]) in self.nodes(rates, &p).enumerate() {
+            let both = |x: &DMatrix<f64>, p: &DMatrix<f64>| {
+                column(x.iter().chain(p).copied().collect::<Vec<_>>().into_iter())
+            };
+            let here = both(&x, &p);
+            let rates = |at: &DMatrix<f64>| {
+                let [x, p] = [0, n].map(|first| at.rows(first, n).into_owned());
+                self.node(geometry, &beta, (i, 0.0), [&x, &p]).map(|[x, p]| both(&x, &p))
+            };
+            let own = derivative(&here, &rates(&here)?, spacing, rates)?;
+            let (by_x, by_p) = (own.columns(0, n), own.columns(n, n));
+            let by_middle = by_p * &pulled;
+            for j in 0..m {
+                let (whole, part) = (weights[(0, j)], weights[(i + 1, j)]);
+                let blocks = [by_x * part + &by_middle * whole, by_p * part];
+                for (block, first) in blocks.iter().zip([j, m + j]) {
+                    for (rows, to) in [(0, i), (n, m + i)] {
+                        let mut place = slope.view_mut((to * n, first * n), (n, n));
+                        place.copy_from(&block.rows(rows, n));
+                    }
+                }
+            }
+        }
+        Ok(slope)
     }
 }

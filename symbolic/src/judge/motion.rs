@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use super::linear::{column, norm};
+use super::linear::{column, doubles, norm};
 use super::step::ratio;
 use super::{Branch, DoubleDouble, JudgeError, RightSolution, Setting, Step};
 
@@ -39,6 +39,18 @@ impl Motion {
     /// As [`Setting::step`].
     pub fn here<'s>(&self, setting: &'s mut Setting<'_>) -> Result<Step<'s>, JudgeError> {
         setting.step_from(&self.momentum, self.scale)
+    }
+
+    /// The right solution of the next step that Newton's method finds from that of a motion next to this one, which has it in
+    /// units of 2^scale; none where it has other units.
+    pub fn beside(
+        &self,
+        setting: &mut Setting<'_>,
+        right: &RightSolution,
+        scale: i64,
+    ) -> Option<RightSolution> {
+        let step = self.here(setting).ok().filter(|step| step.scale == scale)?;
+        step.polish(&doubles(&right.x)).ok()
     }
 
     /// One step, by its right solution if that is known, for a scalar of this unit roundoff.

@@ -121,7 +121,10 @@ impl Step<'_> {
     ) -> Result<DMatrix<f64>, JudgeError> {
         // Charts bend over lengths of 1/‖ad‖.
         let spacing = SPACING / self.geometry.bracket_norm.max(1.0);
-        derivative(x, here, spacing, |x| self.right_side(x))
+        match &self.equation {
+            Equation::Series(_) => derivative(x, here, spacing, |x| self.right_side(x)),
+            Equation::Collocation(stage) => stage.slope(self.geometry, &self.double, x, spacing),
+        }
     }
 
     /// What is left of the equation at x, computed in doubled precision.

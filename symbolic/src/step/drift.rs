@@ -291,7 +291,6 @@ impl Start {
     /// more than 1e-11 of its scale, as it does after long motions in groups that are not compact, there is none. `beside`
     /// is what is conserved of the state whose numbers are [nudged](nudge).
     pub fn measured(&self, now: &Conserved, beside: Conserved) -> Drift {
-        const MEASURABLE: f64 = 1e-11;
         let beside = Self { conserved: beside, scales: self.scales.clone() };
         let moved = beside.drift(now).numbers().map(|moved| moved * (f64::EPSILON / NUDGE));
         let mut drift = self.drift(now).numbers();
@@ -305,8 +304,17 @@ impl Start {
     }
 }
 
+/// How far rounding of a state may move a quantity whose drift is measured, relative to its scale.
+pub const MEASURABLE: f64 = 1e-11;
+
+/// The drift that rounding explains after this many steps of what every step conserves: it adds up at random, and each step
+/// may round ten times.
+pub fn rounding(steps: u64) -> f64 {
+    10.0 * MEASURABLE * (steps.max(1) as f64).sqrt()
+}
+
 /// Far above rounding, and so small that what is conserved changes in proportion to it.
-const NUDGE: f64 = 1e-9;
+pub const NUDGE: f64 = 1e-9;
 
 /// Moves each number by 1e-9, relatively, up or down without a pattern.
 pub fn nudge(numbers: &mut [f64]) {

@@ -40,6 +40,7 @@ use product::{Memory, Part, Product, Translations};
 pub use drift::{
     Conserved, Drift, Energy, Invariants, PotentialEnergy, Scales, Slopes, Start, nudge,
 };
+pub use drift::{MEASURABLE, NUDGE, rounding};
 pub(crate) use error::MOST_OF_TABLES;
 pub use error::StepError;
 #[cfg(feature = "spatial")]
