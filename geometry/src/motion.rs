@@ -109,24 +109,6 @@ impl<T: Number> Motion<T> {
         Self { turn: Turn::of([w, i, j, k]), place: [a, b, c] }
     }
 
-    /// exp(ω, v), with the translation v + b ω×v + c ω×(ω×v).
-    #[inline(always)]
-    pub fn exp(x: [T; 6], length: Length) -> Self {
-        let [omega, v] = halves(x);
-        let Angle { half_cosine, half_sine, b, c } = Angle::new(omega, length);
-        let once = cross(omega, v);
-        let place = plus(plus(v, b, once), c, cross(omega, once));
-        Self { turn: Turn { w: half_cosine, s: half_sine, x: omega }, place }
-    }
-
-    /// cay(ω, v) of 4 × 4 matrices, with the translation (1 − ω̂/2)⁻¹ v.
-    #[inline(always)]
-    pub fn cayley(x: [T; 6]) -> Self {
-        let [omega, v] = halves(x);
-        let place = scaled(cayley_factor(omega), resolve(minus(omega), v));
-        Self { turn: Turn::cayley(omega), place }
-    }
-
     /// Ad\* of the inverse: (Rᵀ(Π − t×Γ), RᵀΓ).
     #[inline(always)]
     pub fn back(self, mu: [T; 6]) -> [T; 6] {
@@ -153,13 +135,21 @@ impl Group<6, 7> for Motions {
 
     const CAYLEY_LIMIT: f64 = 2.0;
 
+    /// (ω, v) with the translation v + b ω×v + c ω×(ω×v).
     #[inline(always)]
     fn exp<T: Number>(x: [T; 6], length: Length) -> Motion<T> {
-        Motion::exp(x, length)
+        let [omega, v] = halves(x);
+        let Angle { half_cosine, half_sine, b, c } = Angle::new(omega, length);
+        let once = cross(omega, v);
+        let place = plus(plus(v, b, once), c, cross(omega, once));
+        Motion { turn: Turn { w: half_cosine, s: half_sine, x: omega }, place }
     }
+    /// Cayley's map of 4 × 4 matrices, with the translation (1 − ω̂/2)⁻¹ v.
     #[inline(always)]
     fn cayley<T: Number>(x: [T; 6]) -> Motion<T> {
-        Motion::cayley(x)
+        let [omega, v] = halves(x);
+        let place = scaled(cayley_factor(omega), resolve(minus(omega), v));
+        Motion { turn: Space::cayley(omega), place }
     }
     #[inline(always)]
     fn after<T: Number>(h: Motion<T>, g: [T; 7]) -> [T; 7] {

@@ -79,7 +79,7 @@ impl Group<3, 4> for Plane {
     }
     #[inline(always)]
     fn cayley<T: Number>(x: [T; 3]) -> Motion<T> {
-        Motion::cayley(lifted(x))
+        Motions::cayley(lifted(x))
     }
     #[inline(always)]
     fn pull_back<T: Number>(x: [T; 3], mu: [T; 3], length: Length) -> [T; 3] {

@@ -27,29 +27,6 @@ impl<T: Number> Turn<T> {
         Self { w, s: T::of(1.0), x: [i, j, k] }
     }
 
-    /// exp x = (cos(θ/2), sin(θ/2)/θ x)
-    #[inline(always)]
-    pub fn exp(x: V3<T>, length: Length) -> Self {
-        let Angle { half_cosine, half_sine, .. } = Angle::new(x, length);
-        Self { w: half_cosine, s: half_sine, x }
-    }
-
-    /// cay x = (1, x/2)/√(1 + |x|²/4)
-    #[inline(always)]
-    pub fn cayley(x: V3<T>) -> Self {
-        let (half, one) = (by(0.5, x), T::of(1.0));
-        let w = one / (one + T::squares(half)).sqrt();
-        Self { w, s: w.by(0.5), x }
-    }
-
-    /// SU(2)'s cay x = (1 − a)⁻¹(1 + a) = (1 + a)²/(1 + |a|²) for the pure quaternion a = x/4.
-    #[inline(always)]
-    pub fn cayley_of_cover(x: V3<T>) -> Self {
-        let (n, one) = (T::squares(by(0.25, x)), T::of(1.0));
-        let factor = one / (one + n);
-        Self { w: (one - n) * factor, s: factor.by(0.5), x }
-    }
-
     /// The numbers of the quaternion.
     #[inline(always)]
     pub fn quaternion(self) -> [T; 4] {
@@ -150,13 +127,23 @@ impl<const COVER: bool> Group<3, 4> for Quaternions<COVER> {
 
     const CAYLEY_LIMIT: f64 = if COVER { 4.0 } else { 2.0 };
 
+    /// (cos(θ/2), sin(θ/2)/θ x)
     #[inline(always)]
     fn exp<T: Number>(x: V3<T>, length: Length) -> Turn<T> {
-        Turn::exp(x, length)
+        let Angle { half_cosine, half_sine, .. } = Angle::new(x, length);
+        Turn { w: half_cosine, s: half_sine, x }
     }
+    /// (1, x/2)/√(1 + |x|²/4); of the cover (1 − a)⁻¹(1 + a) = (1 + a)²/(1 + |a|²) for the pure quaternion a = x/4.
     #[inline(always)]
     fn cayley<T: Number>(x: V3<T>) -> Turn<T> {
-        if COVER { Turn::cayley_of_cover(x) } else { Turn::cayley(x) }
+        let one = T::of(1.0);
+        if COVER {
+            let n = T::squares(by(0.25, x));
+            let factor = one / (one + n);
+            return Turn { w: (one - n) * factor, s: factor.by(0.5), x };
+        }
+        let w = one / (one + T::squares(by(0.5, x))).sqrt();
+        Turn { w, s: w.by(0.5), x }
     }
     #[inline(always)]
     fn after<T: Number>(h: Turn<T>, g: [T; 4]) -> [T; 4] {

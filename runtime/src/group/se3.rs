@@ -104,11 +104,11 @@ impl<T: Scalar> LieGroup for SE3<T> {
     }
 
     fn exp(&self, x: &Self::Vector) -> Self::Element {
-        of_motion(Motion::exp(array(x), Length::Any))
+        of_motion(Motions::exp(array(x), Length::Any))
     }
 
     fn exp_transport(&self, x: &Self::Vector, mu: &Self::Vector) -> (Self::Element, Self::Vector) {
-        let motion = Motion::exp(array(x), Length::Any);
+        let motion = Motions::exp(array(x), Length::Any);
         (of_motion(motion), motion.back(array(mu)).into())
     }
 
@@ -166,7 +166,7 @@ impl<T: Scalar> CayleyGroup for SE3<T> {
     cayley_by_formulas!(Motions);
 
     fn cayley(&self, x: &Self::Vector) -> Self::Element {
-        of_motion(Motion::cayley(array(x)))
+        of_motion(Motions::cayley(array(x)))
     }
 
     fn cayley_inverse(&self, g: &Isometry3<T>) -> Option<Self::Vector> {

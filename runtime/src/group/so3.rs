@@ -142,7 +142,7 @@ impl<T: Scalar, const DOUBLE_COVER: bool> LieGroup for Quaternions<T, DOUBLE_COV
     }
 
     fn exp(&self, x: &Self::Vector) -> Self::Element {
-        quaternion(Turn::exp(array(x), Length::Any).quaternion())
+        quaternion(Formulas::<DOUBLE_COVER>::exp(array(x), Length::Any).quaternion())
     }
 
     /// The logarithm with |x| ≤ π; of the double cover with |x| < 2π, and `None` at −1, which every direction reaches.
@@ -168,7 +168,7 @@ impl<T: Scalar, const DOUBLE_COVER: bool> LieGroup for Quaternions<T, DOUBLE_COV
     }
 
     fn exp_transport(&self, x: &Self::Vector, mu: &Self::Vector) -> (Self::Element, Self::Vector) {
-        let turn = Turn::exp(array(x), Length::Any);
+        let turn = Formulas::<DOUBLE_COVER>::exp(array(x), Length::Any);
         (quaternion(turn.quaternion()), turn.back(array(mu)).into())
     }
 
