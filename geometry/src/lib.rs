@@ -8,6 +8,7 @@
 pub mod angle;
 pub mod bernoulli;
 pub mod dual;
+pub mod group;
 pub mod motion;
 pub mod number;
 pub mod plane;

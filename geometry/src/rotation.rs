@@ -1,8 +1,9 @@
 //! SO(3), and its double cover SU(2), elements as unit quaternions (w, i, j, k). In dual numbers formulas of SO(3) are those
 //! of SE(3).
 
-use crate::angle::{Angle, Length, Reach, with_slopes};
+use crate::angle::{Angle, Length, QUARTER_TURN_NEWTON, Reach, with_slopes};
 use crate::bernoulli::bernoulli;
+use crate::group::{Group, Matrices};
 use crate::number::Number;
 use crate::vector::{
     V3, by, cross, dot, each, minus, plus, plus_by, plus_cross, plus_outer, scaled, turned, unit,
@@ -24,29 +25,6 @@ impl<T: Number> Turn<T> {
     #[inline(always)]
     pub fn of([w, i, j, k]: [T; 4]) -> Self {
         Self { w, s: T::of(1.0), x: [i, j, k] }
-    }
-
-    /// exp x = (cos(θ/2), sin(θ/2)/θ x)
-    #[inline(always)]
-    pub fn exp(x: V3<T>, length: Length) -> Self {
-        let Angle { half_cosine, half_sine, .. } = Angle::new(x, length);
-        Self { w: half_cosine, s: half_sine, x }
-    }
-
-    /// cay x = (1, x/2)/√(1 + |x|²/4)
-    #[inline(always)]
-    pub fn cayley(x: V3<T>) -> Self {
-        let (half, one) = (by(0.5, x), T::of(1.0));
-        let w = one / (one + T::squares(half)).sqrt();
-        Self { w, s: w.by(0.5), x }
-    }
-
-    /// SU(2)'s cay x = (1 − a)⁻¹(1 + a) = (1 + a)²/(1 + |a|²) for the pure quaternion a = x/4.
-    #[inline(always)]
-    pub fn cayley_of_cover(x: V3<T>) -> Self {
-        let (n, one) = (T::squares(by(0.25, x)), T::of(1.0));
-        let factor = one / (one + n);
-        Self { w: (one - n) * factor, s: factor.by(0.5), x }
     }
 
     /// The numbers of the quaternion.
@@ -90,44 +68,12 @@ pub fn rotate<T: Number>(q: [T; 4], v: V3<T>) -> V3<T> {
     Turn::of(q).inverse().back(v)
 }
 
-/// The matrix of a rotation.
-#[inline(always)]
-pub fn matrix<T: Number>(q: [T; 4]) -> [V3<T>; 3] {
-    let [a, b, c] = [rotate(q, unit(0)), rotate(q, unit(1)), rotate(q, unit(2))];
-    [[a[0], b[0], c[0]], [a[1], b[1], c[1]], [a[2], b[2], c[2]]]
-}
-
-/// The matrix of SU(2), w − i(xσ₁ + yσ₂ + zσ₃) as the real matrix ((a, −b), (b, a)).
-#[inline(always)]
-pub fn matrix_of_cover<T: Number>([w, x, y, z]: [T; 4]) -> [[T; 4]; 4] {
-    [[w, -y, z, x], [y, w, x, -z], [-z, -x, w, -y], [-x, z, y, w]]
-}
-
-/// The square of the share of x in a half turn of a chart that ends at |x| = limit.
-#[inline(always)]
-pub fn extent<T: Number>(x: V3<T>, limit: f64) -> T {
-    T::squares(x).by(1.0 / (limit * limit))
-}
-
-/// ||q|² − 1|
-#[inline(always)]
-pub fn defect<T: Number>(q: [T; 4]) -> T {
-    (T::squares(q) - T::of(1.0)).abs()
-}
-
 /// μ + b μ×x + c (μ×x)×x, and these two products.
 #[inline(always)]
 fn bent<T: Number>(b: T, c: T, x: V3<T>, mu: V3<T>) -> [V3<T>; 3] {
     let once = cross(mu, x);
     let twice = cross(once, x);
     [plus(plus(mu, b, once), c, twice), once, twice]
-}
-
-/// (d^R exp_x)ᵀ μ = μ + b μ×x + c (μ×x)×x.
-#[inline(always)]
-pub fn pull_back<T: Number>(x: V3<T>, mu: V3<T>, length: Length) -> V3<T> {
-    let Angle { b, c, .. } = Angle::new(x, length);
-    bent(b, c, x, mu)[0]
 }
 
 /// (d^R exp_x)ᵀ μ and its derivative in x, for |x| up to a quarter turn:
@@ -172,21 +118,108 @@ pub fn cayley_pull_back_of_cover<T: Number>(x: V3<T>, mu: V3<T>) -> (V3<T>, [V3<
     (value, [row(0), row(1), row(2)])
 }
 
-/// exp's J_R(x, p) = p − ½ x×p + c x×(x×p), its series up to x^degree.
-#[inline(always)]
-pub fn momentum<T: Number>(x: V3<T>, p: V3<T>, degree: usize) -> V3<T> {
-    let [c, _] = bernoulli(x, degree);
-    let once = cross(x, p);
-    plus(plus_by(p, -0.5, once), c, cross(x, once))
+/// Unit quaternions: SO(3), where q and −q are one element, or its double cover SU(2).
+#[derive(Clone, Copy, Debug)]
+pub struct Quaternions<const COVER: bool>;
+
+impl<const COVER: bool> Group<3, 4> for Quaternions<COVER> {
+    type Increment<T: Number> = Turn<T>;
+
+    const CAYLEY_LIMIT: f64 = if COVER { 4.0 } else { 2.0 };
+
+    /// (cos(θ/2), sin(θ/2)/θ x)
+    #[inline(always)]
+    fn exp<T: Number>(x: V3<T>, length: Length) -> Turn<T> {
+        let Angle { half_cosine, half_sine, .. } = Angle::new(x, length);
+        Turn { w: half_cosine, s: half_sine, x }
+    }
+    /// (1, x/2)/√(1 + |x|²/4); of the cover (1 − a)⁻¹(1 + a) = (1 + a)²/(1 + |a|²) for the pure quaternion a = x/4.
+    #[inline(always)]
+    fn cayley<T: Number>(x: V3<T>) -> Turn<T> {
+        let one = T::of(1.0);
+        if COVER {
+            let n = T::squares(by(0.25, x));
+            let factor = one / (one + n);
+            return Turn { w: (one - n) * factor, s: factor.by(0.5), x };
+        }
+        let w = one / (one + T::squares(by(0.5, x))).sqrt();
+        Turn { w, s: w.by(0.5), x }
+    }
+    #[inline(always)]
+    fn after<T: Number>(h: Turn<T>, g: [T; 4]) -> [T; 4] {
+        h.after(g)
+    }
+    #[inline(always)]
+    fn back<T: Number>(h: Turn<T>, mu: V3<T>) -> V3<T> {
+        h.back(mu)
+    }
+    /// (d^R exp_x)ᵀ μ = μ + b μ×x + c (μ×x)×x.
+    #[inline(always)]
+    fn pull_back<T: Number>(x: V3<T>, mu: V3<T>, length: Length) -> V3<T> {
+        let Angle { b, c, .. } = Angle::new(x, length);
+        bent(b, c, x, mu)[0]
+    }
+    #[inline(always)]
+    fn pull_back_with_derivative<T: Number>(x: V3<T>, mu: V3<T>) -> (V3<T>, [V3<T>; 3]) {
+        pull_back_with_derivative(x, mu, QUARTER_TURN_NEWTON)
+    }
+    #[inline(always)]
+    fn cayley_pull_back_with_derivative<T: Number>(x: V3<T>, mu: V3<T>) -> (V3<T>, [V3<T>; 3]) {
+        if COVER { cayley_pull_back_of_cover(x, mu) } else { cayley_pull_back(x, mu) }
+    }
+    /// exp's J_R(x, p) = p − ½ x×p + c x×(x×p), its series up to x^degree.
+    #[inline(always)]
+    fn momentum<T: Number>(x: V3<T>, p: V3<T>, degree: usize) -> V3<T> {
+        let [c, _] = bernoulli(x, degree);
+        let once = cross(x, p);
+        plus(plus_by(p, -0.5, once), c, cross(x, once))
+    }
+    /// ẋ = (∂J_R/∂p)ᵀ ω and ṗ = −(∂J_R/∂x)ᵀ ω: with u = ½ω + c x×ω they are ω + x×u and
+    /// p×u + cω×(x×p) + 2c′ ((x×ω)·(x×p)) x.
+    #[inline(always)]
+    fn rates<T: Number>(x: V3<T>, p: V3<T>, omega: V3<T>, degree: usize) -> [V3<T>; 2] {
+        let [c, slope] = bernoulli(x, degree);
+        let (turned, once) = (cross(x, omega), cross(x, p));
+        let u = plus(by(0.5, omega), c, turned);
+        let force = plus_cross(cross(p, u), scaled(c, omega), once);
+        [plus_cross(omega, x, u), plus(force, slope * dot(turned, once), x)]
+    }
+    #[inline(always)]
+    fn ad_star<T: Number>(x: V3<T>, mu: V3<T>) -> V3<T> {
+        cross(mu, x)
+    }
+    #[inline(always)]
+    fn bracket<T: Number>(x: V3<T>, y: V3<T>) -> V3<T> {
+        cross(x, y)
+    }
+    #[inline(always)]
+    fn coadjoint<T: Number>(g: [T; 4], mu: V3<T>) -> V3<T> {
+        rotate(g, mu)
+    }
+    /// The square of the share of x in a half turn of a chart that ends at |x| = limit.
+    #[inline(always)]
+    fn extent<T: Number>(x: V3<T>, limit: f64) -> T {
+        T::squares(x).by(1.0 / (limit * limit))
+    }
+    /// ||q|² − 1|
+    #[inline(always)]
+    fn defect<T: Number>(q: [T; 4]) -> T {
+        (T::squares(q) - T::of(1.0)).abs()
+    }
 }
 
-/// ẋ = (∂J_R/∂p)ᵀ ω and ṗ = −(∂J_R/∂x)ᵀ ω: with u = ½ω + c x×ω they are ω + x×u and
-/// p×u + cω×(x×p) + 2c′ ((x×ω)·(x×p)) x.
-#[inline(always)]
-pub fn rates<T: Number>(x: V3<T>, p: V3<T>, omega: V3<T>, degree: usize) -> [V3<T>; 2] {
-    let [c, slope] = bernoulli(x, degree);
-    let (turned, once) = (cross(x, omega), cross(x, p));
-    let u = plus(by(0.5, omega), c, turned);
-    let force = plus_cross(cross(p, u), scaled(c, omega), once);
-    [plus_cross(omega, x, u), plus(force, slope * dot(turned, once), x)]
+impl Matrices<4, 3> for Quaternions<false> {
+    #[inline(always)]
+    fn matrix<T: Number>(q: [T; 4]) -> [V3<T>; 3] {
+        let [a, b, c] = [rotate(q, unit(0)), rotate(q, unit(1)), rotate(q, unit(2))];
+        [[a[0], b[0], c[0]], [a[1], b[1], c[1]], [a[2], b[2], c[2]]]
+    }
+}
+
+impl Matrices<4, 4> for Quaternions<true> {
+    /// w − i(xσ₁ + yσ₂ + zσ₃) as the real matrix ((a, −b), (b, a)).
+    #[inline(always)]
+    fn matrix<T: Number>([w, x, y, z]: [T; 4]) -> [[T; 4]; 4] {
+        [[w, -y, z, x], [y, w, x, -z], [-z, -x, w, -y], [-x, z, y, w]]
+    }
 }

@@ -3,14 +3,15 @@
 use core::marker::PhantomData;
 
 use coadjoint_geometry::angle::Length;
+use coadjoint_geometry::group::Group;
 use coadjoint_geometry::motion::Motion;
-use coadjoint_geometry::plane;
+use coadjoint_geometry::plane::Plane;
 use nalgebra::{Complex, Isometry2, SimdBool, Translation2, Unit, Vector2, Vector3};
 
-use crate::group::arrays::{Rows3, array, nodes, rows};
+use crate::group::arrays::{array, by_formulas, cayley_by_formulas, nodes, rows};
 use crate::group::element_error::{ElementError, finite, fixed, within};
 use crate::group::log::dexp_inverse;
-use crate::group::{CayleyGroup, FixedDimension, LieGroup};
+use crate::group::{CayleyGroup, FixedDimension, LieGroup, Rows};
 use crate::number::Scalar;
 
 /// The Euclidean group of the plane, elements as a rotation (unit complex number) and a
@@ -67,6 +68,8 @@ impl<T: Scalar> LieGroup for SE2<T> {
     type Vector = Vector3<T>;
     type Element = Isometry2<T>;
 
+    by_formulas!(Plane);
+
     fn dim(&self) -> usize {
         3
     }
@@ -89,7 +92,7 @@ impl<T: Scalar> LieGroup for SE2<T> {
     }
 
     fn exp(&self, x: &Self::Vector) -> Self::Element {
-        flatten(plane::exp(array(x), Length::Any))
+        flatten(Plane::exp(array(x), Length::Any))
     }
 
     fn log(&self, g: &Self::Element) -> Option<Self::Vector> {
@@ -101,41 +104,10 @@ impl<T: Scalar> LieGroup for SE2<T> {
         Some(Vector3::new(angle, along * x + across * y, along * y - across * x))
     }
 
-    fn ad_star(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        Vector3::new(x.z * mu.y - x.y * mu.z, x.x * mu.z, -x.x * mu.y)
-    }
-
     fn coadjoint(&self, g: &Self::Element, mu: &Self::Vector) -> Self::Vector {
         let (c, s, u, v) = parts(g);
         let (first, second) = (c * mu.y - s * mu.z, s * mu.y + c * mu.z);
         Vector3::new(mu.x + u * second - v * first, first, second)
-    }
-
-    fn dexp_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        plane::pull_back(array(x), array(mu), Length::Any).into()
-    }
-
-    fn exp_extent(&self, x: &Self::Vector) -> T {
-        plane::extent(array(x), core::f64::consts::PI)
-    }
-
-    fn node_momenta<const M: usize>(
-        &self,
-        x: &Rows3<T, M>,
-        p: &Rows3<T, M>,
-        degree: usize,
-    ) -> Rows3<T, M> {
-        rows(plane::momentum(nodes(x), nodes(p), degree))
-    }
-
-    fn node_rates<const M: usize>(
-        &self,
-        x: &Rows3<T, M>,
-        p: &Rows3<T, M>,
-        omega: &Rows3<T, M>,
-        degree: usize,
-    ) -> [Rows3<T, M>; 2] {
-        plane::rates(nodes(x), nodes(p), nodes(omega), degree).map(rows)
     }
 
     fn element_defect(&self, g: &Self::Element) -> T {
@@ -190,12 +162,10 @@ impl<T: Scalar> LieGroup for SE2<T> {
 }
 
 impl<T: Scalar> CayleyGroup for SE2<T> {
-    fn cayley(&self, x: &Self::Vector) -> Self::Element {
-        flatten(plane::cayley(array(x)))
-    }
+    cayley_by_formulas!(Plane);
 
-    fn cayley_extent(&self, x: &Self::Vector) -> T {
-        plane::extent(array(x), 2.0)
+    fn cayley(&self, x: &Self::Vector) -> Self::Element {
+        flatten(Plane::cayley(array(x)))
     }
 
     fn cayley_inverse(&self, g: &Self::Element) -> Option<Self::Vector> {
@@ -207,9 +177,5 @@ impl<T: Scalar> CayleyGroup for SE2<T> {
         }
         let half = s / below;
         Some(Vector3::new(half + half, x + half * y, y - half * x))
-    }
-
-    fn dcay_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        plane::cayley_pull_back(array(x), array(mu)).into()
     }
 }

@@ -3,15 +3,16 @@
 use core::marker::PhantomData;
 
 use coadjoint_geometry::angle::Length;
-use coadjoint_geometry::motion::{self, Motion};
+use coadjoint_geometry::group::Group;
+use coadjoint_geometry::motion::{Motion, Motions};
 use coadjoint_geometry::rotation::Turn;
 use nalgebra::{Isometry3, Translation3, Vector3, Vector6};
 
-use crate::group::arrays::{Rows6, array, nodes, rows};
+use crate::group::arrays::{array, by_formulas, cayley_by_formulas, nodes, rows};
 use crate::group::element_error::{ElementError, finite, fixed};
 use crate::group::log::dexp_inverse;
 use crate::group::so3::{self, SO3, rotation_from};
-use crate::group::{CayleyGroup, FixedDimension, LieGroup};
+use crate::group::{CayleyGroup, FixedDimension, LieGroup, Rows};
 use crate::number::Scalar;
 
 /// The Euclidean group SE(3), elements as a rotation (unit quaternion) and a translation.
@@ -82,6 +83,8 @@ impl<T: Scalar> LieGroup for SE3<T> {
     type Vector = Vector6<T>;
     type Element = Isometry3<T>;
 
+    by_formulas!(Motions);
+
     fn dim(&self) -> usize {
         6
     }
@@ -101,11 +104,11 @@ impl<T: Scalar> LieGroup for SE3<T> {
     }
 
     fn exp(&self, x: &Self::Vector) -> Self::Element {
-        of_motion(Motion::exp(array(x), Length::Any))
+        of_motion(Motions::exp(array(x), Length::Any))
     }
 
     fn exp_transport(&self, x: &Self::Vector, mu: &Self::Vector) -> (Self::Element, Self::Vector) {
-        let motion = Motion::exp(array(x), Length::Any);
+        let motion = Motions::exp(array(x), Length::Any);
         (of_motion(motion), motion.back(array(mu)).into())
     }
 
@@ -117,55 +120,12 @@ impl<T: Scalar> LieGroup for SE3<T> {
         Some(join(&omega, &(t - once * T::of(0.5) + omega.cross(&once) * c)))
     }
 
-    fn ad_star(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        motion::ad_star(array(x), array(mu)).into()
-    }
-
     fn coadjoint(&self, g: &Self::Element, mu: &Self::Vector) -> Self::Vector {
-        motion::coadjoint(numbers(g), array(mu)).into()
-    }
-
-    fn dexp_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        motion::pull_back(array(x), array(mu), Length::Any).into()
-    }
-
-    fn exp_extent(&self, x: &Self::Vector) -> T {
-        motion::extent(array(x), core::f64::consts::PI)
-    }
-
-    #[inline(always)]
-    fn node_momenta<const M: usize>(
-        &self,
-        x: &Rows6<T, M>,
-        p: &Rows6<T, M>,
-        degree: usize,
-    ) -> Rows6<T, M> {
-        rows(motion::momentum(nodes(x), nodes(p), degree))
-    }
-
-    #[inline(always)]
-    fn node_rates<const M: usize>(
-        &self,
-        x: &Rows6<T, M>,
-        p: &Rows6<T, M>,
-        omega: &Rows6<T, M>,
-        degree: usize,
-    ) -> [Rows6<T, M>; 2] {
-        motion::rates(nodes(x), nodes(p), nodes(omega), degree).map(rows)
-    }
-
-    #[inline(always)]
-    fn ad_stars<const M: usize>(&self, x: &Rows6<T, M>, mu: &Rows6<T, M>) -> Rows6<T, M> {
-        rows(motion::ad_star(nodes(x), nodes(mu)))
-    }
-
-    #[inline(always)]
-    fn brackets<const M: usize>(&self, x: &Rows6<T, M>, y: &Rows6<T, M>) -> Rows6<T, M> {
-        rows(motion::bracket(nodes(x), nodes(y)))
+        Motions::coadjoint(numbers(g), array(mu)).into()
     }
 
     fn element_defect(&self, g: &Self::Element) -> T {
-        motion::defect(numbers(g))
+        Motions::defect(numbers(g))
     }
 
     fn casimir_count(&self) -> usize {
@@ -203,21 +163,15 @@ impl<T: Scalar> LieGroup for SE3<T> {
 }
 
 impl<T: Scalar> CayleyGroup for SE3<T> {
-    fn cayley(&self, x: &Self::Vector) -> Self::Element {
-        of_motion(Motion::cayley(array(x)))
-    }
+    cayley_by_formulas!(Motions);
 
-    fn cayley_extent(&self, x: &Self::Vector) -> T {
-        motion::extent(array(x), 2.0)
+    fn cayley(&self, x: &Self::Vector) -> Self::Element {
+        of_motion(Motions::cayley(array(x)))
     }
 
     fn cayley_inverse(&self, g: &Isometry3<T>) -> Option<Self::Vector> {
         let omega = SO3::new().cayley_inverse(&g.rotation)?;
         let t = &g.translation.vector;
         Some(join(&omega, &(t - omega.cross(t) * T::of(0.5))))
-    }
-
-    fn dcay_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        motion::cayley_pull_back(array(x), array(mu)).into()
     }
 }

@@ -3,14 +3,15 @@
 use core::marker::PhantomData;
 
 use coadjoint_geometry::angle::Length;
-use coadjoint_geometry::rotation::{self, Turn};
+use coadjoint_geometry::group::{Group, Matrices};
+use coadjoint_geometry::rotation::{self, Quaternions as Formulas, Turn};
 use coadjoint_geometry::vector::{cross, dot};
 use nalgebra::{Matrix3, Quaternion, Rotation3, SimdBool, UnitQuaternion, Vector3};
 
-use crate::group::arrays::{Rows3, array, nodes, rows};
+use crate::group::arrays::{array, by_formulas, cayley_by_formulas, nodes, rows};
 use crate::group::element_error::{ElementError, finite, fixed, within};
 use crate::group::log::log_factor;
-use crate::group::{CayleyGroup, FixedDimension, LieGroup};
+use crate::group::{CayleyGroup, FixedDimension, LieGroup, Rows};
 use crate::number::Scalar;
 
 /// The rotation group SO(3), elements as unit quaternions.
@@ -105,7 +106,7 @@ fn complex_from<T: Scalar>(
         return Err(ElementError::NotOrthogonal { defect: defect.largest_lane() });
     }
     let q = quaternion([w, u.x, u.y, u.z].map(|entry| entry / norm));
-    let matrix = rotation::matrix_of_cover(numbers(&q));
+    let matrix = Formulas::<true>::matrix(numbers(&q));
     for row in 0..4 {
         for column in 0..4 {
             let expected = matrix[row][column];
@@ -119,6 +120,8 @@ impl<T: Scalar, const DOUBLE_COVER: bool> LieGroup for Quaternions<T, DOUBLE_COV
     type Scalar = T;
     type Vector = Vector3<T>;
     type Element = UnitQuaternion<T>;
+
+    by_formulas!(Formulas::<DOUBLE_COVER>);
 
     fn dim(&self) -> usize {
         3
@@ -139,7 +142,7 @@ impl<T: Scalar, const DOUBLE_COVER: bool> LieGroup for Quaternions<T, DOUBLE_COV
     }
 
     fn exp(&self, x: &Self::Vector) -> Self::Element {
-        quaternion(Turn::exp(array(x), Length::Any).quaternion())
+        quaternion(Formulas::<DOUBLE_COVER>::exp(array(x), Length::Any).quaternion())
     }
 
     /// The logarithm with |x| ≤ π; of the double cover with |x| < 2π, and `None` at −1, which every direction reaches.
@@ -160,60 +163,17 @@ impl<T: Scalar, const DOUBLE_COVER: bool> LieGroup for Quaternions<T, DOUBLE_COV
         Some(u * factor)
     }
 
-    fn ad_star(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        cross(array(mu), array(x)).into()
-    }
-
     fn coadjoint(&self, g: &Self::Element, mu: &Self::Vector) -> Self::Vector {
         rotation::rotate(numbers(g), array(mu)).into()
     }
 
     fn exp_transport(&self, x: &Self::Vector, mu: &Self::Vector) -> (Self::Element, Self::Vector) {
-        let turn = Turn::exp(array(x), Length::Any);
+        let turn = Formulas::<DOUBLE_COVER>::exp(array(x), Length::Any);
         (quaternion(turn.quaternion()), turn.back(array(mu)).into())
     }
 
-    fn dexp_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        rotation::pull_back(array(x), array(mu), Length::Any).into()
-    }
-
-    fn exp_extent(&self, x: &Self::Vector) -> T {
-        rotation::extent(array(x), core::f64::consts::PI)
-    }
-
-    #[inline(always)]
-    fn node_momenta<const M: usize>(
-        &self,
-        x: &Rows3<T, M>,
-        p: &Rows3<T, M>,
-        degree: usize,
-    ) -> Rows3<T, M> {
-        rows(rotation::momentum(nodes(x), nodes(p), degree))
-    }
-
-    #[inline(always)]
-    fn node_rates<const M: usize>(
-        &self,
-        x: &Rows3<T, M>,
-        p: &Rows3<T, M>,
-        omega: &Rows3<T, M>,
-        degree: usize,
-    ) -> [Rows3<T, M>; 2] {
-        rotation::rates(nodes(x), nodes(p), nodes(omega), degree).map(rows)
-    }
-
-    #[inline(always)]
-    fn ad_stars<const M: usize>(&self, x: &Rows3<T, M>, mu: &Rows3<T, M>) -> Rows3<T, M> {
-        rows(cross(nodes(mu), nodes(x)))
-    }
-
-    #[inline(always)]
-    fn brackets<const M: usize>(&self, x: &Rows3<T, M>, y: &Rows3<T, M>) -> Rows3<T, M> {
-        rows(cross(nodes(x), nodes(y)))
-    }
-
     fn element_defect(&self, g: &Self::Element) -> T {
-        rotation::defect(numbers(g))
+        Formulas::<DOUBLE_COVER>::defect(numbers(g))
     }
 
     fn casimir_count(&self) -> usize {
@@ -230,7 +190,7 @@ impl<T: Scalar, const DOUBLE_COVER: bool> LieGroup for Quaternions<T, DOUBLE_COV
 
     fn matrix_entry(&self, g: &Self::Element, row: usize, column: usize) -> T {
         if DOUBLE_COVER {
-            return rotation::matrix_of_cover(numbers(g))[row][column];
+            return Formulas::<true>::matrix(numbers(g))[row][column];
         }
         let mut unit = V::repeat(T::of(0.0));
         unit[column] = T::of(1.0);
@@ -247,15 +207,10 @@ impl<T: Scalar, const DOUBLE_COVER: bool> LieGroup for Quaternions<T, DOUBLE_COV
 }
 
 impl<T: Scalar, const DOUBLE_COVER: bool> CayleyGroup for Quaternions<T, DOUBLE_COVER> {
-    fn cayley(&self, x: &Self::Vector) -> Self::Element {
-        let x = array(x);
-        let turn = if DOUBLE_COVER { Turn::cayley_of_cover(x) } else { Turn::cayley(x) };
-        quaternion(turn.quaternion())
-    }
+    cayley_by_formulas!(Formulas::<DOUBLE_COVER>);
 
-    fn cayley_extent(&self, x: &Self::Vector) -> T {
-        // On the double cover eigenvalues of x are ±i|x|/2.
-        rotation::extent(array(x), if DOUBLE_COVER { 4.0 } else { 2.0 })
+    fn cayley(&self, x: &Self::Vector) -> Self::Element {
+        quaternion(Formulas::<DOUBLE_COVER>::cayley(array(x)).quaternion())
     }
 
     fn cayley_inverse(&self, g: &Self::Element) -> Option<Self::Vector> {
@@ -273,13 +228,5 @@ impl<T: Scalar, const DOUBLE_COVER: bool> CayleyGroup for Quaternions<T, DOUBLE_
         }
         let factor = T::of(2.0) / q.w;
         Some(V::new(q.i, q.j, q.k) * factor)
-    }
-
-    fn dcay_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        let (x, mu) = (array(x), array(mu));
-        if DOUBLE_COVER {
-            return rotation::cayley_pull_back_of_cover(x, mu).0.into();
-        }
-        rotation::cayley_pull_back(x, mu).0.into()
     }
 }

@@ -6,13 +6,12 @@
 //! sufficient conditions in place of eigenvalues: what the programs refuse may still be a right step, which whoever drives
 //! them finds by other means.
 
+mod closed;
 mod collocation;
 mod drift;
 mod error;
-mod motion;
 mod product;
 mod programs;
-mod rotation;
 mod solving;
 #[cfg(feature = "spatial")]
 mod spatial;
@@ -31,10 +30,9 @@ use crate::lie::{Chart, LieAlgebra, catalogue};
 use crate::problem::Symbol;
 use crate::signal::Signal;
 use crate::smooth::{Facts, Smooth};
-use crate::step::rotation::Rotation;
 use crate::step::solving::Scheme;
 use crate::step::tables::Tables;
-use motion::{Motions, Plane};
+use closed::closed;
 use product::{Memory, Part, Product, Translations};
 
 pub use drift::{
@@ -332,17 +330,10 @@ fn part(algebra: &LieAlgebra, chart: Chart, scheme: Scheme) -> Result<Box<dyn Pa
     let is = |name: &str| {
         catalogue::lookup(name).is_ok_and(|known| known.renamed(algebra.name()) == *algebra)
     };
-    if is("SO3") {
-        return Ok(Box::new(Rotation { chart, double_cover: false }));
-    }
-    if is("SU2") {
-        return Ok(Box::new(Rotation { chart, double_cover: true }));
-    }
-    if is("SE3") {
-        return Ok(Box::new(Motions { chart }));
-    }
-    if is("SE2") {
-        return Ok(Box::new(Plane { chart }));
+    for name in ["SO3", "SU2", "SE3", "SE2"] {
+        if let Some(part) = is(name).then(|| closed(name, chart)).flatten() {
+            return Ok(part);
+        }
     }
     if is(&format!("R{}", algebra.dim())) {
         return Ok(Box::new(Translations { dim: algebra.dim() }));

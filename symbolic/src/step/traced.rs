@@ -48,7 +48,7 @@ impl<'g> Traced<'g> {
         }
     }
 
-    /// What a function makes of numbers: by `fold` where all are known, else nodes by `write`.
+    /// The value of a function: by `fold` where all numbers are known, else as the node that `write` makes.
     fn make<const N: usize>(
         list: [Self; N],
         fold: impl Fn([f64; N]) -> f64,

@@ -254,7 +254,9 @@ fn shares_no_code_with_the_steps_it_judges() {
             let names = names.split('\n').next().unwrap().trim_start_matches("::");
             assert!(formula.contains(&names), "{}: {names}", path.display());
         }
-        for foreign in [".run(", "smooth.gradient", "smooth.energy", "smooth.watched"] {
+        for foreign in
+            ["coadjoint_geometry", ".run(", "smooth.gradient", "smooth.energy", "smooth.watched"]
+        {
             assert!(!text.contains(foreign), "{}: {foreign}", path.display());
         }
         for module in text.split(" crate::").skip(1) {
