@@ -96,11 +96,7 @@ struct Moving<'a> {
 
 impl<'a> Moving<'a> {
     /// ∂H/∂μ at this momentum, where it depends on time.
-    fn velocity(
-        smooth: &'a Smooth,
-        parameters: &[f64],
-        mu: &'a [f64],
-    ) -> Option<Self> {
+    fn velocity(smooth: &'a Smooth, parameters: &[f64], mu: &'a [f64]) -> Option<Self> {
         if smooth.given.is_none() && !smooth.depends_on_time() {
             return None;
         }

@@ -131,6 +131,16 @@ where
             self.pass(middle, &point, (&last, &next), HALVINGS, &mut course)?;
             last = next;
         }
+        // The end itself, from which the polynomials are a little away.
+        let (_, end) = self.group().exp_transport(&attempt.x, mu);
+        let time = self.step().times_plus(0.5, middle);
+        let omega = self.energy().gradient(time, &end);
+        if (0..dim).any(|i| !omega[i].all_finite()) {
+            return Err(Lost::Undefined(time, end));
+        }
+        if let Some(square) = self.energy().reach((time, &last.momentum), (time, &end)) {
+            within(square, LARGEST_REACH[M - 1])?;
+        }
         let mut half = mu.clone();
         for part in [-0.25, 0.25] {
             let step = 0.5 * self.step();
@@ -145,8 +155,7 @@ where
             }
             half = self.group().exp_transport(&x, &half).1;
         }
-        let (_, end) = self.group().exp_transport(&attempt.x, mu);
-        within(end.minus(&half).largest_entry() / mu.largest_entry(), LARGEST_DIFFERENCE)
+        within(end.minus(&half).largest_entry() / scale(mu), LARGEST_DIFFERENCE)
     }
 
     /// Goes on from one point to another, by halves where the functions of H vary much between them.
@@ -162,8 +171,7 @@ where
         F: Fn(f64) -> Result<Point<G::Vector>, Lost<G::Vector>>,
     {
         let time = |point: &Point<G::Vector>| point.at.times_plus(self.step(), middle);
-        let reach =
-            self.energy().reach((time(from), &from.momentum), (time(to), &to.momentum));
+        let reach = self.energy().reach((time(from), &from.momentum), (time(to), &to.momentum));
         if halvings > 0 && reach.is_some_and(|square| square.is_nan() || square > FINE) {
             course.points += 1;
             if course.points > MOST {
@@ -198,8 +206,8 @@ where
     ) -> Result<Point<G::Vector>, Lost<G::Vector>> {
         let (dim, degree) = (mu.dim(), degree(M));
         let [values, integrals] = Self::NODES.at(at);
-        let [rate, force] =
-            [&attempt.rates.x, &attempt.rates.p].map(|rows| total::<G::Vector, M>(dim, &values, rows));
+        let [rate, force] = [&attempt.rates.x, &attempt.rates.p]
+            .map(|rows| total::<G::Vector, M>(dim, &values, rows));
         let [x, moved] = [&attempt.rates.x, &attempt.rates.p]
             .map(|rows| total::<G::Vector, M>(dim, &integrals, rows));
         let one = |vector: G::Vector| G::Vector::by_node::<1>(dim, |_| vector.clone());
@@ -215,12 +223,18 @@ where
         let omega = one(G::Vector::from_entries(dim, |i| omega[i] * self.step()));
         let [x, p] = self.group().node_rates::<1>(&x, &p, &omega, degree);
         let x = G::Vector::from_entries(dim, |i| x[i][0] - rate[i]);
-        let scale = 1.0 / mu.largest_entry();
-        let p = G::Vector::from_entries(dim, |i| (p[i][0] - force[i]) * scale);
+        let scale = scale(mu);
+        let p = G::Vector::from_entries(dim, |i| (p[i][0] - force[i]) / scale);
         within(x.largest_entry(), LARGEST_DEFECT)?;
         within(p.largest_entry(), LARGEST_DEFECT)?;
         Ok(Point { at, momentum, x, p })
     }
+}
+
+/// The largest coordinate of a momentum, to which others are relative; 1 where it is 0.
+fn scale<V: Coordinates<f64>>(mu: &V) -> f64 {
+    let size = mu.largest_entry();
+    if size > 0.0 { size } else { 1.0 }
 }
 
 /// # Errors

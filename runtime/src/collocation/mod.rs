@@ -38,8 +38,8 @@ use crate::linear::coordinates::Coordinates;
 use crate::number::Scalar;
 use crate::step::{StepReport, check};
 
-use rates::{Rates, largest, total};
 use following::Lost;
+use rates::{Rates, largest, total};
 use solving::{Attempt, Ending, Equations};
 
 /// Steps of size h of the flow of H(t, μ), by collocation at `M` nodes (1 to 8): order 2M.

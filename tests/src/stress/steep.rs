@@ -215,7 +215,8 @@ fn draw<G: LieGroup<Scalar = f64>>(
             (false, 1) => Shape::Tanh,
             (false, _) => Shape::ExpTanh,
         };
-        let height = 10_f64.powf(random.between(-3.0, 0.0)) * if random.one_in(2) { -1.0 } else { 1.0 };
+        let height =
+            10_f64.powf(random.between(-3.0, 0.0)) * if random.one_in(2) { -1.0 } else { 1.0 };
         let width = if edges { 1.0 } else { 10_f64.powf(random.between(-0.5, 1.5)) };
         energy.terms.push(Term { shape, height, width, slope, offset: 0.0 });
     }
@@ -269,7 +270,9 @@ fn steps<G, const M: usize>(
     G: LieGroup<Scalar = f64> + 'static,
 {
     let (energy, h, mut mu) = draw(group, edges, random);
-    let Ok(mut step) = Collocation::<_, _, M>::new(group.clone(), energy.clone(), h) else { return };
+    let Ok(mut step) = Collocation::<_, _, M>::new(group.clone(), energy.clone(), h) else {
+        return;
+    };
     let far = |a: &G::Vector, b: &G::Vector| a.clone().minus(b).largest_entry();
     let sides = |m: &G::Vector| energy.terms.iter().map(|t| t.side(m)).collect::<Vec<_>>();
     for _ in 0..STEPS {
@@ -292,7 +295,9 @@ fn steps<G, const M: usize>(
         };
         let share = far(&mu, &exact) / before.largest_entry() / FARTHEST;
         if share.is_nan() || share > 1.0 || sides(&mu) != sides(&exact) {
-            tally.note(Wrong::Branch, || format!("{:.1e} from the flow: {}", share * FARTHEST, example()));
+            tally.note(Wrong::Branch, || {
+                format!("{:.1e} from the flow: {}", share * FARTHEST, example())
+            });
         } else if share > tally.residual {
             (tally.residual, tally.worst) = (share, example());
         }
