@@ -2,8 +2,6 @@
 //! (E. Hairer, C. Lubich, G. Wanner, *Geometric Numerical Integration*, II.1.3), the series of its chart, and the limits of its
 //! solution and acceptance, which come from experiments (`docs/measurements/collocation.md`).
 
-use alloc::vec::Vec;
-
 /// Steps whose rates are kept, for the first guess of the next one.
 pub const KEPT: usize = 7;
 
@@ -87,13 +85,13 @@ const GAUSS: [&[(f64, f64)]; MAX_NODES] = [
 
 /// The times of nodes, of which there are 1 to [`MAX_NODES`], from the beginning of a step on and in its lengths, and their
 /// weights.
-pub fn nodes(count: usize) -> Vec<(f64, f64)> {
+pub fn nodes(count: usize) -> impl Iterator<Item = (f64, f64)> {
     let halves = GAUSS[count.clamp(1, MAX_NODES) - 1].iter();
     let both = |&(root, weight): &(f64, f64)| {
         let signs: &[f64] = if root == 0.0 { &[1.0] } else { &[-1.0, 1.0] };
         signs.iter().map(move |sign| (0.5 + 0.5 * sign * root, 0.5 * weight))
     };
-    halves.flat_map(both).collect()
+    halves.flat_map(both)
 }
 
 /// The coefficients of `M` nodes, for a step of length one.

@@ -106,7 +106,7 @@ impl<'a> Moving<'a> {
         let flows: Vec<f64> = splitting.map_or(vec![1.0], |splitting| splitting.flows().collect());
         let (mut start, mut looks) = (0.0, Vec::new());
         for flow in flows {
-            let own = nodes(smooth.nodes()).into_iter();
+            let own = nodes(smooth.nodes());
             looks.extend(own.map(|(at, weight)| (flow.mul_add(at, start), flow * weight)));
             start += flow;
         }
