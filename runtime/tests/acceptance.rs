@@ -561,7 +561,7 @@ fn a_pole_on_the_way_is_found_where_the_argument_is_told() {
 #[test]
 fn a_thin_pole_is_found_between_the_points_looked_at() {
     let energy = Bent { height: 1e-7, ..pole(true) };
-    assert!(bent::<2>(&energy, 0.1, [0.4, -2.4, 2.9], 1).is_err());
+    assert!(bent::<2>(&energy, 0.3, [0.42, -2.4, 2.9], 1).is_err());
 }
 
 /// Waves of which there are several between nodes.
