@@ -421,10 +421,12 @@ impl Core {
             }
             let truncation = system.problem.facts().truncation;
             let frame = system.problem.polynomial().map_or("fixed", Problem::frame_name);
+            let momentum = system.run.momentum.clone();
             let derived = derive(&cache, &here.name, system, Some(varied))?;
             let lanes = (count as f64 / coadjoint_program::WIDTH as f64).max(1.0);
             let how = How { backend, work: schedule.steps as f64 * lanes, device: None };
             derived.reaches(&schedule)?;
+            derived.resolves(schedule.grid(), schedule.steps, momentum.as_deref())?;
             let engine = Engine::new(&derived, schedule.grid(), how)?;
             control.total.store(schedule.steps * count as u64, Ordering::Relaxed);
             // Threads of its own: those of a parent process are not there in a fork.

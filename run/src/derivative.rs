@@ -45,6 +45,7 @@ impl<'a> Derivatives<'a> {
         }
         let schedule = &setup.schedule;
         system.reaches(schedule)?;
+        system.resolves(schedule.grid(), schedule.steps, Some(&setup.momentum))?;
         let (grid, steps) = (schedule.grid(), schedule.steps as f64);
         let compiled = system.compiled(grid.step, setup.backend, steps, Trajectories::One)?;
         let motion = system.steps(grid, compiled.as_ref()).map_err(RunError::unmade)?;

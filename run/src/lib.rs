@@ -13,6 +13,7 @@ mod grid;
 mod inputs;
 mod load;
 pub mod number;
+mod resolution;
 pub mod series;
 pub mod simulate;
 mod velocity;

@@ -1,6 +1,7 @@
 //! Acceptance of steps: for each of its conditions a case that goes wrong without it.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+use coadjoint::collocation::{Collocation, Energy};
 use coadjoint::generating::{GeneratingFunction, PolynomialFunction};
 use coadjoint::groups::{Cayley, Chart, Exponential, Power};
 use coadjoint::lanes::F64x4;
@@ -449,5 +450,137 @@ fn a_refused_lane_refuses_its_neighbours() {
         let before = format!("{bad:?}");
         assert!(advance(&step, &mut bad).is_err());
         assert_eq!(format!("{bad:?}"), before);
+    }
+}
+
+/// H = ½ Σ aᵢ μᵢ² + height·f(width·(slope·μ − offset)), f with a pole, a step or waves.
+#[derive(Clone, Debug)]
+struct Bent {
+    form: Vector3<f64>,
+    height: f64,
+    width: f64,
+    slope: Vector3<f64>,
+    offset: f64,
+    shape: Shape,
+    /// Whether it says how far the argument of f goes.
+    tells: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Shape {
+    Pole,
+    Sin,
+}
+
+impl Bent {
+    fn argument(&self, mu: &Vector3<f64>) -> f64 {
+        self.width * (self.slope.dot(mu) - self.offset)
+    }
+}
+
+impl Energy<Vector3<f64>> for Bent {
+    fn value(&self, _: f64, mu: &Vector3<f64>) -> f64 {
+        let u = self.argument(mu);
+        let f = if self.shape == Shape::Pole { 1.0 / u } else { u.sin() };
+        0.5 * mu.dot(&self.form.component_mul(mu)) + self.height * f
+    }
+
+    fn gradient(&self, _: f64, mu: &Vector3<f64>) -> Vector3<f64> {
+        let u = self.argument(mu);
+        let f = if self.shape == Shape::Pole { -1.0 / (u * u) } else { u.cos() };
+        self.form.component_mul(mu) + self.height * self.width * f * self.slope
+    }
+
+    fn reach(&self, from: (f64, &Vector3<f64>), to: (f64, &Vector3<f64>)) -> Option<f64> {
+        let [a, b] = [from, to].map(|(_, mu)| self.argument(mu));
+        let way = (a - b) * (a - b);
+        let square = match self.shape {
+            Shape::Pole if a * b <= 0.0 => f64::INFINITY,
+            Shape::Pole => way / (a * b),
+            Shape::Sin => way,
+        };
+        self.tells.then_some(square)
+    }
+}
+
+fn bent<const M: usize>(
+    energy: &Bent,
+    h: f64,
+    mu: [f64; 3],
+    steps: u64,
+) -> Result<Vector3<f64>, StepError> {
+    let mut step = Collocation::<_, _, M>::new(SO3::new(), energy.clone(), h)?;
+    let mut state = Phase::<SO3>::at_identity(mu);
+    let made = step.advance_by(&mut state, 0.0, steps);
+    if let Err(stopped) = made {
+        if steps == 1 {
+            assert_eq!(state.momentum, Vector3::from(mu), "a refused step leaves the state");
+        }
+        return Err(stopped.error);
+    }
+    Ok(state.momentum)
+}
+
+/// 0.001/(x − ½): no motion crosses x = ½, where the energy is not bounded, but nodes on both sides do not see that.
+fn pole(tells: bool) -> Bent {
+    Bent {
+        form: Vector3::new(0.0, 0.5, 0.4),
+        height: 0.001,
+        width: 1.0,
+        slope: Vector3::x(),
+        offset: 0.5,
+        shape: Shape::Pole,
+        tells,
+    }
+}
+
+const BEFORE_POLE: [f64; 3] = [0.3495704430547453, -2.435889495813801, 2.868644487250762];
+
+#[test]
+fn steps_over_a_pole_are_refused() {
+    for tells in [true, false] {
+        let energy = pole(tells);
+        assert!(bent::<2>(&energy, 0.5, BEFORE_POLE, 1).is_err(), "{tells}");
+        assert!(bent::<1>(&energy, 0.25, BEFORE_POLE, 1).is_err(), "{tells}");
+        assert!(bent::<8>(&energy, 0.5, BEFORE_POLE, 1).is_err(), "{tells}");
+    }
+    // Short steps turn back before it.
+    let end = bent::<4>(&pole(true), 5e-4, BEFORE_POLE, 1000).unwrap();
+    assert!(end.x < 0.5, "{end}");
+}
+
+/// Later steps of a closure, too: the first ones are followed because nothing comes before them.
+#[test]
+fn a_pole_on_the_way_is_found_where_the_argument_is_told() {
+    let mu = [-1.2, -2.2, 2.9];
+    let made = bent::<1>(&pole(true), 0.02, mu, 500);
+    assert!(made.is_err() || made.unwrap().x < 0.5);
+}
+
+/// A pole of no height is followed up to where it is: at the zero of the argument, by halves.
+#[test]
+fn a_thin_pole_is_found_between_the_points_looked_at() {
+    let energy = Bent { height: 1e-7, ..pole(true) };
+    assert!(bent::<2>(&energy, 0.3, [0.42, -2.4, 2.9], 1).is_err());
+}
+
+/// Waves of which there are several between nodes.
+#[test]
+fn waves_shorter_than_a_step_are_refused() {
+    let waves = |height, tells| Bent {
+        form: Vector3::new(1.0, 0.5, 0.3),
+        height,
+        width: 40.0,
+        slope: Vector3::new(0.3, -0.7, 1.0),
+        offset: 0.0,
+        shape: Shape::Sin,
+        tells,
+    };
+    let mu = [0.5, 1.0, -1.2];
+    for h in [0.3, 0.35, 0.4, 0.45, 0.5] {
+        assert!(bent::<1>(&waves(0.05, true), h, mu, 1).is_err(), "{h}");
+        assert!(bent::<4>(&waves(0.05, true), h, mu, 1).is_err(), "{h}");
+        // Those that move nothing are followed, and accepted.
+        assert!(bent::<4>(&waves(1e-6, true), h, mu, 1).is_ok(), "{h}");
     }
 }

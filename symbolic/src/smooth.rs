@@ -34,6 +34,9 @@ pub struct Smooth {
     pub gradient: Program,
     /// As [`Programs::watched`](crate::potential::Programs::watched).
     pub watched: Program,
+    /// The square of the farthest way that an argument of H's functions goes from one state to another, in the units in which
+    /// its function varies; infinite over a pole or the edge of a domain. Its inputs are those of both states.
+    pub reach: Program,
     /// The texts of these expressions.
     pub expressions: Vec<String>,
     /// The expressions in parameters, which the slots are.
@@ -173,6 +176,13 @@ impl Smooth {
             return function.gradient(time, mu);
         }
         self.gradient.run(&self.inputs(time, mu), symbols)
+    }
+
+    /// The square of the [reach](Smooth::reach) from one (t, μ) to another; none of a function of the user's.
+    pub fn reach(&self, symbols: &[f64], from: (f64, &[f64]), to: (f64, &[f64])) -> Option<f64> {
+        let mut inputs = self.inputs(from.0, from.1);
+        inputs.extend(self.inputs(to.0, to.1));
+        self.reach.run(&inputs, symbols).first().copied()
     }
 
     /// The first expression that is not defined, or has no derivative, at (t, μ), by its number, and its argument there.

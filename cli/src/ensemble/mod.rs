@@ -71,6 +71,7 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let (step, steps) = (schedule.step, schedule.steps);
     let at = options.at.as_deref().map(|at| Times::read(at, &schedule)).transpose()?;
     states.times = at.as_ref().map(|times| times.0.clone());
+    let momentum = system.run.momentum.clone();
     let derived = Derived::of_file(path, in_lanes(system)?)?;
     let facts = derived.facts();
     let precision = options.precision;
@@ -79,6 +80,7 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let work = if device.is_some() { 0.0 } else { work(options, facts.algebra.dim(), steps) };
     let how = How { backend: options.backend, work, device };
     derived.reaches(&schedule)?;
+    derived.resolves(schedule.grid(), steps, momentum.as_deref())?;
     let engine = Engine::new(&derived, schedule.grid(), how)?;
     let [chart, frame] = match derived.series().map(|series| &series.integrator.problem) {
         Some(problem) => [problem.chart.to_string(), problem.frame_name().to_owned()],

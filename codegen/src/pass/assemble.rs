@@ -173,6 +173,7 @@ fn assemble_smooth(
         value: lowered.value,
         gradient: lowered.gradient,
         watched: lowered.watched,
+        reach: lowered.reach,
         expressions: lowered.expressions,
         symbols: lowered.symbols,
         parameters: energy.parameters,
@@ -321,7 +322,7 @@ fn smooth_potential(
     for found in found.list() {
         diagnostics.report(found.span, found.mistake.in_potential());
     }
-    let Lowered { value, gradient, watched, expressions, symbols } = lowered?;
+    let Lowered { value, gradient, watched, expressions, symbols, .. } = lowered?;
     if gradient.nodes().iter().all(|node| *node == coadjoint_program::Node::Zero) {
         diagnostics.report(place, Mistake::NoDependence.in_potential());
         return None;

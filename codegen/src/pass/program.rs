@@ -13,6 +13,8 @@ use crate::problem::Symbol;
 
 /// The largest numerator and denominator of a power.
 const LARGEST_POWER: u32 = 1000;
+/// From this size of its argument on tanh is constant to 3e-8, which a large factor before it may make up for.
+const SATURATED: f64 = 9.0;
 /// Expressions with longer texts are told apart by their ends.
 const LONGEST_TEXT: usize = 80;
 
@@ -22,8 +24,48 @@ pub(super) struct Lowered {
     pub value: Program,
     pub gradient: Program,
     pub watched: Program,
+    pub reach: Program,
     pub expressions: Vec<String>,
     pub symbols: Vec<Symbol>,
+}
+
+/// How the function that an argument is given to varies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Scale {
+    /// By about itself when the argument changes by 1: the exponential, waves.
+    Unit,
+    /// Not at all from an argument of this size on.
+    Bounded(f64),
+    /// As the argument does, from a size of about 1 on.
+    Beyond,
+    /// As the argument does, with a pole or an edge where that is 0.
+    Ratio,
+    /// As this many products of the argument with itself.
+    Products(f64),
+}
+
+impl Scale {
+    /// The square of the way from an argument a to b, in these units; negative, infinite or no number where there is 0 between them.
+    fn square(self, graph: &Graph, a: Id, b: Id) -> Id {
+        let squared = |a| graph.mul(a, a);
+        let one = graph.constant(1.0);
+        let way = squared(graph.sub(a, b));
+        match self {
+            Self::Unit => way,
+            Self::Bounded(limit) => {
+                let [low, high] = [-limit, limit].map(|limit| graph.constant(limit));
+                let [a, b] = [a, b].map(|u| graph.max(graph.min(u, high), low));
+                squared(graph.sub(a, b))
+            }
+            Self::Beyond => graph.div(way, graph.add(one, graph.abs(graph.mul(a, b)))),
+            Self::Ratio => graph.div(way, graph.mul(a, b)),
+            Self::Products(count) => {
+                let share = graph.div(way, graph.max(squared(a), squared(b)));
+                let share = graph.select(way, graph.zero(), graph.zero(), share);
+                graph.mul(graph.constant(0.25 * count * count), share)
+            }
+        }
+    }
 }
 
 /// A value on the way.
@@ -61,6 +103,7 @@ pub(super) fn lower(
         graph: Graph::new(),
         slots: BTreeMap::new(),
         watched: Vec::new(),
+        scales: Vec::new(),
         values: Vec::new(),
         placed: Vec::new(),
         texts: texts(arena, names),
@@ -76,7 +119,7 @@ pub(super) fn lower(
     let roots: Option<Vec<Id>> =
         roots.iter().map(|&root| Some(pass.take(root)?).map(|root| pass.number(&root))).collect();
     let roots = roots?;
-    let Pass { graph, table, slots, watched, texts, .. } = pass;
+    let Pass { graph, table, slots, watched, scales, texts, .. } = pass;
     let n = coordinates.len();
     let inputs: Vec<Id> = (0..n).map(|i| graph.input(i)).collect();
     let one = graph.constant(1.0);
@@ -84,6 +127,7 @@ pub(super) fn lower(
     let gradient = graph.pull_back(&weighted, &inputs);
     let finish = |outputs: &[Id]| graph.finish(n + 1 + signals.len(), outputs);
     let pairs: Vec<Id> = watched.iter().flat_map(|&(_, argument, test)| [argument, test]).collect();
+    let reach = reach(&scales, &finish(&scales.iter().map(|&(_, u)| u).collect::<Vec<_>>()));
     let mut numbered: Vec<_> = slots.into_iter().collect();
     numbered.sort_by_key(|(_, slot)| *slot);
     let symbols = numbered.into_iter().map(|(coefficient, _)| {
@@ -95,9 +139,33 @@ pub(super) fn lower(
         value: finish(&roots),
         gradient: finish(&gradient),
         watched: finish(&pairs),
+        reach,
         expressions: watched.iter().map(|&(id, ..)| texts[id.index()].0.clone()).collect(),
         symbols: symbols.collect(),
     })
+}
+
+/// The largest [`Scale::square`] of arguments, by the program that computes them, from one state to another, whose inputs come
+/// one after the other. What is not positive where it is not 0 becomes infinite.
+fn reach(scales: &[(Scale, Id)], arguments: &Program) -> Program {
+    let graph = Graph::new();
+    let count = arguments.inputs();
+    let [from, to] = [0, count].map(|first| {
+        let inputs: Vec<Id> = (first..first + count).map(|i| graph.input(i)).collect();
+        graph.call(arguments, &inputs)
+    });
+    let zero = graph.zero();
+    // Single precision has a place for it.
+    let infinite = graph.constant(f64::from(f32::MAX));
+    let mut largest = zero;
+    for (&(scale, _), (&a, &b)) in scales.iter().zip(from.iter().zip(&to)) {
+        let square = scale.square(&graph, a, b);
+        // Not a number, too.
+        let square = graph.select(zero, square, square, infinite);
+        let square = graph.select(graph.abs(graph.sub(a, b)), zero, zero, square);
+        largest = graph.max(largest, square);
+    }
+    graph.finish(2 * count, &[largest])
 }
 
 struct Pass<'a> {
@@ -110,6 +178,8 @@ struct Pass<'a> {
     slots: BTreeMap<Coefficient, usize>,
     /// Expressions that may leave their domains: each with its argument, and a number that is not finite where it has.
     watched: Vec<(ExprId, Id, Id)>,
+    /// The arguments of functions that vary faster than their arguments.
+    scales: Vec<(Scale, Id)>,
     values: Vec<Option<Value>>,
     /// Whether each expression depends on coordinates, and not on the time alone.
     placed: Vec<bool>,
@@ -172,6 +242,7 @@ impl Pass<'_> {
                 let quotient = self.graph.div(a, b);
                 let test = self.graph.div(quotient, b);
                 self.watched.push((id, b, test));
+                self.scales.push((Scale::Ratio, b));
                 quotient
             }
             _ => self.graph.neg(a),
@@ -206,6 +277,7 @@ impl Pass<'_> {
                 let one = self.graph.constant(1.0);
                 let slope = self.graph.div(one, root);
                 self.watched.push((id, a, slope));
+                self.scales.push((Scale::Ratio, a));
                 return Some(root);
             }
             Function::Abs => {
@@ -230,6 +302,16 @@ impl Pass<'_> {
             Function::Exp => Elementary::Exp,
             Function::Ln => Elementary::Ln,
         };
+        let scale = match elementary {
+            Elementary::Ln => Scale::Ratio,
+            Elementary::Atan => Scale::Beyond,
+            Elementary::Tanh => Scale::Bounded(SATURATED),
+            _ => Scale::Unit,
+        };
+        self.scales.push((scale, a));
+        if elementary == Elementary::Tan {
+            self.scales.push((Scale::Ratio, self.graph.function(Elementary::Cos, a)));
+        }
         let value = self.graph.function(elementary, a);
         if !matches!(elementary, Elementary::Atan | Elementary::Tanh) {
             self.watched.push((id, a, value));
@@ -252,6 +334,9 @@ impl Pass<'_> {
                     let lower = m.saturating_sub_unsigned(n);
                     let test = self.graph.function(Elementary::Power(lower, n), *a);
                     self.watched.push((id, *a, test));
+                    self.scales.push((Scale::Ratio, *a));
+                } else if m > 2 {
+                    self.scales.push((Scale::Products(f64::from(m - 1)), *a));
                 }
                 Some(Value::Number(value))
             }
@@ -266,11 +351,13 @@ impl Pass<'_> {
                     Value::Number(a) => {
                         let value = self.graph.function(Elementary::Ln, *a);
                         self.watched.push((id, *a, value));
+                        self.scales.push((Scale::Ratio, *a));
                         value
                     }
                 };
                 let b = self.number(b);
                 let product = self.graph.mul(b, logarithm);
+                self.scales.push((Scale::Unit, product));
                 Some(Value::Number(self.graph.function(Elementary::Exp, product)))
             }
         }

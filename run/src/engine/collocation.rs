@@ -81,6 +81,11 @@ impl Energy<DVector<f64>> for Interpreted<'_> {
         DVector::from_vec(self.smooth.gradient(&self.symbols, time, mu.as_slice()))
     }
 
+    fn reach(&self, from: (f64, &DVector<f64>), to: (f64, &DVector<f64>)) -> Option<f64> {
+        let [from, to] = [from, to].map(|(time, mu)| (time, mu.as_slice()));
+        self.smooth.reach(&self.symbols, from, to)
+    }
+
     fn undefined(&self, time: f64, mu: &DVector<f64>) -> Option<Undefined> {
         let (number, argument) = self.smooth.undefined(&self.symbols, time, mu.as_slice())?;
         Some(Undefined { expression: kept(&self.smooth.expressions[number]), argument })

@@ -36,6 +36,7 @@ pub fn run(system: &Derived, setup: &Setup, sink: &mut dyn Sink) -> Result<Outco
     }
     let schedule = &setup.schedule;
     system.reaches(schedule)?;
+    system.resolves(schedule.grid(), schedule.steps, Some(&setup.momentum))?;
     let (grid, expected) = (schedule.grid(), schedule.steps as f64);
     let compiled = system.compiled(grid.step, setup.backend, expected, Trajectories::One)?;
     let motion = system.steps(grid, compiled.as_ref()).map_err(RunError::unmade)?;

@@ -33,6 +33,15 @@ pub trait Energy<V: Coordinates<f64>> {
         differences::forward(mu, spacing, |mu| self.gradient(time, mu))
     }
 
+    /// The square of the farthest way that an argument of H's functions goes from one (t, μ) to another, in the units in which
+    /// its function varies: 1 for a wave, the argument itself for a root, a logarithm and a quotient; very large where a
+    /// pole or the edge of a domain lies between. None where H is a closure of which this is not known: steps from a first
+    /// guess, and those that take long to solve, are then followed between their nodes.
+    fn reach(&self, from: (f64, &V), to: (f64, &V)) -> Option<f64> {
+        let _ = (from, to);
+        None
+    }
+
     /// Where the value or the gradient is not finite at (t, μ): the expression in H that is outside its domain there.
     fn undefined(&self, time: f64, mu: &V) -> Option<Undefined> {
         let _ = (time, mu);
@@ -81,6 +90,10 @@ impl<V: Coordinates<f64>, E: Energy<V> + ?Sized> Energy<V> for &E {
     #[inline(always)]
     fn hessian(&self, time: f64, mu: &V) -> V::Matrix {
         (**self).hessian(time, mu)
+    }
+
+    fn reach(&self, from: (f64, &V), to: (f64, &V)) -> Option<f64> {
+        (**self).reach(from, to)
     }
 
     fn undefined(&self, time: f64, mu: &V) -> Option<Undefined> {

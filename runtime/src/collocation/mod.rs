@@ -16,6 +16,7 @@
 
 mod damping;
 mod energy;
+mod following;
 mod rates;
 mod solution;
 mod solving;
@@ -25,7 +26,9 @@ pub use damping::Damping;
 pub use energy::{Energy, Undefined};
 pub use solution::{Node, Solution};
 
-use coadjoint_program::collocation::{KEPT, KEPT_LONG, LARGEST_FORCE, LARGEST_TAIL, LONG, Nodes};
+use coadjoint_program::collocation::{
+    KEPT, KEPT_LONG, LARGEST_FORCE, LARGEST_TAIL, LONG, NEAR_LIMIT, Nodes,
+};
 use nalgebra::SimdComplexField;
 
 use crate::error::{Circumstances, StepError, Stopped};
@@ -35,6 +38,7 @@ use crate::linear::coordinates::Coordinates;
 use crate::number::Scalar;
 use crate::step::{StepReport, check};
 
+use following::Lost;
 use rates::{Rates, largest, total};
 use solving::{Attempt, Ending, Equations};
 
@@ -131,7 +135,7 @@ where
         let middle = self.step.times_plus(0.5, time);
         let attempt = if self.noted > 0 {
             let attempt = self.equations(mu, middle).solve(self.guess(mu.dim()));
-            match self.judge(mu, &attempt) {
+            match self.judge(mu, middle, &attempt) {
                 Ok(()) => attempt,
                 Err(_) => self.anew(mu, middle)?,
             }
@@ -181,7 +185,7 @@ where
     fn anew(&mut self, mu: &G::Vector, middle: f64) -> Result<Attempt<G::Vector, M>, StepError> {
         self.noted = 0;
         let attempt = self.equations(mu, middle).solve(Rates::zero(mu.dim()));
-        self.judge(mu, &attempt)?;
+        self.judge(mu, middle, &attempt)?;
         Ok(attempt)
     }
 
@@ -201,9 +205,14 @@ where
         guess
     }
 
-    /// Whether an attempt is the step: solved, in the chart, and with velocities that the nodes resolve. Other branches of
-    /// the equations are far from the identity, and vary too much for their nodes.
-    fn judge(&self, mu: &G::Vector, attempt: &Attempt<G::Vector, M>) -> Result<(), StepError> {
+    /// Whether an attempt is the step: solved, in the chart, and with velocities that the nodes resolve, between which it is followed
+    /// where it is no ordinary step.
+    fn judge(
+        &self,
+        mu: &G::Vector,
+        middle: f64,
+        attempt: &Attempt<G::Vector, M>,
+    ) -> Result<(), StepError> {
         let at = Circumstances { x: attempt.x.largest_entry(), ratio: 0.0, usable_step: None };
         match &attempt.ending {
             Ending::Solved => {}
@@ -219,16 +228,21 @@ where
         }
         let limit = LARGEST_TAIL[M - 1];
         let [tail, force] = match M {
-            1 => [self.bend(mu, attempt), 0.0],
+            1 => [self.bend(mu, middle, attempt), 0.0],
             _ => self.tails(mu, &attempt.rates),
         };
-        if tail.is_nan() || tail > limit {
-            return Err(StepError::Unresolved { tail, limit, at });
+        for (tail, limit) in [(tail, limit), (force, LARGEST_FORCE)] {
+            if tail.is_nan() || tail > limit {
+                return Err(StepError::Unresolved { tail, limit, at });
+            }
         }
-        match force <= LARGEST_FORCE {
-            true => Ok(()),
-            false => Err(StepError::Unresolved { tail: force, limit: LARGEST_FORCE, at }),
+        if !self.is_unusual(mu, middle, attempt, (tail / limit).max(force / LARGEST_FORCE)) {
+            return Ok(());
         }
+        self.follow(mu, middle, attempt).map_err(|lost| match lost {
+            Lost::Measured(tail, limit) => StepError::Unresolved { tail, limit, at },
+            Lost::Undefined(time, node) => self.undefined(mu, time, &node, at),
+        })
     }
 
     /// The highest polynomials through two nodes and more: of the velocity, as a share of it, and of the force, times the
@@ -245,15 +259,21 @@ where
 
     /// The error of a step with one node, about, which has no polynomial to show it: the product of its velocity, of its
     /// force f relative to the momentum, and of what the force changes: the velocity, by the gain of the equations, and
-    /// the momentum, by f. All are times the step, so this is of third order.
-    fn bend(&self, mu: &G::Vector, attempt: &Attempt<G::Vector, M>) -> f64 {
+    /// the momentum, by f. All are times the step, so this is of third order. The gain is that at the first guess as long as
+    /// this is far below its limit, else that at the solution.
+    fn bend(&self, mu: &G::Vector, middle: f64, attempt: &Attempt<G::Vector, M>) -> f64 {
         let size = |rows| largest::<G::Vector, M>(mu.dim(), rows);
         let force = size(&attempt.rates.p);
         if force == 0.0 {
             return 0.0;
         }
         let force = force / mu.largest_entry();
-        force * size(&attempt.rates.x) * (attempt.gain + force)
+        let bend = |gain: f64| force * size(&attempt.rates.x) * (gain + force);
+        let about = bend(attempt.gain);
+        match about <= NEAR_LIMIT * LARGEST_TAIL[0] {
+            true => about,
+            false => bend(self.equations(mu, middle).gain(&attempt.x)),
+        }
     }
 
     /// The error of a gradient that is not finite at a node.

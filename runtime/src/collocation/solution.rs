@@ -49,7 +49,7 @@ where
     pub fn solution(&self, mu: &G::Vector, time: f64) -> Result<Solution<G::Vector, M>, StepError> {
         let (dim, middle) = (mu.dim(), self.step().times_plus(0.5, time));
         let attempt = self.equations(mu, middle).solve(Rates::zero(dim));
-        self.judge(mu, &attempt)?;
+        self.judge(mu, middle, &attempt)?;
         let Attempt { rates, x, .. } = attempt;
         let Nodes { times, weights, matrix, .. } = Self::NODES;
         let p = self.group().dexp_transpose(&x, mu);

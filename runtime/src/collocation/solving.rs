@@ -27,9 +27,11 @@ pub(super) struct Attempt<V: Coordinates<f64>, const M: usize> {
     pub sweeps: u32,
     /// The change by the last sweep, relative to the momentum.
     pub residual: f64,
-    /// With one node, by how much a change of the momentum in the middle changes that which follows from it, to first
-    /// order: a sum of rows; 1 where there is no linear model.
+    /// With one node, by how much a change of the momentum in the middle of the first guess changes that which follows from it,
+    /// to first order: a sum of rows; 1 where there is no linear model.
     pub gain: f64,
+    /// The momenta at the nodes.
+    pub momenta: V::Rows<M>,
     pub ending: Ending<V>,
 }
 
@@ -69,9 +71,10 @@ where
         let mut rates = guess;
         let (mut x, mut p) = whole(&rates);
         let model = self.model(&p);
+        let mut momenta = G::Vector::zero_rows::<M>(dim);
         let (mut sweeps, mut residual, mut before) = (0, f64::INFINITY, f64::INFINITY);
         let ending = loop {
-            let mut change = match self.sweep(&rates, &p) {
+            let mut change = match self.sweep(&rates, &p, &mut momenta) {
                 Ok(next) => next,
                 Err((time, mu)) => break Ending::Undefined(time, mu),
             };
@@ -94,10 +97,16 @@ where
             before = residual;
         };
         let gain = model.filter(|_| M == 1).map_or(1.0, |model| model.gain(self.group));
-        Attempt { rates, x, sweeps, residual, gain, ending }
+        Attempt { rates, x, sweeps, residual, gain, momenta, ending }
     }
 
-    /// The rates that follow from others with the momentum `p` in the middle.
+    /// [`Attempt::gain`] at the momentum in the middle that belongs to x.
+    pub(super) fn gain(&self, x: &G::Vector) -> f64 {
+        let model = self.model(&self.group.dexp_transpose(x, self.mu));
+        model.map_or(1.0, |model| model.gain(self.group))
+    }
+
+    /// The rates that follow from others with the momentum `p` in the middle, and the momenta at the nodes.
     ///
     /// # Errors
     /// The time and the momentum at which the gradient is not finite.
@@ -106,16 +115,17 @@ where
         &self,
         rates: &Rates<G::Vector, M>,
         p: &G::Vector,
+        mu: &mut <G::Vector as Coordinates<f64>>::Rows<M>,
     ) -> Result<Rates<G::Vector, M>, (f64, G::Vector)> {
         let (nodes, degree, dim) = (&Self::NODES, degree(M), p.dim());
         let x = mixed(&G::Vector::zeros(dim), &nodes.matrix, &rates.x);
         let p = mixed(p, &nodes.matrix, &rates.p);
-        let mu = self.group.node_momenta::<M>(&x, &p, degree);
+        *mu = self.group.node_momenta::<M>(&x, &p, degree);
         let mut omega = G::Vector::zero_rows::<M>(dim);
         let mut poison = [0.0; M];
         for i in 0..M {
             let time = nodes.times[i].times_plus(self.step, self.middle);
-            let gradient = self.energy.gradient(time, &G::Vector::at::<M>(dim, &mu, i));
+            let gradient = self.energy.gradient(time, &G::Vector::at::<M>(dim, mu, i));
             for k in 0..dim {
                 omega[k][i] = gradient[k] * self.step;
             }
@@ -128,7 +138,7 @@ where
         for i in 0..M {
             if poison[i] != 0.0 {
                 let time = nodes.times[i].times_plus(self.step, self.middle);
-                return Err((time, G::Vector::at::<M>(dim, &mu, i)));
+                return Err((time, G::Vector::at::<M>(dim, mu, i)));
             }
         }
         let [x, p] = self.group.node_rates::<M>(&x, &p, &omega, degree);

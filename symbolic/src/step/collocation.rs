@@ -1,13 +1,13 @@
 //! A step by collocation as a kernel: the equations, the solution and the acceptance of the runtime's `collocation`, in which a
 //! sweep is a correction.
 //!
-//! The numbers solved for are hẋᵢ of all nodes, then hṗᵢ of all, then the residual of the sweep before. A solution is read as x, two
+//! The numbers solved for are hẋᵢ of all nodes, then hṗᵢ of all, then the residual of the sweep before. A solution is read as x, three
 //! measures of how well the nodes resolve the step, each as a share of its limit, and the rates. Steps leave differences of
-//! their rates to the next one, beside the group element.
+//! their rates to the next one, beside the group element. Steps that are not ordinary ones are refused: the runtime follows them.
 
 use coadjoint_program::collocation::{
-    KEPT, KEPT_LONG, LARGEST_FORCE, LARGEST_MODEL, LARGEST_TAIL, LONG, MAX_SWEEPS, Nodes, ROUNDING,
-    SOLVED, degree,
+    KEPT, KEPT_LONG, LARGEST_FORCE, LARGEST_MODEL, LARGEST_REACH, LARGEST_TAIL, LONG, MAX_SWEEPS,
+    NEAR_LIMIT, Nodes, ROUNDING, SOLVED, degree,
 };
 use coadjoint_program::{Kernel, KernelParts, Programs};
 
@@ -21,6 +21,9 @@ use crate::integrator::Kicks;
 use crate::smooth::Smooth;
 use crate::step::StepError;
 
+/// The measures of how well the nodes resolve a step.
+const MEASURES: usize = 3;
+
 /// The coefficients of the nodes of a step, for a number of nodes known at run time.
 struct Gauss {
     times: Vec<f64>,
@@ -28,17 +31,19 @@ struct Gauss {
     /// By the node from which the weight is, then by the node to which it leads.
     matrix: Vec<Vec<f64>>,
     highest: Vec<f64>,
+    ahead: Vec<f64>,
 }
 
 impl Gauss {
     fn new(nodes: usize) -> Self {
         fn of<const M: usize>() -> Gauss {
-            let Nodes { times, weights, matrix, highest } = Nodes::<M>::new();
+            let Nodes { times, weights, matrix, highest, ahead } = Nodes::<M>::new();
             Gauss {
                 times: times.to_vec(),
                 weights: weights.to_vec(),
                 matrix: matrix.iter().map(|row| row.to_vec()).collect(),
                 highest: highest.to_vec(),
+                ahead: ahead.to_vec(),
             }
         }
         match nodes {
@@ -108,7 +113,7 @@ pub(super) fn kernel(smooth: &Smooth, group: &Product) -> Result<Kernel, StepErr
         dim: step.n,
         element: group.element(),
         unknowns: rates + 1,
-        solution: step.n + 2 + rates,
+        solution: step.n + MEASURES + rates,
         tolerance: SOLVED,
         near: 0.0,
         corrections: MAX_SWEEPS,
@@ -224,13 +229,20 @@ impl<'a> Collocation<'a> {
 
     /// A program of the Hamiltonian's at μ, at this one of the [`times`].
     fn at(&self, graph: &Graph, program: &Program, mu: &[Id], time: usize) -> Vec<Id> {
+        graph.call(program, &self.inputs_at(graph, mu, time))
+    }
+
+    /// The inputs of the Hamiltonian's programs at μ, at this one of the [`times`].
+    fn inputs_at(&self, graph: &Graph, mu: &[Id], time: usize) -> Vec<Id> {
         let mut arguments = mu.to_vec();
         if self.smooth.depends_on_time() {
             let each = 1 + self.smooth.signals.len();
             let first = first_time(self.smooth) + time * each;
             arguments.extend((first..first + each).map(|slot| graph.slot(slot)));
+        } else {
+            arguments.push(graph.zero());
         }
-        graph.call(program, &arguments)
+        arguments
     }
 
     /// The increment of the step, and the momentum in its middle.
@@ -333,7 +345,8 @@ impl<'a> Collocation<'a> {
         let model = inputs(&graph, count + 1 + n, constants);
         let [zero, one, half] = [0.0, 1.0, 0.5].map(|value| graph.constant(value));
 
-        let change = self.sweep(&graph, &rates, &mu).with(&rates, |a, b| graph.sub(a, b));
+        let (next, momenta) = self.sweep(&graph, &rates, &mu);
+        let change = next.with(&rates, |a, b| graph.sub(a, b));
         let [x, p] = [&change.x, &change.p].map(|rows| largest(&graph, &rows.concat()));
         let scale = largest(&graph, &mu);
         let scale = graph.select(scale, zero, one, scale);
@@ -357,7 +370,8 @@ impl<'a> Collocation<'a> {
         let left = graph.select(before, zero, left, stays);
 
         let (x, _) = self.whole(&graph, &next, &mu);
-        let measures = self.measures(&graph, &next, &mu, &model);
+        let [velocity, force] = self.measures(&graph, &next, &mu, &model);
+        let measures = [velocity, force, self.reach(&graph, &mu, &momenta)];
         let mut outputs = next.numbers();
         outputs.push(residual);
         outputs.extend(x.into_iter().chain(measures).chain(next.numbers()));
@@ -365,14 +379,15 @@ impl<'a> Collocation<'a> {
         graph.finish(count + 1 + n + constants, &outputs)
     }
 
-    /// The rates that follow from others.
-    fn sweep(&self, graph: &Graph, rates: &Rates, mu: &[Id]) -> Rates {
+    /// The rates that follow from others, and the momenta at the nodes.
+    fn sweep(&self, graph: &Graph, rates: &Rates, mu: &[Id]) -> (Rates, Rows) {
         let (_, p) = self.whole(graph, rates, mu);
         let zeros = vec![graph.zero(); self.n];
         let xs = self.points(graph, &zeros, &rates.x);
         let ps = self.points(graph, &p, &rates.p);
         let step = self.step(graph);
         let mut next = Rates { x: Vec::new(), p: Vec::new() };
+        let mut momenta = Rows::new();
         for (node, (x, p)) in xs.iter().zip(&ps).enumerate() {
             let momentum = self.group.node_momentum(graph, x, p, degree(self.nodes()));
             let gradient = self.at(graph, &self.smooth.gradient, &momentum, 2 + node);
@@ -380,8 +395,26 @@ impl<'a> Collocation<'a> {
             let mut own = graph.call(&self.equations, &[&x[..], &p[..], &omega[..]].concat());
             next.p.push(own.split_off(self.n));
             next.x.push(own);
+            momenta.push(momentum);
         }
-        next
+        (next, momenta)
+    }
+
+    /// The square of the farthest way that an argument of H's functions goes from the start to a node, from node to node, and to
+    /// the end, where the polynomial through them goes.
+    fn reach(&self, graph: &Graph, mu: &[Id], momenta: &Rows) -> Id {
+        let (nodes, zeros) = (self.nodes(), vec![graph.zero(); self.n]);
+        let ahead = mixed(graph, &zeros, |j| self.gauss.ahead[j], momenta);
+        let end = plus(graph, &ahead, if nodes.is_multiple_of(2) { 1.0 } else { -1.0 }, mu);
+        // The time of the last node stands for that of the end.
+        let stops = [(mu, 0)].into_iter().chain(momenta.iter().map(Vec::as_slice).zip(2..));
+        let stops: Vec<_> = stops.chain([(&end[..], 1 + nodes)]).collect();
+        let squares = stops.windows(2).flat_map(|pair| {
+            let inputs = pair.iter().flat_map(|&(mu, time)| self.inputs_at(graph, mu, time));
+            graph.call(&self.smooth.reach, &inputs.collect::<Vec<_>>())
+        });
+        let limit = graph.constant(1.0 / LARGEST_REACH[nodes - 1]);
+        graph.mul(limit, largest(graph, &squares.collect::<Vec<_>>()))
     }
 
     /// The change of the rates in the next sweep that follows from this one, to first order in it and in the step.
@@ -416,7 +449,9 @@ impl<'a> Collocation<'a> {
     /// How well the nodes resolve the step, as shares of the limits: the highest polynomials through two nodes and more, of
     /// the velocity and of the force; with one node the product of velocity, force, and what that changes.
     fn measures(&self, graph: &Graph, rates: &Rates, mu: &[Id], model: &[Id]) -> [Id; 2] {
-        let limits = [LARGEST_TAIL[self.nodes() - 1], LARGEST_FORCE];
+        // The gain is that at the guess.
+        let near = if self.nodes() == 1 { NEAR_LIMIT } else { 1.0 };
+        let limits = [near * LARGEST_TAIL[self.nodes() - 1], LARGEST_FORCE];
         let [tail, force] = limits.map(|limit| graph.constant(1.0 / limit));
         let size = |rows: &Rows| largest(graph, &rows.concat());
         let (velocity, scale) = (size(&rates.x), largest(graph, mu));
@@ -455,7 +490,7 @@ impl<'a> Collocation<'a> {
     /// μ, the solution, the error left, the distance ↦ 1 where the step is solved, in the chart, and resolved by its nodes.
     fn accept(&self) -> Program {
         let (graph, n) = (Graph::new(), self.n);
-        let solution = inputs(&graph, n, n + 2 + self.rates());
+        let solution = inputs(&graph, n, n + MEASURES + self.rates());
         let end = n + solution.len();
         let [left, distance] = [end, end + 1].map(|i| graph.input(i));
         let tolerance = graph.constant(SOLVED / f64::EPSILON);
@@ -463,8 +498,9 @@ impl<'a> Collocation<'a> {
         let (zero, one) = (graph.zero(), graph.constant(1.0));
         // The formulas hold up to half a half turn.
         let extent = graph.mul(graph.constant(4.0), self.group.extent(&graph, &solution[..n]));
-        let [tail, force] = [solution[n], solution[n + 1]];
-        let tests = [(left, tolerance), (distance, zero), (extent, one), (tail, one), (force, one)];
+        let measures = solution[n..n + MEASURES].iter().map(|&measure| (measure, one));
+        let tests = [(left, tolerance), (distance, zero), (extent, one)].into_iter();
+        let tests: Vec<_> = tests.chain(measures).collect();
         graph.finish(end + 2, &[all_at_most(&graph, &tests)])
     }
 
@@ -473,13 +509,13 @@ impl<'a> Collocation<'a> {
         let (graph, n, rates) = (Graph::new(), self.n, self.rates());
         let g = inputs(&graph, 0, self.group.element());
         let mu = inputs(&graph, g.len(), n);
-        let solution = inputs(&graph, g.len() + n, n + 2 + rates);
+        let solution = inputs(&graph, g.len() + n, n + MEASURES + rates);
         let Moved { g: mut outputs, mu } = self.group.transport(&graph, &g, &solution[..n], &mu);
         outputs.truncate(self.element);
         if let Some((&count, differences)) = g[self.element..].split_first() {
             let [one, most] = [1.0, KEPT as f64].map(|value| graph.constant(value));
             outputs.push(graph.min(graph.add(count, one), most));
-            let mut new = solution[n + 2..].to_vec();
+            let mut new = solution[n + MEASURES..].to_vec();
             for old in differences.chunks(rates) {
                 outputs.extend_from_slice(&new);
                 new = new.iter().zip(old).map(|(&new, &old)| graph.sub(new, old)).collect();

@@ -86,6 +86,15 @@ const MUTANTS: &[(&str, &[[&str; 2]])] = &[
         ],
     ),
     (
+        "runtime/src/collocation/following.rs",
+        &[
+            ["LARGEST_DEFECT: f64 = 0.5", "LARGEST_DEFECT: f64 = 50.0"],
+            ["HALVINGS: u32 = 8", "HALVINGS: u32 = 0"],
+            ["cold || attempt.sweeps > ORDINARY_SWEEPS || measure > NEAR_LIMIT", "false"],
+            ["unusual |= square.is_nan() || square > limit", "unusual |= square.is_nan()"],
+        ],
+    ),
+    (
         "symbolic/src/step/programs.rs",
         &[
             [

@@ -9,6 +9,7 @@ mod instance;
 mod kernels;
 mod random;
 mod runtime;
+mod steep;
 mod verdict;
 
 pub use collocation::Drawn;

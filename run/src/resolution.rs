@@ -1,0 +1,190 @@
+//! Steps that are too long for the time dependence of a system: what moves faster than they look.
+
+use std::path::Path;
+
+use coadjoint_codegen::integrator::Kicks;
+use coadjoint_codegen::smooth::Smooth;
+use coadjoint_program::collocation::nodes;
+
+use crate::engine::identity;
+use crate::error::RunError;
+use crate::grid::Grid;
+use crate::load::{Derived, Flow};
+use crate::number::shortest;
+
+/// Points of a step that are looked at.
+const POINTS: usize = 10;
+/// Stretches of a run that are looked at, where it is longer than all of them.
+const STRETCHES: u64 = 10;
+/// Steps of a stretch.
+const STEPS: u64 = 50;
+/// The largest share of what moves that the nodes of steps may miss.
+const LARGEST_SHARE: f64 = 0.25;
+/// What they miss over a stretch, summed, matters from here on: about the error of the momentum, relative to it.
+const MATTERS: f64 = 0.01;
+/// Halves of a step that are tried.
+const HALVINGS: u32 = 24;
+
+/// Whether steps look often enough at what depends on time: ∂H/∂μ and a torque at the start, inputs included. In steps from all
+/// over the run their mean, as the nodes have it, is compared with that at ten points; where nodes miss much of
+/// what moves, and it adds up, an even motion may come out of a fast one.
+///
+/// # Errors
+/// Where they do not, with a step that does, in the system that is called `file`.
+fn resolve(
+    file: &Path,
+    (Grid { start, step }, steps): (Grid, u64),
+    moving: &[Moving<'_>],
+) -> Result<(), RunError> {
+    let seen = |shorter: f64| {
+        let steps = (steps as f64 * (step / shorter)) as u64;
+        moving.iter().all(|moving| moving.is_seen(Grid { start, step: shorter }, steps))
+    };
+    if seen(step) {
+        return Ok(());
+    }
+    let mut shorter = step;
+    let works = (0..HALVINGS).find_map(|_| {
+        shorter *= 0.5;
+        seen(shorter).then_some(shorter)
+    });
+    let advice = match works {
+        Some(step) => format!("a step of {} sees them: give --step {0}", shortest(step)),
+        None => "give a smaller --step".to_owned(),
+    };
+    Err(RunError::of(file)(format!(
+        "steps of {} are too long for what depends on time: H, a torque or an input changes between the times at which they \
+         look, and the motion would be another one; {advice}",
+        shortest(step)
+    )))
+}
+
+impl Derived {
+    /// Whether these steps, of which there are so many, look often enough at what depends on time: at the start with this
+    /// momentum, else with another one.
+    ///
+    /// # Errors
+    /// Where they do not, with a step that does.
+    pub fn resolves(
+        &self,
+        grid: Grid,
+        steps: u64,
+        momentum: Option<&[f64]>,
+    ) -> Result<(), RunError> {
+        let facts = self.facts();
+        let parameters = facts.defaults();
+        let any = (0..facts.algebra.dim()).map(|i| 1.0 / (i + 1) as f64);
+        let momentum = momentum.map_or_else(|| any.collect(), <[f64]>::to_vec);
+        let velocity = match &self.flow {
+            Flow::Collocation(smooth, ..) => Moving::velocity(smooth, &parameters, &momentum),
+            Flow::Series(_) => None,
+        };
+        let start = (identity(facts.algebra.matrix_size()), &momentum[..]);
+        let torque = self.kicks().and_then(|kicks| Moving::torque(kicks, &parameters, start));
+        let moving: Vec<Moving<'_>> = velocity.into_iter().chain(torque).collect();
+        resolve(&self.file, (grid, steps), &moving)
+    }
+}
+
+/// A function of time, and when steps look at it.
+struct Moving<'a> {
+    /// Its values: velocities, or forces relative to the momentum.
+    values: Box<dyn Fn(f64) -> Vec<f64> + 'a>,
+    /// The times of a step, from its beginning on and in its lengths, and their weights.
+    looks: Vec<(f64, f64)>,
+}
+
+impl<'a> Moving<'a> {
+    /// ∂H/∂μ at this momentum, where it depends on time.
+    fn velocity(smooth: &'a Smooth, parameters: &[f64], mu: &'a [f64]) -> Option<Self> {
+        if smooth.given.is_none() && !smooth.depends_on_time() {
+            return None;
+        }
+        let symbols = smooth.symbols_at(parameters);
+        let values = Box::new(move |time| smooth.gradient(&symbols, time, mu));
+        let splitting = smooth.kicks.as_ref().map(|kicks| kicks.splitting);
+        let flows: Vec<f64> = splitting.map_or(vec![1.0], |splitting| splitting.flows().collect());
+        let (mut start, mut looks) = (0.0, Vec::new());
+        for flow in flows {
+            let own = nodes(smooth.nodes());
+            looks.extend(own.map(|(at, weight)| (flow.mul_add(at, start), flow * weight)));
+            start += flow;
+        }
+        Some(Self { values, looks })
+    }
+
+    /// The torque of kicks at this state, where it depends on time.
+    fn torque(
+        kicks: &'a Kicks,
+        parameters: &[f64],
+        (entries, mu): (Vec<f64>, &'a [f64]),
+    ) -> Option<Self> {
+        let torque = kicks.torque().filter(|torque| torque.moves)?;
+        let potential = &kicks.kick.potential;
+        let symbols: Vec<f64> =
+            potential.symbols.iter().map(|symbol| symbol.expr.evaluate(parameters)).collect();
+        let size = mu.iter().fold(0.0, |most: f64, mu| most.max(mu.abs()));
+        let values = Box::new(move |time| {
+            let values = torque.torque.run(&torque.inputs(&entries, mu, time), &symbols);
+            values.into_iter().map(|value| value / size).collect()
+        });
+        let (mut at, mut looks) = (0.0, Vec::new());
+        let flows = kicks.splitting.flows().chain([0.0]);
+        for (kick, flow) in kicks.splitting.kicks().zip(flows) {
+            looks.push((at, kick));
+            at += flow;
+        }
+        Some(Self { values, looks })
+    }
+
+    /// Whether these steps, of which there are so many, see what moves.
+    fn is_seen(&self, grid: Grid, steps: u64) -> bool {
+        let stretches = if steps <= STRETCHES * STEPS { 1 } else { STRETCHES };
+        let long = if stretches == 1 { steps } else { STEPS };
+        let mut points: Vec<Vec<f64>> = Vec::new();
+        let (mut missed, mut worst) = (0.0, 0.0);
+        for stretch in 0..stretches {
+            let first = (steps - long) / (stretches - 1).max(1) * stretch;
+            let mut sum: Vec<f64> = Vec::new();
+            for number in first..first + long {
+                let start = grid.time(number);
+                // Points at the same places of every step would be blind as nodes may be.
+                let shift = (number as f64 * 0.618_033_988_749_894_9).fract();
+                let mut difference: Vec<f64> = Vec::new();
+                let looks = self.looks.iter().copied();
+                let fine =
+                    (0..POINTS).map(|i| ((i as f64 + shift) / POINTS as f64, -1.0 / POINTS as f64));
+                for (place, (at, weight)) in looks.chain(fine).enumerate() {
+                    let values = (self.values)(at.mul_add(grid.step, start));
+                    if values.iter().any(|value| !value.is_finite()) {
+                        // The run says where this is.
+                        return true;
+                    }
+                    difference.resize(values.len(), 0.0);
+                    difference.iter_mut().zip(&values).for_each(|(sum, v)| *sum += weight * v);
+                    if place >= self.looks.len() {
+                        points.push(values);
+                    }
+                }
+                missed += largest(&difference);
+                sum.resize(difference.len(), 0.0);
+                sum.iter_mut().zip(&difference).for_each(|(sum, d)| *sum += d * grid.step);
+                worst = f64::max(worst, largest(&sum));
+            }
+        }
+        let count = points.len() as f64;
+        let mut mean = vec![0.0; points.first().map_or(0, Vec::len)];
+        for point in &points {
+            mean.iter_mut().zip(point).for_each(|(mean, value)| *mean += value / count);
+        }
+        let apart = |point: &Vec<f64>| {
+            point.iter().zip(&mean).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
+        };
+        let moves = points.iter().map(apart).sum::<f64>() / POINTS as f64;
+        worst <= MATTERS || missed <= LARGEST_SHARE * moves
+    }
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most: f64, value| most.max(value.abs()))
+}

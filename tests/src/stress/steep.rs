@@ -1,0 +1,382 @@
+//! Families of steps by collocation that a Hamiltonian makes hard: with a pole, a tangent or the edge of a root that the motion comes to
+//! within three steps; and smooth ones with steep flanks and short waves. Accepted steps are compared with the flow by
+//! another method whose steps follow its error.
+
+use coadjoint::collocation::{Collocation, Energy};
+use coadjoint::groups::{Coordinates, MatrixGroup, SL2};
+use coadjoint::{LieGroup, Phase, SE3, SO3};
+
+use super::family::Family;
+use super::random::Random;
+use super::verdict::{Tally, Wrong};
+
+/// Systems and momenta drawn of one seed.
+const DRAWS: usize = 32;
+/// Steps made from each, the later ones from guesses by the earlier ones.
+const STEPS: usize = 4;
+/// How far, relatively, an accepted step may be from the flow.
+const FARTHEST: f64 = 0.2;
+
+/// A function of one variable.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Shape {
+    Pole,
+    Tan,
+    Root,
+    Sin,
+    Tanh,
+    /// exp(w tanh u)
+    ExpTanh,
+}
+
+/// `height`·f(u), u = `width`·(Σ `slope`ᵢ μᵢ − `offset`)
+#[derive(Clone, Debug)]
+struct Term {
+    shape: Shape,
+    height: f64,
+    width: f64,
+    slope: Vec<f64>,
+    offset: f64,
+}
+
+impl Term {
+    fn argument<V: Coordinates<f64>>(&self, m: &V) -> f64 {
+        self.width * ((0..m.dim()).map(|i| self.slope[i] * m[i]).sum::<f64>() - self.offset)
+    }
+
+    /// f and f′.
+    fn of(&self, u: f64) -> [f64; 2] {
+        match self.shape {
+            Shape::Pole => [1.0 / u, -1.0 / (u * u)],
+            Shape::Tan => [u.tan(), 1.0 + u.tan() * u.tan()],
+            Shape::Root => [u.sqrt(), 0.5 / u.sqrt()],
+            Shape::Sin => [u.sin(), u.cos()],
+            Shape::Tanh => [u.tanh(), 1.0 - u.tanh() * u.tanh()],
+            Shape::ExpTanh => {
+                let (t, w) = (u.tanh(), 4.0);
+                let e = (w * t).exp();
+                [e, w * e * (1.0 - t * t)]
+            }
+        }
+    }
+
+    /// The square of the way between two arguments, in the units in which f varies: as the programs of a text have it.
+    fn square(&self, a: f64, b: f64) -> f64 {
+        let ratio = |a: f64, b: f64| match (a - b) * (a - b) / (a * b) {
+            _ if a == b => 0.0,
+            square if square >= 0.0 => square,
+            _ => f64::INFINITY,
+        };
+        let bounded = |u: f64| u.clamp(-9.0, 9.0);
+        match self.shape {
+            Shape::Pole | Shape::Root => ratio(a, b),
+            Shape::Tan => ratio(a.cos(), b.cos()).max((a - b).powi(2)),
+            Shape::Sin => (a - b).powi(2),
+            Shape::Tanh => (bounded(a) - bounded(b)).powi(2),
+            // Of exp, too.
+            Shape::ExpTanh => {
+                let inner = 16.0 * (a.tanh() - b.tanh()).powi(2);
+                inner.max((bounded(a) - bounded(b)).powi(2))
+            }
+        }
+    }
+
+    /// Between which of its poles or edges a momentum is.
+    fn side<V: Coordinates<f64>>(&self, m: &V) -> f64 {
+        let u = self.argument(m);
+        match self.shape {
+            Shape::Pole | Shape::Root => u.signum(),
+            Shape::Tan => (u / core::f64::consts::PI + 0.5).floor(),
+            Shape::Sin | Shape::Tanh | Shape::ExpTanh => 0.0,
+        }
+    }
+}
+
+/// ½ Σ qᵢⱼ μᵢ μⱼ + terms
+#[derive(Clone, Debug)]
+struct Steep {
+    form: Vec<Vec<f64>>,
+    terms: Vec<Term>,
+}
+
+impl<V: Coordinates<f64>> Energy<V> for Steep {
+    fn value(&self, _time: f64, m: &V) -> f64 {
+        let half = |i: usize| (0..m.dim()).map(|j| self.form[i][j] * m[j]).sum::<f64>();
+        let form: f64 = (0..m.dim()).map(|i| 0.5 * m[i] * half(i)).sum();
+        form + self.terms.iter().map(|t| t.height * t.of(t.argument(m))[0]).sum::<f64>()
+    }
+
+    fn gradient(&self, _time: f64, m: &V) -> V {
+        let mut slope =
+            V::from_entries(m.dim(), |i| (0..m.dim()).map(|j| self.form[i][j] * m[j]).sum());
+        for term in &self.terms {
+            let along = term.height * term.width * term.of(term.argument(m))[1];
+            for i in 0..m.dim() {
+                slope[i] += along * term.slope[i];
+            }
+        }
+        slope
+    }
+
+    fn reach(&self, from: (f64, &V), to: (f64, &V)) -> Option<f64> {
+        let squares = self.terms.iter().map(|t| t.square(t.argument(from.1), t.argument(to.1)));
+        Some(squares.fold(0.0, f64::max))
+    }
+}
+
+/// The momentum after the time h, by the pair of orders 5 and 4 of Dormand and Prince; none where its steps become too short.
+fn flow<G: LieGroup<Scalar = f64>>(
+    group: &G,
+    energy: &Steep,
+    h: f64,
+    start: &G::Vector,
+) -> Option<G::Vector> {
+    const A: [&[f64]; 7] = [
+        &[],
+        &[1.0 / 5.0],
+        &[3.0 / 40.0, 9.0 / 40.0],
+        &[44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0],
+        &[19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0],
+        &[9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0],
+        &[35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0],
+    ];
+    const E: [f64; 7] = [
+        71.0 / 57600.0,
+        0.0,
+        -71.0 / 16695.0,
+        71.0 / 1920.0,
+        -17253.0 / 339200.0,
+        22.0 / 525.0,
+        -1.0 / 40.0,
+    ];
+    let n = group.dim();
+    let slope = |m: &G::Vector| group.ad_star(&energy.gradient(0.0, m), m);
+    let size = start.largest_entry();
+    let sides = |m: &G::Vector| energy.terms.iter().map(|t| t.side(m)).collect::<Vec<_>>();
+    let side = sides(start);
+    let (mut m, mut done, mut part) = (start.clone(), 0.0, 1e-3);
+    for _ in 0..60_000 {
+        let part_now = f64::min(part, 1.0 - done);
+        let mut k: Vec<G::Vector> = vec![slope(&m)];
+        let mut next = m.clone();
+        for row in &A[1..] {
+            next = G::Vector::from_entries(n, |i| {
+                m[i] + h * part_now * row.iter().zip(&k).map(|(a, k)| a * k[i]).sum::<f64>()
+            });
+            k.push(slope(&next));
+        }
+        let error = (0..n)
+            .map(|i| h * part_now * E.iter().zip(&k).map(|(e, k)| e * k[i]).sum::<f64>())
+            .fold(0.0, |worst: f64, e| if e.is_nan() { f64::INFINITY } else { worst.max(e.abs()) });
+        let error = error / (1e-8 * size.max(next.largest_entry()));
+        let fits = error <= 1.0 && sides(&next) == side;
+        if fits {
+            (m, done) = (next, done + part_now);
+            if done >= 1.0 - 1e-14 {
+                return Some(m);
+            }
+        }
+        let factor = if error > 0.0 { 0.9 * error.powf(-0.2) } else { 5.0 };
+        part = part_now * factor.clamp(0.2, if fits { 5.0 } else { 0.5 });
+        if part < 1e-11 {
+            return None;
+        }
+    }
+    None
+}
+
+/// A random system of a kind, a momentum and a step of it.
+fn draw<G: LieGroup<Scalar = f64>>(
+    group: &G,
+    edges: bool,
+    random: &mut Random,
+) -> (Steep, f64, G::Vector) {
+    let n = group.dim();
+    let mut form = vec![vec![0.0; n]; n];
+    for i in 0..n {
+        form[i][i] = random.between(0.2, 1.5) * if random.one_in(4) { -1.0 } else { 1.0 };
+        for j in 0..i {
+            let entry = random.between(-0.25, 0.25);
+            (form[i][j], form[j][i]) = (entry, entry);
+        }
+    }
+    let size = random.between(0.2, 3.0);
+    let direction = random.direction(n);
+    let mu = G::Vector::from_entries(n, |i| size * direction[i]);
+    let mut energy = Steep { form, terms: Vec::new() };
+    let count = if edges { 1 } else { 1 + random.below(3) };
+    for _ in 0..count {
+        let slope = (0..n).map(|_| random.between(-2.0, 2.0)).collect();
+        let shape = match (edges, random.below(3)) {
+            (true, 0) => Shape::Pole,
+            (true, 1) => Shape::Tan,
+            (true, _) => Shape::Root,
+            (false, 0) => Shape::Sin,
+            (false, 1) => Shape::Tanh,
+            (false, _) => Shape::ExpTanh,
+        };
+        let height =
+            10_f64.powf(random.between(-3.0, 0.0)) * if random.one_in(2) { -1.0 } else { 1.0 };
+        let width = if edges { 1.0 } else { 10_f64.powf(random.between(-0.5, 1.5)) };
+        energy.terms.push(Term { shape, height, width, slope, offset: 0.0 });
+    }
+    let quadratic = Steep { terms: Vec::new(), ..energy.clone() };
+    let mut velocity: G::Vector = quadratic.gradient(0.0, &mu);
+    if !edges {
+        velocity = energy.gradient(0.0, &mu);
+    }
+    let speed = velocity.pairing(&velocity).sqrt().max(1e-3);
+    let longest = if random.one_in(2) { 2.0 } else { 0.7 };
+    let h = random.between(0.02, longest) / speed;
+    let h = if random.one_in(8) { -h } else { h };
+    if edges {
+        // The argument goes at this rate at first, were it not for the term, and is to be at the edge within three steps.
+        let rate = group.ad_star(&velocity, &mu);
+        let term = &mut energy.terms[0];
+        let along = |v: &G::Vector| (0..n).map(|i| term.slope[i] * v[i]).sum::<f64>();
+        let (now, away) = (along(&mu), along(&rate) * h * random.between(0.02, 3.0));
+        term.offset = now + away;
+        match term.shape {
+            Shape::Tan => {
+                term.width = random.between(0.3, 3.0);
+                term.offset -= away.signum() * core::f64::consts::FRAC_PI_2 / term.width;
+            }
+            Shape::Root if away > 0.0 => {
+                term.slope.iter_mut().for_each(|slope| *slope = -*slope);
+                term.offset = -term.offset;
+            }
+            _ => {}
+        }
+        if random.one_in(3) {
+            // As large a velocity as a share of the other.
+            let alone = Steep { form: vec![vec![0.0; n]; n], terms: energy.terms.clone() };
+            let own: G::Vector = alone.gradient(0.0, &mu);
+            let own = own.pairing(&own).sqrt();
+            if own > 0.0 && own.is_finite() {
+                energy.terms[0].height *= speed * random.between(0.01, 1.0) / own;
+            }
+        }
+    }
+    (energy, h, mu)
+}
+
+/// Steps of one system with `M` nodes.
+fn steps<G, const M: usize>(
+    group: &G,
+    (edges, seed): (bool, u64),
+    random: &mut Random,
+    tally: &mut Tally,
+) where
+    G: LieGroup<Scalar = f64> + 'static,
+{
+    let (energy, h, mut mu) = draw(group, edges, random);
+    let Ok(mut step) = Collocation::<_, _, M>::new(group.clone(), energy.clone(), h) else {
+        return;
+    };
+    let far = |a: &G::Vector, b: &G::Vector| a.clone().minus(b).largest_entry();
+    let sides = |m: &G::Vector| energy.terms.iter().map(|t| t.side(m)).collect::<Vec<_>>();
+    for _ in 0..STEPS {
+        let before = mu.clone();
+        let example = || format!("seed {seed}, M = {M}, h = {h}, μ = {before:?}, {energy:?}");
+        let mut state = Phase::<G>::new(group.identity(), mu.clone());
+        let made = step.advance(&mut state, 0.0);
+        mu = state.momentum;
+        if made.is_err() {
+            tally.refused += 1;
+            if far(&mu, &before) != 0.0 {
+                tally.note(Wrong::Changed, example);
+            }
+            break;
+        }
+        tally.accepted += 1;
+        let Some(exact) = flow(group, &energy, h, &before) else {
+            tally.unsure += 1;
+            continue;
+        };
+        let share = far(&mu, &exact) / before.largest_entry() / FARTHEST;
+        if share.is_nan() || share > 1.0 || sides(&mu) != sides(&exact) {
+            tally.note(Wrong::Branch, || {
+                format!("{:.1e} from the flow: {}", share * FARTHEST, example())
+            });
+        } else if share > tally.residual {
+            (tally.residual, tally.worst) = (share, example());
+        }
+    }
+}
+
+/// Steps of the systems of a seed, with any number of nodes.
+fn instance<G>(group: &dyn Fn(&mut Random) -> G, edges: bool, seed: u64, tally: &mut Tally)
+where
+    G: LieGroup<Scalar = f64> + 'static,
+{
+    let mut random = Random::new(seed);
+    for _ in 0..DRAWS {
+        let group = group(&mut random);
+        match random.below(5) {
+            0 => steps::<G, 1>(&group, (edges, seed), &mut random, tally),
+            1 => steps::<G, 2>(&group, (edges, seed), &mut random, tally),
+            2 => steps::<G, 3>(&group, (edges, seed), &mut random, tally),
+            3 => steps::<G, 4>(&group, (edges, seed), &mut random, tally),
+            _ => steps::<G, 5>(&group, (edges, seed), &mut random, tally),
+        }
+    }
+}
+
+/// The structure constants [eᵢ, eⱼ] = ±eₖ, by the signs for (1, 2), (0, 2), (0, 1).
+type Signs = [f64; 3];
+const SO3_SIGNS: Signs = [1.0, -1.0, 1.0];
+const SO21_SIGNS: Signs = [1.0, -1.0, -1.0];
+
+/// A group of three dimensions in a basis of whole-numbered sums of its usual one.
+fn skew(signs: Signs, random: &mut Random) -> MatrixGroup {
+    let n = 3;
+    let unit = |i, j| if i == j { 1.0 } else { 0.0 };
+    let mut rows: Vec<Vec<f64>> = (0..n).map(|i| (0..n).map(|j| unit(i, j)).collect()).collect();
+    let mut back = rows.clone();
+    for _ in 0..random.below(2 * n) {
+        let (i, j) = (random.below(n), random.below(n));
+        let by = random.below(5) as f64 - 2.0;
+        if i != j {
+            // Row i gains `by` times row j; of the inverse, column j loses as much of column i.
+            for k in 0..n {
+                rows[i][k] += by * rows[j][k];
+                back[k][j] -= by * back[k][i];
+            }
+        }
+    }
+    let pairs = [(1, 2, 0), (0, 2, 1), (0, 1, 2)].into_iter().zip(signs);
+    let old: Vec<(usize, usize, usize, f64)> =
+        pairs.flat_map(|((i, j, k), v)| [(i, j, k, v), (j, i, k, -v)]).collect();
+    let mut structure = Vec::new();
+    for a in 0..n {
+        for b in 0..n {
+            for c in 0..n {
+                let sum: f64 =
+                    old.iter().map(|&(i, j, k, v)| rows[a][i] * rows[b][j] * v * back[k][c]).sum();
+                if sum != 0.0 {
+                    structure.push((a, b, c, sum));
+                }
+            }
+        }
+    }
+    MatrixGroup::from_structure_constants(n, &structure).expect("a Lie algebra")
+}
+
+type Instances = fn(u64, &mut Tally);
+
+pub(super) fn families(only: &str) -> Vec<Family> {
+    let all: [(&str, Instances); 10] = [
+        ("edge-so3", |seed, tally| instance(&|_| SO3::<f64>::new(), true, seed, tally)),
+        ("edge-se3", |seed, tally| instance(&|_| SE3::<f64>::new(), true, seed, tally)),
+        ("edge-sl2", |seed, tally| instance(&|_| SL2::<f64>::new(), true, seed, tally)),
+        ("edge-so21", |seed, tally| instance(&|r| skew(SO21_SIGNS, r), true, seed, tally)),
+        ("edge-skew", |seed, tally| instance(&|r| skew(SO3_SIGNS, r), true, seed, tally)),
+        ("steep-so3", |seed, tally| instance(&|_| SO3::<f64>::new(), false, seed, tally)),
+        ("steep-se3", |seed, tally| instance(&|_| SE3::<f64>::new(), false, seed, tally)),
+        ("steep-sl2", |seed, tally| instance(&|_| SL2::<f64>::new(), false, seed, tally)),
+        ("steep-so21", |seed, tally| instance(&|r| skew(SO21_SIGNS, r), false, seed, tally)),
+        ("steep-skew", |seed, tally| instance(&|r| skew(SO3_SIGNS, r), false, seed, tally)),
+    ];
+    let chosen = all.into_iter().filter(|(name, _)| name.contains(only));
+    chosen.map(|(name, instance)| Family::alone(name, instance)).collect()
+}
