@@ -9,8 +9,8 @@ use serde_json::{Value, json};
 
 use crate::arguments::CheckOptions;
 use crate::error::CliError;
-use crate::load;
 use crate::named::Format;
+use crate::{load, progress};
 
 /// Tries all laws, prints them, and fails if one does not hold.
 pub(crate) fn run(options: &CheckOptions) -> Result<(), CliError> {
@@ -18,7 +18,10 @@ pub(crate) fn run(options: &CheckOptions) -> Result<(), CliError> {
     let (mut system, _) = load::settled(&options.source, options.step, Parameters::Substituted)?;
     system.run.initial_time = options.t0.unwrap_or(system.run.initial_time);
     let trial = Trial::new(options.step, &system.run, options.points, options.seed)?;
+    let phase = progress::phase("deriving the series");
     let system = Derived::of_file(path, system)?;
+    drop(phase);
+    system.gave_way().iter().for_each(|note| eprintln!("note: {note}"));
     let (laws, ratio) = check(&system, &trial)?;
     if let Some(ratio) = ratio {
         eprintln!("warning: {}", steep(ratio));

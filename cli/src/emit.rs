@@ -60,6 +60,9 @@ fn source(options: &EmitOptions) -> Result<(PathBuf, Source), CliError> {
     let source = options.input.source(options.truncation);
     let parameters =
         if options.keep_parameters { Parameters::Kept } else { Parameters::Substituted };
-    let (system, choice) = load::settled(&source, options.step, parameters)?;
+    let (mut system, choice) = load::settled(&source, options.step, parameters)?;
+    let (problem, gave_way) = system.problem.settled();
+    system.problem = problem;
+    gave_way.iter().for_each(|reason| eprintln!("note: {}", reason.gave_way()));
     Ok((source.file, Source::System(Box::new(system), choice)))
 }

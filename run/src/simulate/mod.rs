@@ -10,6 +10,7 @@ mod run;
 mod setup;
 mod single;
 mod sink;
+mod slow;
 mod tally;
 
 pub use blocks::{Block, Kind, matrix, split};
