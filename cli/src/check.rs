@@ -9,8 +9,8 @@ use serde_json::{Value, json};
 
 use crate::arguments::CheckOptions;
 use crate::error::CliError;
-use crate::load;
 use crate::named::Format;
+use crate::{load, progress};
 
 /// Tries all laws, prints them, and fails if one is found not to hold.
 pub(crate) fn run(options: &CheckOptions) -> Result<(), CliError> {
@@ -19,7 +19,10 @@ pub(crate) fn run(options: &CheckOptions) -> Result<(), CliError> {
     let asked = Accuracy { step: *step, t0: *t0, ..Accuracy::default() };
     let (system, _) = load::settled(source, &asked, Parameters::Substituted)?;
     let trial = Trial::new(&asked, &system.run, *points, *seed)?;
+    let phase = progress::phase("deriving the series");
     let system = Derived::of_file(path, system)?;
+    drop(phase);
+    system.gave_way().iter().for_each(|note| eprintln!("note: {note}"));
     let (laws, ratio) = check(&system, &trial)?;
     if let Some(ratio) = ratio {
         eprintln!("warning: {}", steep(ratio));

@@ -7,9 +7,9 @@ use coadjoint_run::series::{Series, json, latex, learned, text};
 use coadjoint_run::{Accuracy, polynomial};
 
 use crate::error::CliError;
-use crate::load;
 use crate::named::{Names, named};
 use crate::source::Input;
+use crate::{load, progress};
 
 /// Prints a series.
 pub(crate) type Form = fn(&Series) -> String;
@@ -52,7 +52,9 @@ pub(crate) fn run(options: &DeriveOptions) -> Result<(), CliError> {
         "there is no series",
         "`check` tries the laws of these steps",
     )?;
+    let phase = progress::phase("deriving the series");
     let series = Series::derive(&source.file, system.problem)?;
+    drop(phase);
     out!("{}", (options.format)(&series));
     Ok(())
 }

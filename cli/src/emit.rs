@@ -62,6 +62,9 @@ fn source(options: &EmitOptions) -> Result<(PathBuf, Source), CliError> {
     let parameters =
         if options.keep_parameters { Parameters::Kept } else { Parameters::Substituted };
     let asked = Accuracy { step: options.step, ..Accuracy::default() };
-    let (system, choice) = load::settled(&source, &asked, parameters)?;
+    let (mut system, choice) = load::settled(&source, &asked, parameters)?;
+    let (problem, gave_way) = system.problem.settled();
+    system.problem = problem;
+    gave_way.iter().for_each(|reason| eprintln!("note: {}", reason.gave_way()));
     Ok((source.file, Source::System(Box::new(system), choice)))
 }

@@ -148,9 +148,14 @@ impl Build {
         let refused = |why| BuildError::System(format!("{name}: {why}"));
         system.writable().map_err(refused)?;
         let options = emit::Options::for_problem(system.problem.facts().name);
-        let mut module = match system.problem {
+        // As a run makes its steps, so does the module.
+        let (hamiltonian, gave_way) = system.problem.settled();
+        if let Some(reason) = gave_way {
+            println!("cargo::warning={name}: {}", reason.gave_way());
+        }
+        let mut module = match hamiltonian {
             Hamiltonian::Smooth(smooth) => emit::collocation_file(&smooth, &options),
-            Hamiltonian::Polynomial(problem) => {
+            Hamiltonian::Polynomial(problem, _) => {
                 let integrator = Integrator::build(*problem, self.limit)
                     .map_err(|source| BuildError::Derive { path: self.input.clone(), source })?;
                 emit::check_size(&integrator)

@@ -21,7 +21,7 @@ pub(crate) fn lie_poisson(
 ) -> Result<Items> {
     let read = rust::hamiltonian(arguments, function).map_err(Diagnostics::into_syn_error)?;
     let problem = match read {
-        Hamiltonian::Polynomial(problem) => *problem,
+        Hamiltonian::Polynomial(problem, _) => *problem,
         Hamiltonian::Smooth(smooth) => return Ok(emit::collocation(&smooth, options)),
     };
     let place = function.sig.ident.span();

@@ -125,8 +125,8 @@ impl System {
             )]);
         };
         let energy = Energy::new(&read.problem);
-        let (source, gradient) = match read.problem {
-            Hamiltonian::Polynomial(problem) => {
+        let (source, gradient) = match read.problem.settled().0 {
+            Hamiltonian::Polynomial(problem, _) => {
                 let of = |error| vec![Mistake::of("truncation", error, "lower the truncation")];
                 let gradient = gradient_of(&problem);
                 let integrator = Integrator::build(*problem, LIMIT).map_err(of)?;

@@ -238,7 +238,7 @@ impl Core {
         }
         facts.set_item("parameters", known)?;
         let (chart, comoving, hamiltonian) = match problem {
-            Hamiltonian::Polynomial(problem) => (
+            Hamiltonian::Polynomial(problem, _) => (
                 Some(problem.chart.name()),
                 problem.comoving.is_some(),
                 series::polynomial(problem, &problem.hamiltonian),
@@ -676,9 +676,10 @@ impl Core {
         let (rows, starts) = (given(&rows), starts.map(|starts| given(&starts)));
         let made = work(py, None, move |_| -> Result<_, RunError> {
             let path = Path::new(&name);
-            let judge = verify::judge_of(path, &system.problem)?;
+            let problem = system.problem.settled().0;
+            let judge = verify::judge_of(path, &problem)?;
             let grid = Grid { start: t0, step };
-            let follower = verify::Follower::new(&judge, &system.problem, grid)?;
+            let follower = verify::Follower::new(&judge, &problem, grid)?;
             let of = |(width, values): (usize, Vec<f64>)| {
                 table::Table::of_rows(path, names.clone(), width, values)
             };

@@ -32,7 +32,7 @@ pub fn meet_tolerance(
     asked: &Accuracy,
 ) -> Result<Option<Choice>, RunError> {
     let System { problem, potential, damping, run, .. } = &mut *system;
-    if let Hamiltonian::Polynomial(problem) = problem
+    if let Hamiltonian::Polynomial(problem, _) = problem
         && let Some(other) =
             in_other_frame(problem).filter(|other| asked.comoving == Some(other.comoving.is_some()))
     {
@@ -59,13 +59,27 @@ pub fn meet_tolerance(
         region: asked.region.map(Region::Ball).or_else(|| run.region.clone()),
         truncation: asked.truncation.or(run.truncation),
     };
-    let choice = match problem {
-        Hamiltonian::Polynomial(problem) => {
-            let (chosen, choice) = by_series(problem, &target).map_err(RunError::of(path))?;
-            **problem = chosen;
-            choice
+    let mut choice = None;
+    if let Hamiltonian::Polynomial(own, open) = problem {
+        match by_series(own, &target) {
+            Ok((chosen, found)) => {
+                **own = chosen;
+                choice = Some(found);
+            }
+            Err(error) if error.is_of_size() && open.is_some() => {}
+            Err(error) => return Err(RunError::of(path)(error)),
         }
-        Hamiltonian::Smooth(_) => {
+        let open = open.clone();
+        let kept =
+            choice.is_some() && matches!(problem.clone().settled().0, Hamiltonian::Polynomial(..));
+        if let Some(open) = open.filter(|_| !kept) {
+            *problem = Hamiltonian::Smooth(open);
+            choice = None;
+        }
+    }
+    let choice = match choice {
+        Some(choice) => choice,
+        None => {
             let choice = by_running(path, system, asked.start(&system.run), &target)?;
             system.problem.set_truncation(choice.truncation);
             choice
@@ -225,7 +239,7 @@ impl Trial<'_> {
             for number in 0..2 * COUNTED {
                 let made = motion.advance(&mut state, number.into(), 1).ok().flatten();
                 // The first steps have no steps before them to go by.
-                sum += made.filter(|_| number >= COUNTED).map_or(0, |(sweeps, _)| sweeps);
+                sum += made.filter(|_| number >= COUNTED).map_or(0, |made| made.iterations);
             }
         }
         f64::from(sum) / f64::from(COUNTED) / self.starts.len() as f64

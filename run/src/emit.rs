@@ -43,12 +43,12 @@ pub fn rust(path: &Path, source: Source) -> Result<String, RunError> {
     };
     system.writable().map_err(RunError::of(path))?;
     let style = Options::for_problem(system.problem.facts().name);
-    let mut module = match system.problem {
+    let mut module = match system.problem.settled().0 {
         Hamiltonian::Smooth(smooth) if smooth.given.is_some() => {
             return Err(of_function(path));
         }
         Hamiltonian::Smooth(smooth) => collocation_file(&smooth, &style),
-        Hamiltonian::Polynomial(problem) => {
+        Hamiltonian::Polynomial(problem, _) => {
             let integrator = integrator(path, *problem)?;
             check_size(&integrator).map_err(RunError::of(path))?;
             file(&integrator, &style)

@@ -44,7 +44,7 @@ type Read = BTreeMap<String, Vec<f64>>;
 pub(crate) fn fill(system: &Path, read: &mut System<Hamiltonian>) -> Result<(), RunError> {
     let of_energy = match &mut read.problem {
         Hamiltonian::Smooth(smooth) => &mut smooth.signals[..],
-        Hamiltonian::Polynomial(_) => &mut [],
+        Hamiltonian::Polynomial(..) => &mut [],
     };
     let of_torque = match &mut read.potential {
         Some((Potential { force: Force::Smooth(programs), .. }, _)) => &mut programs.signals[..],

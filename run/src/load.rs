@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use coadjoint::StepError;
 use coadjoint::groups::{DirectProduct, MatrixGroup};
-use coadjoint_codegen::hamilton_jacobi::TermLimit;
+use coadjoint_codegen::hamilton_jacobi::{DeriveError, TermLimit};
 use coadjoint_codegen::integrator::{Integrator, Kick, Kicks};
 use coadjoint_codegen::potential::Potential;
 use coadjoint_codegen::problem::Problem;
@@ -72,7 +72,7 @@ pub fn polynomial(
 ) -> Result<system::System, RunError> {
     let System { problem, potential, damping, run, units, parameters } = system;
     match problem {
-        Hamiltonian::Polynomial(problem) => {
+        Hamiltonian::Polynomial(problem, _) => {
             let problem = *problem;
             Ok(system::System { problem, potential, damping, run, units, parameters })
         }
@@ -146,6 +146,8 @@ pub struct Derived {
     pub(crate) damping: Option<Damper>,
     /// The conserved quantities.
     pub(crate) invariants: Invariants,
+    /// The reason for which the series of a polynomial gave way to collocation, where it did.
+    gave_way: Option<DeriveError>,
 }
 
 /// The means by which the steps of a system are made.
@@ -191,6 +193,7 @@ impl Derived {
     /// As [`Derived::of`].
     pub fn of_file(file: &Path, system: System) -> Result<Self, RunError> {
         let System { problem, potential, damping, .. } = system;
+        let (problem, gave_way) = problem.settled();
         let kicks = potential.as_ref().map(|(kicks, _)| kicks);
         let invariants = Invariants::new(problem.facts().algebra, Energy::new(&problem), kicks);
         // Kicks look at the matrices of the whole group; a flow alone goes factor by factor.
@@ -200,7 +203,7 @@ impl Derived {
         };
         let kept = Kept::default();
         let flow = match problem {
-            Hamiltonian::Polynomial(problem) => {
+            Hamiltonian::Polynomial(problem, _) => {
                 let flow = integrator(file, *problem)?;
                 let integrator = with_kicks(flow, potential, Integrator::with_kicks)?;
                 let group = Charted::new(file, group, integrator.problem.chart)?;
@@ -211,7 +214,7 @@ impl Derived {
                 Flow::Collocation(Box::new(smooth), Arc::new(group), kept)
             }
         };
-        let mut derived = Self { file: file.to_owned(), flow, damping: None, invariants };
+        let mut derived = Self { file: file.to_owned(), flow, damping: None, invariants, gave_way };
         if let Some(rates) = damping {
             derived.damping = Some(Damper { rates, group: Arc::new(derived.group()?) });
         }
@@ -235,6 +238,11 @@ impl Derived {
     /// The first that has not.
     pub fn reaches(&self, schedule: &Schedule) -> Result<(), RunError> {
         inputs::reach(&self.file, self.signals(), [schedule.start, schedule.end])
+    }
+
+    /// A note that the series gave way to collocation, with the reason and how to ask for it.
+    pub fn gave_way(&self) -> Option<String> {
+        self.gave_way.as_ref().map(DeriveError::gave_way)
     }
 
     /// The facts of the system.
@@ -269,6 +277,7 @@ impl Derived {
             damping: None,
             file: self.file.clone(),
             invariants: Invariants::default(),
+            gave_way: None,
         })
     }
 
@@ -327,6 +336,16 @@ impl Derived {
                 Compiled::new(origin, step, backend, steps, trajectories, kept)
             }
         }
+    }
+
+    /// Makes the programs of steps, where there are any: most of the work before the first step.
+    pub fn prepare(&self) {
+        let kept = match &self.flow {
+            Flow::Series(series) => &series.kept,
+            Flow::Collocation(_, _, kept) => kept,
+        };
+        // A step without programs is made without them.
+        self.origin().map(|origin| kept.programs(origin).is_ok());
     }
 
     /// What the programs of steps are made from, where they are.

@@ -270,3 +270,22 @@ fn matrices_outside_a_group_are_refused() {
         Err(ElementError::WrongEntry { row: 3, column: 0, .. })
     ));
 }
+
+/// A coordinate far below the others keeps its digits: on the affine group μ₁ moves by the factor e^b along x = (b, 0), and its
+/// (d^R exp_x)ᵀ is (e^b − 1)/b, whatever μ₀ is.
+#[test]
+fn small_coordinates_beside_large_ones_keep_their_digits() {
+    let affine =
+        MatrixGroup::from_structure_constants(2, &[(0, 1, 1, 1.0), (1, 0, 1, -1.0)]).unwrap();
+    for b in [0.3, -0.7, 1.4, -5.0] {
+        for small in [1.0, 1e-9, 1e-26] {
+            let (x, mu) = (DVector::from_vec(vec![b, 0.0]), DVector::from_vec(vec![1.0, small]));
+            let (_, moved) = affine.exp_transport(&x, &mu);
+            let pulled = affine.dexp_transpose(&x, &mu);
+            let off = |found: f64, factor: f64| (found / (small * factor) - 1.0).abs();
+            assert!(off(moved[1], b.exp()) < 4e-15, "{b}, {small}: {}", moved[1]);
+            assert!(off(pulled[1], b.exp_m1() / b) < 4e-15, "{b}, {small}: {}", pulled[1]);
+            assert_eq!(moved[0], 1.0);
+        }
+    }
+}

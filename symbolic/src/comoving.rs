@@ -31,7 +31,7 @@ pub struct Frame {
     /// The linear term ⟨μ, ξ⟩ that commutes with the rest, and functions of integrals s = ⟨μ, η⟩ that commute: the flow
     /// moves g and μ by exp of the multiples of ξ and η.
     pub spin: Polynomial,
-    /// Multiples of quadratic Casimirs C: the flow moves g along ∂C/∂μ and leaves μ.
+    /// Multiples of quadratic Casimirs, or any Casimir C that is all of the rest: the flow moves g along ∂C/∂μ and leaves μ.
     pub casimirs: Polynomial,
     /// H − f, which is left to the series.
     pub rest: Polynomial,
@@ -50,7 +50,8 @@ impl Frame {
 }
 
 /// Finds the frame in which the series of the rest, S₁ + S₃, has fewest terms, after the [field](commuting_field) is taken
-/// from it; above 96 dimensions it has the field alone. `None` where there is no field and nothing else makes it shorter.
+/// from it; above 96 dimensions it has the field alone. A rest that leaves the momentum where it is, a Casimir, is taken
+/// whole, and nothing is left. `None` where there is no field and nothing else makes it shorter.
 ///
 /// Variables of `hamiltonian` beyond the dimension are symbols; an η that depends on them is not found.
 ///
@@ -71,16 +72,27 @@ impl Frame {
 /// // x²/2 + y²/2 + z² without z²/2 is |μ|²/2, of which one step is exact.
 /// let frame = comoving(&so3, Chart::Exponential, &body([1, 1, 2])).unwrap();
 /// assert_eq!(frame.spin, body([0, 0, 1]));
+/// // Of a linear H, and of a function of Casimirs beside it, nothing is left.
+/// let axis = Polynomial::variable(3, 2);
+/// let frame = comoving(&so3, Chart::Exponential, &(&axis + &body([1, 1, 1]).pow(2))).unwrap();
+/// assert!(frame.spin == axis && frame.rest.is_zero());
 /// ```
 pub fn comoving(algebra: &LieAlgebra, chart: Chart, hamiltonian: &Polynomial) -> Option<Frame> {
     let dim = algebra.dim();
     let length = |h: &Polynomial| length(algebra, chart, h);
     let field = commuting_field(algebra, hamiltonian);
     let mut rest = hamiltonian - &field;
+    let nothing = || Polynomial::zero(hamiltonian.variables());
+    if algebra.hamiltonian_field(&rest).iter().all(Polynomial::is_zero) {
+        let (casimirs, rest) = match degree(&rest, dim) {
+            0 => (nothing(), rest),
+            _ => (rest, nothing()),
+        };
+        return (rest != *hamiltonian).then_some(Frame { spin: field, casimirs, rest });
+    }
     let mut fewest = length(&rest)?;
     if dim > SEARCHED {
-        let (spin, casimirs) = (field, Polynomial::zero(hamiltonian.variables()));
-        return (rest != *hamiltonian).then_some(Frame { spin, casimirs, rest });
+        return (rest != *hamiltonian).then_some(Frame { spin: field, casimirs: nothing(), rest });
     }
     // Takes the best candidate off the rest, if the rest becomes shorter by it.
     let mut take = |candidates: &dyn Fn(&Polynomial) -> Vec<Polynomial>| {
@@ -99,8 +111,37 @@ pub fn comoving(algebra: &LieAlgebra, chart: Chart, hamiltonian: &Polynomial) ->
     let spin = sum(&field, spin);
     let known = casimirs(algebra, 2).unwrap_or_default();
     let casimirs = known.iter().filter_map(|c| take(&|h| multiples(h, c, dim))).collect();
-    let casimirs = sum(&Polynomial::zero(hamiltonian.variables()), casimirs);
+    let casimirs = sum(&nothing(), casimirs);
     (rest != *hamiltonian).then_some(Frame { spin, casimirs, rest })
+}
+
+/// True where the frame is taken though the choice is left: there is a [field](commuting_field), or H is the sum of a multiple of a
+/// quadratic Casimir and a function of other coordinates, some of the same ideal. Such is a body on SE(3) with one mass for all directions, P²/2m
+/// being a Casimir: its path is straight however far a step goes, while in the chart of a series about its own axes what is
+/// far seems to turn the body.
+pub fn is_uniform(algebra: &LieAlgebra, hamiltonian: &Polynomial) -> bool {
+    let dim = algebra.dim();
+    if dim <= SEARCHED && degree(hamiltonian, dim) > 0 {
+        let ideals = algebra.ideals();
+        let apart = |part: &Polynomial| {
+            let (of_rest, of_part) = (momenta(&(hamiltonian - part), dim), momenta(part, dim));
+            let both = |ideal: &Vec<usize>| {
+                [&of_rest, &of_part].iter().all(|own| ideal.iter().any(|i| own.contains(i)))
+            };
+            of_rest.is_disjoint(&of_part) && ideals.iter().any(both)
+        };
+        let known = casimirs(algebra, 2).unwrap_or_default();
+        if known.iter().any(|c| multiples(hamiltonian, c, dim).iter().any(apart)) {
+            return true;
+        }
+    }
+    !commuting_field(algebra, hamiltonian).is_zero()
+}
+
+/// The coordinates of the momentum that a polynomial depends on.
+fn momenta(polynomial: &Polynomial, dim: usize) -> BTreeSet<usize> {
+    let factors = polynomial.factors().flat_map(|(factors, _)| split_at(&factors, dim).0.to_vec());
+    factors.map(|(variable, _)| variable as usize).collect()
 }
 
 /// The η of linear integrals that commute with the field and those before them, coordinates first.
@@ -298,7 +339,7 @@ pub fn commuting_field(algebra: &LieAlgebra, hamiltonian: &Polynomial) -> Polyno
         }
     }
     let moves = |element: &Element| algebra.structure().iter().any(|c| !element[c.i].is_zero());
-    if !linear.values().any(moves) || others.is_empty() {
+    if !linear.values().any(moves) {
         return Polynomial::zero(variables);
     }
     // With all of L taken it is enough that each L_σ commutes with the other terms; a part of L must commute with L too.

@@ -34,6 +34,7 @@ pub mod integrator;
 #[cfg(feature = "judge")]
 pub mod judge;
 pub mod lie;
+mod method;
 pub mod nearest;
 pub mod number;
 pub mod poly;

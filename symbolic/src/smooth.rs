@@ -194,8 +194,9 @@ impl Smooth {
 /// A system as its Hamiltonian is.
 #[derive(Clone, Debug)]
 pub enum Hamiltonian {
-    /// A polynomial, whose generating function is a series.
-    Polynomial(Box<Problem>),
+    /// A polynomial, whose generating function is a series; where the input leaves the method open, also what steps by
+    /// collocation are made of.
+    Polynomial(Box<Problem>, Option<Box<Smooth>>),
     /// A smooth function, of the time too, whose steps are made by collocation.
     Smooth(Box<Smooth>),
 }
@@ -204,7 +205,7 @@ impl Hamiltonian {
     /// The facts of the system.
     pub fn facts(&self) -> Facts<'_> {
         match self {
-            Self::Polynomial(problem) => problem.facts(),
+            Self::Polynomial(problem, _) => problem.facts(),
             Self::Smooth(smooth) => smooth.facts(),
         }
     }
@@ -212,7 +213,7 @@ impl Hamiltonian {
     /// Whether it is known to be of degree at most two in the momentum.
     pub fn is_quadratic(&self) -> bool {
         match self {
-            Self::Polynomial(problem) => problem.is_quadratic(),
+            Self::Polynomial(problem, _) => problem.is_quadratic(),
             Self::Smooth(smooth) => smooth.is_quadratic(),
         }
     }
@@ -220,7 +221,7 @@ impl Hamiltonian {
     /// Asks for another truncation.
     pub fn set_truncation(&mut self, truncation: usize) {
         match self {
-            Self::Polynomial(problem) => problem.truncation = truncation,
+            Self::Polynomial(problem, _) => problem.truncation = truncation,
             Self::Smooth(smooth) => smooth.truncation = truncation,
         }
     }
@@ -228,7 +229,7 @@ impl Hamiltonian {
     /// The polynomial, where it is one.
     pub fn polynomial(&self) -> Option<&Problem> {
         match self {
-            Self::Polynomial(problem) => Some(problem),
+            Self::Polynomial(problem, _) => Some(problem),
             Self::Smooth(_) => None,
         }
     }

@@ -83,6 +83,6 @@ pub fn smooth(group: &str, hamiltonian: &str, truncation: usize) -> Smooth {
     let options = Options { truncation: Some(truncation), ..Options::default() };
     match read_either(&text, options, &[]).unwrap().problem {
         Hamiltonian::Smooth(smooth) => *smooth,
-        Hamiltonian::Polynomial(_) => panic!("a polynomial: {hamiltonian}"),
+        Hamiltonian::Polynomial(..) => panic!("a polynomial: {hamiltonian}"),
     }
 }

@@ -15,7 +15,7 @@ use coadjoint_codegen::system::Parameters;
 use coadjoint_program::{Precision, WIDTH};
 use coadjoint_run::ensemble::{Attitude, Course, Engine, How, Known, Shape, Use, in_lanes};
 use coadjoint_run::simulate::Times;
-use coadjoint_run::{Derived, inputs_files, inputs_hash, learned};
+use coadjoint_run::{inputs_files, inputs_hash, learned};
 
 use crate::arguments::EnsembleOptions;
 use crate::error::CliError;
@@ -72,7 +72,8 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     let at = options.at.as_deref().map(|at| Times::read(at, &schedule)).transpose()?;
     states.times = at.as_ref().map(|times| times.0.clone());
     let momentum = system.run.momentum.clone();
-    let derived = Derived::of_file(path, in_lanes(system)?)?;
+    let derived = simulate::derived(path, in_lanes(system)?)?;
+    derived.gave_way().iter().for_each(|note| eprintln!("note: {note}"));
     let facts = derived.facts();
     let precision = options.precision;
     let device = options.device.map(|device| (device, precision));

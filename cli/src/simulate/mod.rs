@@ -107,11 +107,7 @@ fn runs(
         if let Some(line) = announcement.filter(|_| runs.is_empty()) {
             eprintln!("{line}");
         }
-        let phase = system.problem.polynomial().map(|problem| {
-            progress::phase(&format!("deriving the series, K = {}", problem.truncation))
-        });
-        let system = Derived::of_file(path, system)?;
-        drop(phase);
+        let system = derived(path, system)?;
         let header = Header::new(&settings, &system);
         let coordinates = system.facts().coordinates;
         let label = system.label();
@@ -119,6 +115,18 @@ fn runs(
         runs.push(keep(&settings, label, header, coordinates, drive)?);
     }
     Ok((runs, units))
+}
+
+/// Prepares a system, and shows how long that has been taking.
+pub(crate) fn derived(path: &Path, system: System) -> Result<Derived, CliError> {
+    let what = match system.problem.polynomial() {
+        Some(problem) => format!("deriving the series, K = {}", problem.truncation),
+        None => "writing the programs of a step".to_owned(),
+    };
+    let _phase = progress::phase(&what);
+    let system = Derived::of_file(path, system)?;
+    system.prepare();
+    Ok(system)
 }
 
 /// Follows a learned map, which has its own step.

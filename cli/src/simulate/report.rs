@@ -102,6 +102,7 @@ fn object(run: &Trajectory, units: &Units) -> Value {
         object["solver"] = json!({
             "most_iterations": solver.most_iterations,
             "max_residual": solver.max_residual,
+            "rescued_steps": solver.rescued,
         });
     }
     if let Some(used) = &end.backend {

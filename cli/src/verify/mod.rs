@@ -116,6 +116,7 @@ fn judge(
         return refuse(why);
     }
     let System { problem, run, parameters, .. } = found;
+    let problem = problem.settled().0;
     let step = options.step.or_else(|| number("step")).or(run.step);
     let step = step.ok_or_else(|| RunError::no_step(&system))?;
     let phase = progress::phase("deriving the judge");

@@ -279,7 +279,8 @@ fn steady_motions_keep_momentum_and_casimirs() {
         (drift.map(Option::unwrap), report["off_group"].as_f64().unwrap())
     };
     let ([spatial, casimirs], off) = steady("SU3", "0.9*mu[0]", "[1, 2, 3, 4, 5, 6, 7, 8]");
-    assert!(spatial < 2e-12 && casimirs < 1e-13 && off < 4e-15, "{spatial} {casimirs} {off}");
+    // The frame moves by one matrix, whose rounding adds up between two restorations, 8192 steps apart.
+    assert!(spatial < 2e-12 && casimirs < 1e-12 && off < 4e-15, "{spatial} {casimirs} {off}");
     // The translation grows to 2500, and the drift is that of a difference of such numbers.
     let screw = "0.7*mu[0] + 0.2*mu[1] - 0.3*mu[2] + 0.1*mu[4]";
     let ([spatial, casimirs], off) = steady("SE3", screw, "[1, 2, 3, 4, 5, 6]");

@@ -18,7 +18,7 @@ use crate::signal::Signal;
 use crate::smooth::{Given, Hamiltonian, Smooth};
 
 /// An energy as a front end has read it: a Hamiltonian, or a potential.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Energy {
     /// The nodes of its expression. Coordinates are those of the momentum, or the entries of the group element's
     /// matrix, row by row.
@@ -54,7 +54,7 @@ impl Energy {
 }
 
 /// A system as a front end has read it.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Draft {
     pub name: String,
     /// `None` where the input was wrong, which has been reported.
@@ -83,8 +83,20 @@ pub(crate) fn assemble_either(draft: Draft, diagnostics: &Diagnostics) -> Option
         others.for_each(|found| diagnostics.report(found.span, found.mistake));
         return assemble_smooth(draft, None, diagnostics).map(Box::new).map(Hamiltonian::Smooth);
     }
-    let problem = assemble_polynomial(draft, read, diagnostics);
-    problem.map(Box::new).map(Hamiltonian::Polynomial)
+    let open = open(&draft);
+    let problem = assemble_polynomial(draft, read, diagnostics)?;
+    let open = open.and_then(|draft| assemble_smooth(draft, None, &Diagnostics::new()));
+    Some(Hamiltonian::Polynomial(Box::new(problem), open.map(Box::new)))
+}
+
+/// The draft for collocation, where the method is left open: none is named, and nothing but of the series.
+fn open(draft: &Draft) -> Option<Draft> {
+    let Choice { chart: (chart, _), solver, frame: (frame, _), method, .. } = &draft.choice;
+    let of_series = *chart != Chart::default() || *frame == FrameChoice::Comoving;
+    (method.is_none() && solver.is_none() && !of_series).then(|| {
+        let choice = Choice { chart: (*chart, Span::Whole), ..draft.choice.clone() };
+        Draft { choice, ..draft.clone() }
+    })
 }
 
 /// Reports coordinates of another number than the algebra has; none where they could not be read, which is a mistake already.
@@ -245,7 +257,7 @@ fn assemble_polynomial(draft: Draft, read: Read, diagnostics: &Diagnostics) -> O
     };
     match asked {
         FrameChoice::Fixed => Some(problem),
-        FrameChoice::Auto if !frame::has_field(&problem) => Some(problem),
+        FrameChoice::Auto if !frame::is_taken(&problem) => Some(problem),
         FrameChoice::Auto => Some(frame::comoving(&problem).unwrap_or(problem)),
         FrameChoice::Comoving => {
             diagnostics.check(frame_span, frame::comoving(&problem).ok_or(Mistake::NoFrame))

@@ -1,12 +1,12 @@
 //! Problems in the comoving frame.
 
 use super::sums::name_sums;
-use crate::comoving::{self, commuting_field};
+use crate::comoving;
 use crate::problem::{FrameChoice, Parameter, Problem};
 
-/// Whether a linear term of H commutes with the rest.
-pub(super) fn has_field(problem: &Problem) -> bool {
-    !commuting_field(&problem.algebra, &problem.hamiltonian).is_zero()
+/// True where the comoving frame is taken though the choice is left.
+pub(super) fn is_taken(problem: &Problem) -> bool {
+    comoving::is_uniform(&problem.algebra, &problem.hamiltonian)
 }
 
 /// The same problem in the comoving frame; none where nothing can be left to the frame.

@@ -13,7 +13,7 @@ use coadjoint_codegen::smooth::Smooth;
 use coadjoint_codegen::step::Origin;
 use nalgebra::DVector;
 
-use super::compiled::{Compiled, Folded, Numbers, Solves};
+use super::compiled::{Compiled, Folded, Numbers, Solved, Solves};
 use super::kick::Torque;
 use super::linear::{Differentiable, Linear};
 use super::motion::{Motion, Varied, advise, one_by_one};
@@ -171,7 +171,7 @@ impl<'a, const M: usize> Collocated<'a, M> {
         };
         let Some(Kicked { splitting, torque }) = &self.kicks else {
             let report = flow(phase, time, size)?;
-            return Ok(Some((report.iterations, report.residual)));
+            return Ok(Some(Solved::one(report.iterations, report.residual)));
         };
         compose(*splitting, phase, [time, size], |piece, phase, time, length| match piece {
             Piece::Kick => torque.kick(phase, time, length),
@@ -200,8 +200,7 @@ impl<const M: usize> Motion for Collocated<'_, M> {
         if let Some(compiled) = &self.elements.compiled {
             let rescue =
                 |state: &mut Numbers, number| self.rescue(state, self.grid.time(number), size);
-            let made = compiled.advance(state, start, [first, count], rescue)?;
-            return Ok(Some((made.corrections, made.residual)));
+            return Ok(Some(compiled.advance(state, start, [first, count], rescue)?));
         }
         // Steps of a system too large for programs begin anew: so their bits do not depend on how a run is cut.
         let remembers = self.kicks.is_none() && self.step().energy().smooth.given.is_some();
@@ -213,7 +212,7 @@ impl<const M: usize> Motion for Collocated<'_, M> {
                 let mut phase = self.elements.phase(state);
                 if let Ok(report) = self.step().advance(&mut phase, time) {
                     *state = self.elements.state(&phase);
-                    return Ok(Some((report.iterations, report.residual)));
+                    return Ok(Some(Solved::one(report.iterations, report.residual)));
                 }
             }
             self.rescue(state, time, size)

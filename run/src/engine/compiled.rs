@@ -7,11 +7,12 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use coadjoint::StepError;
 use coadjoint_codegen::step::{self, Origin, Spatial, Step};
 use coadjoint_program::fold::FoldError;
-use coadjoint_program::{Kernel, Outcome, Precision, Trajectories, WIDTH};
+use coadjoint_program::{Kernel, Precision, Trajectories, WIDTH};
 
 use crate::backend::{Backend, Code};
 use crate::error::RunError;
 use crate::grid::Grid;
+use crate::number::maximum;
 
 /// Above this ratio of terms a run says so; above twice this its steps are refused.
 pub const STEEP: f64 = 0.25;
@@ -32,8 +33,35 @@ pub(super) fn refusal(error: FoldError, step: f64, symbols: &[f64]) -> StepError
 /// Programs of more operations than this are not compiled: they are evaluated as data.
 pub(super) const MOST_OPERATIONS: usize = 60_000;
 
-/// The most iterations and the largest residual of the solves of steps, where they are known.
-pub(crate) type Solves = Option<(u32, f64)>;
+/// The course of the solves of steps.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Solved {
+    /// The most iterations of a step.
+    pub iterations: u32,
+    /// The largest residual.
+    pub residual: f64,
+    /// The steps that programs refused and the generic solver made.
+    pub rescued: u64,
+}
+
+impl Solved {
+    /// The solves of one step.
+    pub(crate) fn one(iterations: u32, residual: f64) -> Self {
+        Self { iterations, residual, rescued: 0 }
+    }
+
+    /// Both together.
+    pub(crate) fn with(self, other: Self) -> Self {
+        Self {
+            iterations: self.iterations.max(other.iterations),
+            residual: maximum(self.residual, other.residual),
+            rescued: self.rescued + other.rescued,
+        }
+    }
+}
+
+/// The course of the solves of steps, where it is known.
+pub(crate) type Solves = Option<Solved>;
 
 /// A state as the programs have it.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,7 +81,7 @@ pub(crate) struct Kept {
 
 /// The programs of one integrator.
 #[derive(Debug)]
-struct Programs {
+pub(crate) struct Programs {
     step: Step,
     spatial: Spatial,
 }
@@ -73,6 +101,18 @@ impl std::fmt::Debug for Kept {
 }
 
 impl Kept {
+    /// The programs of this origin; made, where they are not there yet.
+    ///
+    /// # Errors
+    /// The reason for which there are none.
+    pub(crate) fn programs(&self, origin: Origin<'_>) -> Result<Arc<Programs>, step::StepError> {
+        match self.programs.get() {
+            Some(programs) => Ok(programs.clone()),
+            None => Programs::build(origin)
+                .map(|programs| self.programs.get_or_init(|| programs).clone()),
+        }
+    }
+
     /// Usable code: made by this backend, or, for [`Backend::Auto`], any machine code.
     fn find(&self, backend: Backend, trajectories: Trajectories) -> Option<Arc<Code>> {
         // A thread that panicked has added whole codes, if any.
@@ -150,12 +190,9 @@ impl Compiled {
             Backend::Auto | Backend::Interpreter => Ok(None),
             _ => Err(RunError::Option(format!("--backend: {why}"))),
         };
-        let programs = match kept.programs.get() {
-            Some(programs) => programs.clone(),
-            None => match Programs::build(origin) {
-                Ok(programs) => kept.programs.get_or_init(|| programs).clone(),
-                Err(error) => return unfit(&error),
-            },
+        let programs = match kept.programs(origin) {
+            Ok(programs) => programs,
+            Err(error) => return unfit(&error),
         };
         let step = &programs.step;
         let parts = &step.kernel().programs;
@@ -288,28 +325,25 @@ impl Compiled {
         start: f64,
         [first, steps]: [u64; 2],
         mut rescue: impl FnMut(&mut Numbers, u64) -> Result<Solves, StepError>,
-    ) -> Result<Outcome, (u64, StepError)> {
-        let mut total = Outcome::default();
+    ) -> Result<Solved, (u64, StepError)> {
+        let (mut total, mut done) = (Solved::default(), 0);
         let (moves, mut slots) = (self.programs.step.moves(), Cow::Borrowed(self.coefficients()));
-        while total.steps < steps {
-            let asked = (steps - total.steps).min(self.code().at_a_time());
+        while done < steps {
+            let asked = (steps - done).min(self.code().at_a_time());
             let asked = if self.framed || moves { 1 } else { asked };
-            let number = first + total.steps;
+            let number = first + done;
             if moves {
                 let grid = Grid { start, step: self.folded.size };
                 self.programs.step.set_time(slots.to_mut(), grid.step, grid.time(number));
             }
             let Numbers { g, mu } = numbers;
             let made = self.code().stepper(self.kernel()).advance(&slots, g, mu, asked);
-            total.steps += made.steps;
-            note(&mut total, made.corrections, made.residual);
+            done += made.steps;
+            total = total.with(Solved::one(made.corrections, made.residual));
             if made.steps < asked {
-                let solves = rescue(numbers, first + total.steps);
-                let solves = solves.map_err(|error| (total.steps, error))?;
-                if let Some((iterations, residual)) = solves {
-                    note(&mut total, iterations, residual);
-                }
-                total.steps += 1;
+                let solves = rescue(numbers, first + done).map_err(|error| (done, error))?;
+                total = total.with(Solved { rescued: 1, ..solves.unwrap_or_default() });
+                done += 1;
             }
         }
         Ok(total)
@@ -403,11 +437,4 @@ fn fold(
     let folded = step.fold_rows(size, &symbols, STEEP);
     let (slots, quiet) = folded.map_err(|error| refusal(error, size, &symbols))?;
     Ok(Folded { size, slots, quiet })
-}
-
-fn note(total: &mut Outcome, corrections: u32, residual: f64) {
-    total.corrections = total.corrections.max(corrections);
-    if residual.is_nan() || residual > total.residual {
-        total.residual = residual;
-    }
 }

@@ -8,8 +8,7 @@ use coadjoint_codegen::integrator::{FoldTable, Integrator, Kick, Kicks};
 use coadjoint_codegen::potential::Force;
 use nalgebra::{DMatrix, DVector};
 
-use super::compiled::Solves;
-use super::compiled::refusal;
+use super::compiled::{Solved, Solves, refusal};
 use super::interpreter::Interpreter;
 use super::space::{Group, entries_of};
 use crate::error::kept;
@@ -31,7 +30,7 @@ pub(crate) fn map<'a, G: Group + 'a, C: Chart<G> + Send + Sync + 'a>(
         let step = flow(size)?;
         return Ok(Box::new(move |phase, _| {
             let report = advance(&step, phase)?;
-            Ok(Some((report.iterations, report.residual)))
+            Ok(Some(Solved::one(report.iterations, report.residual)))
         }));
     };
     let torque = Torque::new(kick, group.clone(), parameters)?;

@@ -15,7 +15,7 @@ mod tangent;
 pub(crate) use card::{card, device_text};
 pub(crate) use collocation::collocated;
 pub use compiled::STEEP;
-pub(crate) use compiled::{Compiled, Kept, Numbers, Solves};
+pub(crate) use compiled::{Compiled, Kept, Numbers, Solved, Solves};
 pub(crate) use damping::{Damped, Damper, Source};
 pub(crate) use interpreter::Interpreter;
 pub(crate) use kick::Torque;

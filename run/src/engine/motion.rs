@@ -7,13 +7,14 @@ use coadjoint::groups::{
     Cayley, CayleyMatrixGroup, Chart, DirectProduct, Exponential, MatrixGroup,
 };
 use coadjoint::{Phase, StepError};
+use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::{Integrator, Kicks};
-use coadjoint_codegen::lie;
 use coadjoint_codegen::potential::Force;
 use coadjoint_codegen::step::Origin;
+use coadjoint_codegen::{in_other_frame, lie};
 use nalgebra::DVector;
 
-use super::compiled::{Compiled, Folded, Numbers, Solves};
+use super::compiled::{Compiled, Folded, Numbers, Solved, Solves};
 use super::interpreter::Interpreter;
 use super::kick::{Map, Torque, longest_flow, map};
 use super::linear::{Differentiable, Linear};
@@ -21,7 +22,6 @@ use super::space::{Elements, Restore, Space, cayley_group};
 use super::tangent::Tangent;
 use crate::error::RunError;
 use crate::grid::Grid;
-use crate::number::maximum;
 
 /// Moves states by steps of one size.
 pub(crate) trait Motion: Send + Sync {
@@ -63,6 +63,11 @@ pub(crate) trait Motion: Send + Sync {
         None
     }
 
+    /// Advice beside that of an error, for a step from this time that this state refused.
+    fn advice(&self, _: &Numbers, _time: f64, _: &StepError) -> Option<&'static str> {
+        None
+    }
+
     /// Whether the Hamiltonian and the torque of kicks are defined in a state of this time.
     ///
     /// # Errors
@@ -89,12 +94,12 @@ pub(crate) fn one_by_one(
     count: u64,
     mut step: impl FnMut() -> Result<Solves, StepError>,
 ) -> Result<Solves, (u64, StepError)> {
-    let mut total = None;
+    let mut total: Solves = None;
     for made in 0..count {
         let solved = step().map_err(|error| (made, error))?;
         total = match (total, solved) {
-            (Some((a, b)), Some((c, d))) => Some((u32::max(a, c), maximum(b, d))),
-            (a, b) => a.or(b),
+            (Some(total), Some(solved)) => Some(total.with(solved)),
+            (total, solved) => total.or(solved),
         };
     }
     Ok(total)
@@ -214,12 +219,14 @@ struct Steps<'a, G: Restore, C> {
     flow: OnceLock<Option<Interpreter<'a, G, C>>>,
     /// The derivative of a step, once one was asked for.
     tangent: OnceLock<Tangent<'a, G, C>>,
+    /// This system in the comoving frame, once advice was asked for, where there is one and the choice is left.
+    comoving: OnceLock<Option<Integrator>>,
 }
 
 impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Steps<'a, G, C> {
     fn new(elements: Elements<G>, equations: Equations<'a>, grid: Grid) -> Self {
-        let (generic, flow, shorter, tangent) = Default::default();
-        Self { elements, equations, grid, generic, shorter, flow, tangent }
+        let (generic, flow, shorter, tangent, comoving) = Default::default();
+        Self { elements, equations, grid, generic, shorter, flow, tangent, comoving }
     }
 
     fn map(&self, size: f64) -> Result<Map<'a, G>, StepError> {
@@ -281,7 +288,7 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Motion for Steps<'a, G
         let rescue = |state: &mut Numbers, number| self.rescue(state, number);
         let made = compiled.advance(state, self.grid.start, [first, count], rescue)?;
         // A bound, which may be far below what rounding leaves.
-        Ok(Some((made.corrections, made.residual.max(f64::EPSILON))))
+        Ok(Some(Solved { residual: made.residual.max(f64::EPSILON), ..made }))
     }
 
     fn beside(&self, state: &Numbers, time: f64, size: f64) -> Result<Numbers, StepError> {
@@ -311,6 +318,29 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Motion for Steps<'a, G
         });
         let ratio = |flow: &Interpreter<'a, G, C>| flow.ratio(&DVector::from_column_slice(mu));
         flow.as_ref().map_or(0.0, ratio)
+    }
+
+    fn advice(&self, state: &Numbers, time: f64, error: &StepError) -> Option<&'static str> {
+        let Equations { integrator, parameters } = &self.equations;
+        let make = || {
+            let problem = in_other_frame(&integrator.problem)?;
+            let limit = TermLimit::of_open_method();
+            let made = problem.comoving.is_some().then(|| Integrator::build(problem, limit).ok());
+            match &integrator.kicks {
+                Some(Kicks { kick, splitting, .. }) => {
+                    made.flatten()?.with_kicks(kick.clone(), *splitting)
+                }
+                None => made.flatten(),
+            }
+        };
+        let works = |comoving: &Integrator| {
+            let map = map::<G, C>(comoving, &self.elements.group, self.grid.step, parameters);
+            map.is_ok_and(|step| step(&mut self.elements.phase(state), time).is_ok())
+        };
+        let comoving = error.asks_for_smaller_step().then(|| self.comoving.get_or_init(make));
+        let advice =
+            "; this step can be made in the comoving frame: [integrator] frame = \"comoving\"";
+        comoving?.as_ref().filter(|comoving| works(comoving)).map(|_| advice)
     }
 
     /// Of torques without potential no derivatives are known.

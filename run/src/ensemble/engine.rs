@@ -32,7 +32,7 @@ pub fn in_lanes(mut system: System) -> Result<System, RunError> {
             "the event `{name}`: ensembles do not look for events; leave [[event]] out, or use simulate"
         )));
     }
-    if let Hamiltonian::Polynomial(problem) = &mut system.problem {
+    if let Hamiltonian::Polynomial(problem, _) = &mut system.problem {
         problem.solver = Some(Solver::Newton);
     }
     Ok(system)

@@ -184,10 +184,10 @@ impl March<'_> {
         // Where records come more often than the driver must, none of its time goes into clocks.
         let begun = (count == pace.0).then(Instant::now);
         let made = self.motion.advance(&mut self.state, first, count);
-        let made = made.map_err(|(done, source)| RunError::Run {
-            time: schedule.time(first + done),
-            step: first + done + 1,
-            what: source.to_string(),
+        let made = made.map_err(|(done, source)| {
+            let time = schedule.time(first + done);
+            let advice = self.motion.advice(&self.state, time, &source).unwrap_or_default();
+            RunError::Run { time, step: first + done + 1, what: format!("{source}{advice}") }
         })?;
         if let Some(begun) = begun {
             pace.took(count, begun.elapsed());
@@ -196,8 +196,8 @@ impl March<'_> {
         if let Some(orbit) = self.orbit.as_ref().filter(|_| self.n == restored) {
             orbit.restore(self.motion.space(), &mut self.state);
         }
-        if let Some((iterations, residual)) = made {
-            let noted = self.recorder.solved(iterations, residual);
+        if let Some(solved) = made {
+            let noted = self.recorder.solved(solved);
             noted.map_err(|what| self.stuck(what))?;
         }
         if let Some(before) = before {

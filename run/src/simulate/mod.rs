@@ -10,6 +10,7 @@ mod run;
 mod setup;
 mod single;
 mod sink;
+mod slow;
 mod tally;
 
 pub(crate) use setup::not_an_element;

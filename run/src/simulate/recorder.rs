@@ -10,7 +10,7 @@ use super::orbit::Orbit;
 use super::sink::Begun;
 use super::tally::{Moment, Solver, Steep, Tally, Warning};
 use crate::backend::Used;
-use crate::engine::{Numbers, STEEP, Space};
+use crate::engine::{Numbers, STEEP, Solved, Space};
 use crate::number::maximum;
 
 /// The outcome of a run.
@@ -145,14 +145,16 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Takes note of how the solves of some steps went: the most iterations of one, and the largest residual.
+    /// Takes note of how the solves of some steps went.
     ///
     /// # Errors
     /// The name of a number that is not finite.
-    pub(crate) fn solved(&mut self, iterations: u32, residual: f64) -> Result<(), String> {
+    pub(crate) fn solved(&mut self, solved: Solved) -> Result<(), String> {
+        let Solved { iterations, residual, rescued } = solved;
         let solver = self.tally.solver.get_or_insert_default();
         solver.most_iterations = solver.most_iterations.max(iterations.into());
         solver.max_residual = maximum(solver.max_residual, residual);
+        solver.rescued += rescued;
         finite("the residual of the solve", residual)
     }
 

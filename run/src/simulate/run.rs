@@ -17,9 +17,10 @@ use super::march::Subject;
 use super::recorder::{Outcome, Watched};
 use super::setup::Setup;
 use super::sink::Sink;
+use super::slow::slow;
 use super::tally::Warning;
 use crate::engine::{
-    Charted, Elements, Motion, Numbers, Restore, Solves, Space, one_by_one, product_group,
+    Charted, Elements, Motion, Numbers, Restore, Solved, Solves, Space, one_by_one, product_group,
 };
 use crate::error::RunError;
 use crate::grid::Grid;
@@ -42,7 +43,8 @@ pub fn run(system: &Derived, setup: &Setup, sink: &mut dyn Sink) -> Result<Outco
     let motion = system.steps(grid, compiled.as_ref()).map_err(RunError::unmade)?;
     let start = setup.start(&system.file, motion.space())?;
     motion.defined(&start, grid.start).map_err(RunError::at(grid.start))?;
-    let subject = Subject { setup, watched: system.watched(grid.step), warnings: Vec::new() };
+    let warnings = system.gave_way().map(Warning::Method).into_iter().collect();
+    let subject = Subject { setup, watched: system.watched(grid.step), warnings };
     let made = subject.run(motion.as_ref(), &start, sink);
     let code = compiled.as_ref().map(|compiled| compiled.code());
     code.iter().flat_map(|code| code.notes()).for_each(|note| sink.warn(&note));
@@ -53,6 +55,11 @@ pub fn run(system: &Derived, setup: &Setup, sink: &mut dyn Sink) -> Result<Outco
         system.varied(grid, &parameters, compiled.as_ref())
     };
     let order = system.order();
+    let shorter = |step| system.varied(Grid { step, ..grid }, &parameters, compiled.as_ref());
+    if let Some(warning) = slow(&outcome, grid.step, &start, shorter) {
+        sink.warn(&warning.text());
+        outcome.warnings.push(warning);
+    }
     let found = match outcome.time == schedule.end {
         true => estimate(motion.as_ref(), other, [&start, &end], schedule.steps, order),
         false => Err(ENDED),
@@ -136,7 +143,7 @@ impl<G: Restore, C: Chart<G> + Send + Sync> Motion for Learned<'_, G, C> {
             let mut phase = self.elements.phase(state);
             let report = advance(&self.map, &mut phase)?;
             *state = self.elements.state(&phase);
-            Ok(Some((report.iterations, report.residual)))
+            Ok(Some(Solved::one(report.iterations, report.residual)))
         })
     }
 

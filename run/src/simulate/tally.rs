@@ -23,6 +23,9 @@ pub struct Solver {
     pub most_iterations: u64,
     /// The largest residual left, relative to the momentum.
     pub max_residual: f64,
+    /// The steps that the programs refused and the generic solver made, which takes hundreds of times as long.
+    #[serde(default)]
+    pub rescued: u64,
 }
 
 /// The fields of a [`Drift`], for `#[serde(with = "DriftFields")]`.
@@ -66,6 +69,8 @@ pub enum Warning {
     Steep(Steep),
     /// A map learned from momenta alone moves no attitude.
     NoAttitude,
+    /// The series gave way to collocation, for this reason.
+    Method(String),
     /// The error estimated at the end is large.
     Inaccurate {
         /// The estimate.
@@ -79,6 +84,15 @@ pub enum Warning {
         drift: f64,
         /// The drift that rounding explains.
         bound: f64,
+    },
+    /// Many steps were made by the generic solver, which takes hundreds of times as long as the programs that refused them.
+    Slow {
+        /// Such steps.
+        rescued: u64,
+        /// All steps.
+        steps: u64,
+        /// A smaller step, with which the programs make all steps of the run; none where none was found.
+        step: Option<f64>,
     },
     /// An event that was to end the run did not occur.
     NoEvent {
@@ -103,6 +117,7 @@ impl Warning {
                 since the data leave it open up to a rotation about the momentum"
                     .to_owned()
             }
+            Self::Method(text) => text.clone(),
             Self::Inaccurate { error } => format!(
                 "the error at the end is about {:.0} %: take a smaller step or a larger truncation",
                 error * 100.0
@@ -111,6 +126,17 @@ impl Warning {
                 "the {quantity} drifted by {drift:.1e}, relatively, where rounding explains {bound:.1e}: every step \
                  should conserve it, so the end may be wrong; take a smaller step, and please report it"
             ),
+            Self::Slow { rescued, steps, step } => {
+                let share = 100.0 * *rescued as f64 / (*steps).max(1) as f64;
+                let advice = match step {
+                    Some(step) => format!("a step of {} avoids it", shortest(*step)),
+                    None => "a smaller step may avoid it".to_owned(),
+                };
+                format!(
+                    "{rescued} of {steps} steps ({share:.0} %) are too long for the compiled step, and the generic solver made \
+                     them, which takes far longer: {advice}"
+                )
+            }
             Self::NoEvent { name, values: [start, end] } => format!(
                 "the event `{name}` did not occur; its function was {} at the start and is {} at the end",
                 shortest(*start),
@@ -127,12 +153,22 @@ impl Warning {
                 "kind": "series_ratio", "step": step, "time": time, "ratio": ratio, "text": text,
             }),
             Self::NoAttitude => json!({ "kind": "no_attitude", "text": text }),
+            Self::Method(_) => json!({ "kind": "method", "text": text }),
             Self::Inaccurate { error } => {
                 json!({ "kind": "estimated_error", "error": error, "text": text })
             }
             Self::Drift { quantity, drift, bound } => json!({
                 "kind": "drift", "quantity": quantity, "drift": drift, "bound": bound, "text": text,
             }),
+            Self::Slow { rescued, steps, step } => {
+                let mut object = json!({
+                    "kind": "slow_steps", "rescued": rescued, "steps": steps, "text": text,
+                });
+                if let Some(step) = step {
+                    object["step"] = json!(step);
+                }
+                object
+            }
             Self::NoEvent { name, values } => {
                 json!({ "kind": "no_event", "event": name, "values": values, "text": text })
             }

@@ -33,7 +33,7 @@ const LONG: f64 = 1e5;
 /// Where the series is too large, or the Hamiltonian a function without formula.
 pub fn judge_of(file: &Path, hamiltonian: &Hamiltonian) -> Result<Judge, RunError> {
     let judge = match hamiltonian {
-        Hamiltonian::Polynomial(problem) => Judge::of_problem(problem, TermLimit::default()),
+        Hamiltonian::Polynomial(problem, _) => Judge::of_problem(problem, TermLimit::default()),
         Hamiltonian::Smooth(smooth) => Judge::of_smooth(smooth),
     };
     judge.map_err(|error| RunError::Option(format!("{}: {error}", file.display())))
@@ -94,7 +94,7 @@ impl<'a> Follower<'a> {
         }
         // Parameters are substituted; what symbols are left (sqrt(2)) need none.
         let symbols: Vec<f64> = match hamiltonian {
-            Hamiltonian::Polynomial(problem) => values(&problem.symbols),
+            Hamiltonian::Polynomial(problem, _) => values(&problem.symbols),
             Hamiltonian::Smooth(smooth) => smooth.symbols_at(&hamiltonian.facts().defaults()),
         };
         judge.at(step, &symbols).map_err(|error| RunError::Option(error.to_string()))?;

@@ -13,8 +13,16 @@ use crate::step::{StepReport, check};
 /// The most evaluations of the fixed point.
 const EVALUATIONS: u32 = 60;
 
+/// The evaluations after which those that converge slowly are extrapolated, and the change below which they do converge.
+const PLAIN: u32 = 20;
+const CONVERGING: f64 = 1e-2;
+
 /// The change of x that is rounding, in units of it.
 const ROUNDINGS: f64 = 8.0;
+
+/// The change below which an evaluation that changes x no less than the one before is down to rounding too: the torque of a
+/// potential is made of the entries of g, which grow on groups that are not compact, and its rounding with them.
+const STAGNANT: f64 = 1e-12;
 
 /// Damping by the double bracket: ġ = g x and μ̇ = ad\*_x μ with x = Γ ad\*_ω μ, ω = ∂H/∂μ, and Γ diagonal in the group's
 /// basis (A. Bloch, P. S. Krishnaprasad, J. E. Marsden, T. S. Ratiu, Commun. Math. Phys. 175, 1996).
@@ -126,7 +134,7 @@ where
         if (0..mu.dim()).any(|i| !mu[i].all_finite()) {
             return Err(StepError::NonFiniteState);
         }
-        let mut residual = f64::NAN;
+        let (mut residual, mut last) = (f64::INFINITY, None::<[G::Vector; 2]>);
         for iterations in 1..=EVALUATIONS {
             let (increment, moved) = group.exp_transport(&x, mu);
             let omega = self.slope(time, mu, &moved);
@@ -149,15 +157,24 @@ where
                 * self.rates.largest_entry()
                 * (omega.largest_entry() * p.largest_entry() + torque.largest_entry());
             let change = next.clone().minus(&x).largest_entry();
+            let before = residual;
             residual = if change == 0.0 { 0.0 } else { change / size };
-            if residual <= ROUNDINGS * f64::EPSILON {
+            let stagnant = residual >= before && residual <= STAGNANT;
+            if residual <= ROUNDINGS * f64::EPSILON || stagnant {
                 let element = group.compose(&phase.group_element, &increment);
                 let next = Phase { group_element: element, momentum: moved };
                 check(group, &next)?;
                 *phase = next;
                 return Ok(StepReport { iterations, residual });
             }
-            x = next;
+            let step = next.clone().minus(&x);
+            x = match last {
+                Some([before, image]) if iterations > PLAIN && residual < CONVERGING => {
+                    secant([&next, &image], [&step, &before])
+                }
+                _ => next.clone(),
+            };
+            last = Some([step, next]);
         }
         let at = Circumstances { x: x.largest_entry(), ratio: 0.0, usable_step: None };
         Err(StepError::NotConverged { iterations: EVALUATIONS, residual, at })
@@ -175,4 +192,13 @@ where
         }
         mean
     }
+}
+
+/// The fixed point, from the last two images of the map and the changes by which it made them, to first order along their
+/// difference (D. G. Anderson, J. ACM 12, 1965, with one step of memory).
+fn secant<V: Coordinates<f64>>([next, image]: [&V; 2], [step, before]: [&V; 2]) -> V {
+    let bend = step.clone().minus(before);
+    let size = bend.pairing(&bend);
+    let share = if size > 0.0 { step.pairing(&bend) / size } else { 0.0 };
+    V::from_entries(next.dim(), |i| (image[i] - next[i]).times_plus(share, next[i]))
 }

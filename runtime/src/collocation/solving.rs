@@ -9,6 +9,9 @@ use crate::group::middle::add;
 use crate::linear::coordinates::Coordinates;
 use crate::number::Scalar;
 
+/// The growth of a momentum over that at the start beyond which sweeps have diverged.
+const DIVERGED: f64 = 1e30;
+
 /// The equations of one step from μ.
 pub(super) struct Equations<'a, G: LieGroup, E, const M: usize> {
     pub group: &'a G,
@@ -76,6 +79,12 @@ where
         let ending = loop {
             let mut change = match self.sweep(&rates, &p, &mut momenta) {
                 Ok(next) => next,
+                // A momentum this large shows that sweeps diverge, not that the gradient has no value there.
+                Err((_, mu))
+                    if (0..dim).any(|i| !mu[i].all_finite() || mu[i].abs() > DIVERGED * scale) =>
+                {
+                    break Ending::NotConverged;
+                }
                 Err((time, mu)) => break Ending::Undefined(time, mu),
             };
             sweeps += 1;

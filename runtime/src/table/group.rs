@@ -555,7 +555,8 @@ pub(crate) struct Action<V> {
 
 /// How a norm is dealt with.
 enum Regime {
-    SubSteps(u32),
+    /// A number of steps, and the norm of each.
+    SubSteps(u32, f64),
     Doublings(u32),
     NotFinite,
 }
@@ -579,13 +580,13 @@ impl<K: Tables> TableGroup<K> {
         let norm = self.ad_norm(x);
         let largest = norm.largest_lane();
         if largest <= TAYLOR {
-            Regime::SubSteps(1)
+            Regime::SubSteps(1, largest)
         } else if largest <= SUBSTEPS {
             let mut steps = 1;
             while TAYLOR * f64::from(steps) < largest {
                 steps += 1;
             }
-            Regime::SubSteps(steps)
+            Regime::SubSteps(steps, largest / f64::from(steps))
         } else {
             square::halvings(norm, 1.0).map_or(Regime::NotFinite, Regime::Doublings)
         }
@@ -608,18 +609,23 @@ impl<K: Tables> TableGroup<K> {
         result
     }
 
-    /// φ(A)μ by its Taylor series, ‖A‖ ≤ [`TAYLOR`].
-    fn phi_series(&self, x: &K::Vector, mu: &K::Vector) -> K::Vector {
+    /// φ(A)μ by its Taylor series, ‖A‖ ≤ `norm` ≤ [`TAYLOR`]. It ends where the terms of the norm are below rounding, and
+    /// each coordinate's term is below rounding of that coordinate: one that decays to 10⁻²⁶ beside others of size one keeps
+    /// all of its digits.
+    fn phi_series(&self, x: &K::Vector, mu: &K::Vector, norm: f64) -> K::Vector {
         let dim = self.algebra().dim;
         let rounding = K::Scalar::epsilon() * K::Scalar::of(0.125);
         let mut term = mu.clone();
         let mut sum = mu.clone();
+        let mut bound = 1.0;
         for k in 1..TAYLOR_TERMS {
-            let factor = K::Scalar::of(1.0 / (k + 1) as f64);
-            term = self.scaled(&self.ad_transpose(x, &term), factor);
+            let factor = 1.0 / (k + 1) as f64;
+            bound *= norm * factor;
+            term = self.scaled(&self.ad_transpose(x, &term), K::Scalar::of(factor));
             sum = K::Vector::from_entries(dim, |i| sum[i] + term[i]);
+            let small = |i| term[i].simd_abs().simd_le(sum[i].simd_abs() * rounding).all();
             // ‖A‖/(k + 2) < 1, so that later terms are smaller.
-            if term.largest_entry().simd_le(sum.largest_entry() * rounding).all() {
+            if K::Scalar::of(bound).simd_le(rounding).all() && (0..dim).all(small) {
                 break;
             }
         }
@@ -635,13 +641,13 @@ impl<K: Tables> TableGroup<K> {
                 let (exp, phi) = self.action_matrices(x, count);
                 Action { phi: mu.left_multiply(&phi), exp: mu.left_multiply(&exp) }
             }
-            Regime::SubSteps(steps) => {
+            Regime::SubSteps(steps, norm) => {
                 let part = K::Scalar::of(1.0 / f64::from(steps));
                 let x = self.scaled(x, part);
                 let mut phi = K::Vector::zeros(dim);
                 let mut exp = mu.clone();
                 for _ in 0..steps {
-                    let average = self.phi_series(&x, &exp);
+                    let average = self.phi_series(&x, &exp, norm);
                     let change = self.ad_transpose(&x, &average);
                     phi = K::Vector::from_entries(dim, |i| average[i].times_plus(part, phi[i]));
                     exp = K::Vector::from_entries(dim, |i| exp[i] + change[i]);

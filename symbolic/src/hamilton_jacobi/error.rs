@@ -44,7 +44,7 @@ pub enum DeriveError {
     },
     /// A polynomial grew beyond the limit.
     #[error(
-        "too large: order {order} needs at least {terms} terms, more than the limit of {limit}; lower the truncation"
+        "too large: order {order} needs at least {terms} terms, more than the limit of {limit}; lower the truncation, or ask for `method = \"collocation\"`"
     )]
     TooLarge {
         /// The order in t at which it happened.
@@ -56,7 +56,7 @@ pub enum DeriveError {
     },
     /// The work grew beyond the limit.
     #[error(
-        "too large: order {order} needs at least {products} products of coefficients, more than the limit of {limit}; lower the truncation"
+        "too large: order {order} needs at least {products} products of coefficients, more than the limit of {limit}; lower the truncation, or ask for `method = \"collocation\"`"
     )]
     TooMuchWork {
         /// The order in t at which it happened.
@@ -66,6 +66,16 @@ pub enum DeriveError {
         /// The limit.
         limit: u64,
     },
+    /// The programs of a step would grow beyond the limit.
+    #[error(
+        "too large: its gradient and Hessian have about {operations} operations, more than the limit of {limit}"
+    )]
+    TooManyOperations {
+        /// The operations.
+        operations: usize,
+        /// The limit.
+        limit: usize,
+    },
     /// The Hamiltonian has too high a degree.
     #[error("the Hamiltonian has degree {degree}; at most {limit} is supported")]
     Degree {
@@ -74,4 +84,24 @@ pub enum DeriveError {
         /// The limit.
         limit: u32,
     },
+}
+
+impl DeriveError {
+    /// A note that collocation makes the steps, since nobody asked for the series.
+    pub fn gave_way(&self) -> String {
+        let text = self.to_string();
+        // Without the advice.
+        let reason = text.rsplit_once("; ").map_or(&*text, |(reason, _)| reason);
+        format!(
+            "collocation makes the steps, for the series is {reason}; [integrator] method = \"series\" asks for the series all the same"
+        )
+    }
+
+    /// True where the series is too large, and not the input at fault.
+    pub fn is_of_size(&self) -> bool {
+        matches!(
+            self,
+            Self::TooLarge { .. } | Self::TooMuchWork { .. } | Self::TooManyOperations { .. }
+        )
+    }
 }

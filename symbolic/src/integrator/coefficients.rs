@@ -120,6 +120,13 @@ impl Coefficients {
         orders.filter(move |&(order, _)| truncation > 1 && order + 2 >= truncation)
     }
 
+    /// The coordinates on which S₁ … S_K depend.
+    pub(crate) fn of_series(&self) -> BTreeSet<usize> {
+        let series = self.bases.iter().zip(&self.monomials);
+        let series = series.filter(|(parts, _)| parts.iter().any(|term| term.step_power > 0));
+        series.flat_map(|(_, factors)| factors.iter().map(|&(i, _)| i as usize)).collect()
+    }
+
     /// The coordinates on which S₃ … S_K depend.
     pub(crate) fn beyond_first(&self) -> BTreeSet<usize> {
         let series = self.bases.iter().zip(&self.monomials);

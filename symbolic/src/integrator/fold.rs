@@ -100,6 +100,10 @@ impl FoldTable {
         let numbers: BTreeMap<usize, u32> = wanted.into_iter().zip(0..).collect();
         let renumber = |base: usize| numbers.get(&base).copied().unwrap_or(0);
 
+        let mut of_series: BTreeMap<(usize, u32), Vec<&OfSeries>> = BTreeMap::new();
+        for own in &last {
+            of_series.entry((own.base, own.order)).or_default().push(own);
+        }
         let mut table = Self::default();
         let mut products = Products::default();
         for (base, parts) in coefficients.parts().enumerate() {
@@ -108,7 +112,7 @@ impl FoldTable {
             }
             for part in parts {
                 let power = part.first().map_or(0, |term| term.step_power);
-                for own in last.iter().filter(|own| (own.base, own.order) == (base, power)) {
+                for own in of_series.get(&(base, power)).into_iter().flatten() {
                     let part = number(table.parts.len());
                     table.last.extend(own.counts.iter().map(|&(_, a, b, c, d)| (part, a, b, c, d)));
                     table.kept.extend(own.place.map(|place| (part, number(place))));

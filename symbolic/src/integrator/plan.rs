@@ -142,7 +142,7 @@ impl Plan {
         for degree in 0..tried {
             let row = match rows.next_row() {
                 Ok(row) => row,
-                Err(error) if degree > 0 && too_large(&error) => break,
+                Err(error) if degree > 0 && error.is_of_size() => break,
                 Err(error) => return Err(error),
             };
             for (i, component) in row.iter().enumerate() {
@@ -270,9 +270,11 @@ const HIGHEST_CHEAP_DEGREE: usize = 2;
 /// Evaluations of the fixed point from the constant predictor to rounding, at h|Ω| of about 0.1.
 const EVALUATIONS: usize = 10;
 
-/// Whether a derivation stopped at its limit.
-fn too_large(error: &DeriveError) -> bool {
-    matches!(error, DeriveError::TooLarge { .. } | DeriveError::TooMuchWork { .. })
+/// About the operations of ∂S and Hess S.
+pub(crate) fn operations(dim: usize, truncation: usize, series: &GeneratingSeries) -> usize {
+    let orders = (1..=truncation).map(|k| (k as u32, series.order(k)));
+    let terms = collect(&mut Coefficients::default(), dim, orders);
+    gradient_operations(&terms) + hessian_operations(&terms, truncation)
 }
 
 /// About one and a half operations for each monomial of each entry, since entries share powers.

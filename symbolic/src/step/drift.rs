@@ -57,7 +57,7 @@ impl Energy {
     /// A Hamiltonian; a smooth one with the values that its input gives the parameters.
     pub fn new(hamiltonian: &Hamiltonian) -> Self {
         match hamiltonian {
-            Hamiltonian::Polynomial(problem) => {
+            Hamiltonian::Polynomial(problem, _) => {
                 let Problem { hamiltonian, algebra, symbols, .. } = &**problem;
                 Self::Polynomial(Numeric::new(hamiltonian, algebra.dim(), &values(symbols)))
             }

@@ -1,5 +1,7 @@
 //! The equation of a step as programs: a first guess, and a correction of it.
 
+use std::ops::Range;
+
 use coadjoint_geometry::series::NEWTON;
 
 use super::tables::structure_of;
@@ -112,7 +114,8 @@ impl Scheme {
 }
 
 /// |μ|² of each factor of the group on which S₃ … S_K depend: what says how they converge. The translations of a free
-/// body are not among them.
+/// body are not among them. In a factor whose S depends on the momenta of a subalgebra alone, x is in it, and p on it follows
+/// from μ on it: only they count, as those of the rotations of a body on SE(3) in the frame that moves with its mass.
 pub(crate) fn squares_of_series(
     graph: &Graph,
     integrator: &Integrator,
@@ -120,7 +123,16 @@ pub(crate) fn squares_of_series(
     mu: &[Id],
 ) -> Vec<Id> {
     let factors = group.whole_factors(&integrator.coefficients.beyond_first());
-    factors.into_iter().map(|own| dot(graph, &mu[own.clone()], &mu[own])).collect()
+    let (all, structure) =
+        (integrator.coefficients.of_series(), structure_of(&integrator.problem.algebra));
+    let square = |own: Range<usize>| {
+        let inside = |i: &usize| own.contains(i) && all.contains(i);
+        let closed = structure.iter().all(|(i, j, k, _)| !inside(i) || !inside(j) || inside(k));
+        let counts = |i: &usize| !closed || inside(i);
+        let own: Vec<Id> = own.clone().filter(counts).map(|i| mu[i]).collect();
+        dot(graph, &own, &own)
+    };
+    factors.into_iter().map(square).collect()
 }
 
 /// The first guess of p, 1/scale, and half the bound on what the Hessian leaves out times the scale, the scale being the

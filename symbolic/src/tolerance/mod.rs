@@ -207,6 +207,17 @@ fn advice(bound: Bound, along_run: bool) -> &'static str {
     }
 }
 
+impl ToleranceError {
+    /// True where the series is too large, and not the target at fault.
+    pub fn is_of_size(&self) -> bool {
+        match self {
+            Self::TooLarge { .. } => true,
+            Self::Derive(error) => error.is_of_size(),
+            _ => false,
+        }
+    }
+}
+
 /// Picks K and h.
 ///
 /// Symbols of the problem must not need parameters (a system file's are substituted).

@@ -296,3 +296,35 @@ fn acceptance_waits_for_corrections() {
         assert!(step.kernel().attempt(&coefficients, &mu).accepted, "{mu:?}");
     }
 }
+
+/// At the folded radius the bounds on the last two terms have the largest ratio that is accepted, ½, to the root of 2 by which
+/// it is searched. On the unit sphere the gradient of pᵐ of degree D is at most D Π (mᵢ/D)^{mᵢ/2} long (O. Kellogg, 1928), so
+/// that of S₃, of degree 3, is ½ of that of S₁, of degree 1, at a square of the radius of half the ratio of their sums.
+#[test]
+fn the_folded_radius_is_where_the_bounds_have_the_largest_ratio() {
+    let problem = problem("SO3", BODY, 3, None);
+    let Problem { algebra, chart, hamiltonian, .. } = &problem;
+    let series = coadjoint_symbolic::hamilton_jacobi::derive(
+        algebra,
+        *chart,
+        hamiltonian,
+        3,
+        TermLimit::default(),
+    )
+    .unwrap();
+    let bound = |k: usize| -> f64 {
+        let gradient = |(factors, value): (Vec<(u32, u32)>, _)| {
+            let degree = factors.iter().map(|(_, power)| f64::from(*power)).sum::<f64>();
+            let each = factors.iter().map(|&(_, power)| {
+                let power = f64::from(power);
+                (power / degree).powf(0.5 * power)
+            });
+            coadjoint_symbolic::number::nearest_float(&value).abs() * degree * each.product::<f64>()
+        };
+        series.order(k).factors().map(gradient).sum()
+    };
+    let exact = (0.5 * bound(1) / bound(3)).sqrt();
+    let step = built(problem);
+    let radius = step.fold(1.0, &[]).unwrap()[step.radius_at()].sqrt();
+    assert!(radius <= exact * (1.0 + 1e-12) && radius * 1.0906 > exact, "{radius} {exact}");
+}
