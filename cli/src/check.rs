@@ -21,7 +21,7 @@ pub(crate) fn run(options: &CheckOptions) -> Result<(), CliError> {
     let system = Derived::of_file(path, system)?;
     let (laws, ratio) = check(&system, &trial)?;
     if let Some(ratio) = ratio {
-        eprintln!("warning: {}", steep(ratio));
+        errln!("warning: {}", steep(ratio));
     }
     let Facts { name, algebra, truncation, .. } = system.facts();
     let (group, label) = (algebra.name(), system.label());
