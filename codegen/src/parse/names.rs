@@ -67,6 +67,7 @@ impl Names {
     }
 
     /// Unknown names are no further mistakes.
+    #[cfg(feature = "system")]
     pub(crate) fn set_incomplete(&mut self) {
         self.incomplete = true;
     }

@@ -3,7 +3,9 @@
 use std::ops::Range;
 
 use super::decimal::decimal;
-use super::names::{begins_name, continues_name, is_word};
+#[cfg(feature = "system")]
+use super::names::is_word;
+use super::names::{begins_name, continues_name};
 use crate::diagnostic::Mistake;
 use crate::number::Rational;
 
