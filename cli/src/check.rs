@@ -25,7 +25,7 @@ pub(crate) fn run(options: &CheckOptions) -> Result<(), CliError> {
     system.gave_way().iter().for_each(|note| eprintln!("note: {note}"));
     let (laws, ratio) = check(&system, &trial)?;
     if let Some(ratio) = ratio {
-        eprintln!("warning: {}", steep(ratio));
+        errln!("warning: {}", steep(ratio));
     }
     let Facts { name, algebra, truncation, .. } = system.facts();
     let (group, label) = (algebra.name(), system.label());

@@ -133,7 +133,7 @@ pub(crate) fn run(options: &LearnOptions) -> Result<(), CliError> {
 }
 
 fn print(summary: &Summary) {
-    summary.warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
+    summary.warnings.iter().for_each(|warning| errln!("warning: {warning}"));
     outln!("{}", summary.choice);
     let show = |name: &str, figures: &Figures| {
         let line = |what: &str, errors: &Errors| {

@@ -54,7 +54,7 @@ pub(crate) fn meet_tolerance(
     asked: &Accuracy,
 ) -> Result<Option<Choice>, CliError> {
     let choice = meet(path, system, asked)?;
-    choice.iter().for_each(|choice| eprintln!("{choice}"));
+    choice.iter().for_each(|choice| errln!("{choice}"));
     Ok(choice)
 }
 
@@ -91,7 +91,7 @@ pub(crate) fn settled(
         }
     };
     if let Some(choice) = &choice {
-        eprintln!("{choice}");
+        errln!("{choice}");
     }
     Ok((system, choice))
 }

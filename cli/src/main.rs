@@ -46,7 +46,7 @@ fn main() -> ExitCode {
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprint!("{}", error.text());
+            err!("{}", error.text());
             ExitCode::from(error.exit_code())
         }
     }

@@ -256,7 +256,7 @@ impl Output {
     }
 
     /// The same with another passing name, on the same file system.
-    pub(crate) fn open_as(path: &Path, passing: &Path, inputs: &[&Path]) -> io::Result<Self> {
+    pub fn open_as(path: &Path, passing: &Path, inputs: &[&Path]) -> io::Result<Self> {
         check(path, inputs)?;
         let special = is_special(path);
         let passing = if special { path } else { passing };

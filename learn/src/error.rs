@@ -44,6 +44,12 @@ pub enum LearnError {
     /// Attitudes are given as quaternions, which the group does not have.
     #[error("attitudes of this group cannot be given as quaternions; give g_11 … and g_next_11 …")]
     NoQuaternions,
+    /// The matrices of g are those of Ad_g, and the group has a centre.
+    #[error(
+        "this group has a centre, whose elements all have Ad_g = 1, so the matrices of g do not determine the increment: leave \
+         the columns of g out, and the Poisson map is learned from the momenta alone"
+    )]
+    Centre,
     /// Rows that cannot be used.
     #[error("{0}")]
     BadRows(BadRows),

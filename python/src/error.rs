@@ -1,5 +1,6 @@
 //! Errors as exceptions of `coadjoint.errors`.
 
+use coadjoint_codegen::diagnostic::visible;
 use coadjoint_run::RunError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -12,6 +13,7 @@ static MODULE: PyOnceLock<Py<PyModule>> = PyOnceLock::new();
 fn make(py: Python<'_>, kind: &str, message: String, at: (Option<f64>, Option<u64>)) -> PyErr {
     let module =
         MODULE.get_or_try_init(py, || Ok::<_, PyErr>(py.import("coadjoint.errors")?.unbind()));
+    let message = visible(&message).into_owned();
     let made = module
         .and_then(|module| module.bind(py).call_method1("_make", (kind, message, at.0, at.1)));
     match made {

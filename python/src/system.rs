@@ -286,7 +286,11 @@ impl Core {
         let backend = backend_of(py, backend)?;
         let vector = |array: PyReadonlyArray1<'py, f64>| array.as_array().to_vec();
         let given = &self.system.run;
-        let momentum = momentum.map(vector).or_else(|| given.momentum.clone());
+        let start = accuracy.t0.unwrap_or(given.initial_time);
+        let momentum = match momentum.map(vector) {
+            Some(momentum) => Some(momentum),
+            None => given.momentum_at(start).map_err(|what| refused(py, what))?,
+        };
         let Some(momentum) = momentum else {
             return Err(refused(py, "momentum is missing: give momentum=[…]".to_owned()));
         };

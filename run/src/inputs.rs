@@ -107,6 +107,14 @@ fn from_columns(name: &str, columns: &Columns, read: &Read) -> Result<Signal, St
             columns.times,
             shortest(time)
         ),
+        SignalError::Close(_, at, reached) => format!(
+            "rows {} and {}, column {}: the times are so close that the spline through `{name}` reaches {reached:.1e}, far from \
+             the values of column {}: give a jump as much time as other changes",
+            at + 1,
+            at + 2,
+            columns.times,
+            columns.values
+        ),
         other => other.to_string(),
     })
 }

@@ -187,7 +187,7 @@ pub use coadjoint_macros::lie_poisson;
 /// ```
 ///
 /// The only argument is `group`, as for [`lie_poisson`]. The function's first argument is the group
-/// element's matrix, `[[f64; d]; d]` or an nalgebra matrix, in which it must be a polynomial; the
+/// element's matrix, `[[f64; d]; d]` or an nalgebra matrix, of which it is any smooth function; the
 /// others are parameters. What is generated is a struct with `new(parameters…)`, `energy(&g)` and
 /// `torque(&g)`. Making one is cheap, so a potential that moves in time is one whose parameters
 /// (the direction to the Earth, say) change from kick to kick.

@@ -56,7 +56,17 @@ pub enum SignalError {
     /// A value that is not finite.
     #[error("entry {1} of `{0}` is {2}, and must be finite")]
     Value(String, usize, f64),
+    /// Two times so close, this one and the next, that the spline between others leaves the values far behind: how far it goes.
+    #[error(
+        "entries {1} and {next} are so close in time that the spline through `{0}` reaches {2:.1e}, far from the values: give a \
+         jump as much time as other changes, or write a steep tanh in the Hamiltonian",
+        next = .1 + 1
+    )]
+    Close(String, usize, f64),
 }
+
+/// How many times the range of its values a spline may leave it.
+const FARTHEST: f64 = 3.0;
 
 impl Signal {
     /// The input of this name with these values at these times, which ascend.
@@ -78,6 +88,9 @@ impl Signal {
             return Err(SignalError::Value(name, at, values[at]));
         }
         let slopes = slopes(&times, &values);
+        if let Some((at, reached)) = overshoot(&times, &values, &slopes) {
+            return Err(SignalError::Close(name, at, reached));
+        }
         Ok(Self { name, times, values, slopes, columns: None, function: None })
     }
 
@@ -138,6 +151,24 @@ pub(crate) fn inputs(mut first: Vec<f64>, mu: &[f64], time: f64, signals: &[Sign
     first
 }
 
+/// The first of the two times that make the spline leave its values by far, and how far it may then go: each piece stays within
+/// its values at the ends and at the points of its tangents there after a third of the way.
+fn overshoot(times: &[f64], values: &[f64], slopes: &[f64]) -> Option<(usize, f64)> {
+    let [low, high] = [f64::min, f64::max].map(|pick| values.iter().copied().fold(values[0], pick));
+    let width = |i: usize| times[i + 1] - times[i];
+    let reached = |i: usize| {
+        let third = width(i) / 3.0;
+        let tangents = [values[i] + third * slopes[i], values[i + 1] - third * slopes[i + 1]];
+        let beyond = |x: &f64| (x - high).max(low - x);
+        tangents.into_iter().max_by(|a, b| beyond(a).total_cmp(&beyond(b))).unwrap_or(high)
+    };
+    let far = |x: f64| !((x - high).max(low - x) <= FARTHEST * (high - low));
+    let pieces = times.len() - 1;
+    let at = (0..pieces).find(|&i| high > low && far(reached(i)))?;
+    let beside = at.saturating_sub(1)..(at + 2).min(pieces);
+    Some((beside.min_by(|&i, &j| width(i).total_cmp(&width(j)))?, reached(at)))
+}
+
 /// The slopes of the spline at its knots, by elimination in the tridiagonal equations.
 fn slopes(times: &[f64], values: &[f64]) -> Vec<f64> {
     let widths: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
@@ -187,6 +218,21 @@ fn slopes(times: &[f64], values: &[f64]) -> Vec<f64> {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+
+    /// A jump within a millionth of the other times makes a spline 10⁵ times as high as its values, by its slopes of 10⁶.
+    #[test]
+    fn times_that_are_nearly_equal_are_refused() {
+        let table = |gap: f64| {
+            let times = vec![0.0, 0.5, 0.5 + gap, 1.0, 1.5, 2.0];
+            Signal::new("u".to_owned(), times, vec![1.0, 1.0, 2.0, 2.0, 1.0, 1.0])
+        };
+        assert!(
+            matches!(table(1e-6).unwrap_err(), SignalError::Close(_, 1, reached) if reached.abs() > 1e4)
+        );
+        assert!(table(0.1).is_ok());
+        // Equal values have no jump.
+        assert!(Signal::new("u".to_owned(), vec![0.0, 0.5, 0.5 + 1e-9, 1.0], vec![0.1; 4]).is_ok());
+    }
 
     /// Four values or more determine a cubic, three a parabola, two a line.
     #[test]

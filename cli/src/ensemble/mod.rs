@@ -123,11 +123,11 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
             .map_err(|error| CliError::Option(format!("--threads {threads}: {error}")))?;
     }
     let outcome = run::run(job);
-    engine.notes().iter().for_each(|note| eprintln!("warning: {note}"));
+    engine.notes().iter().for_each(|note| errln!("warning: {note}"));
     let outcome = outcome?;
     report::warnings(&outcome, steps, &engine)
         .iter()
-        .for_each(|(_, text)| eprintln!("warning: {text}"));
+        .for_each(|(_, text)| errln!("warning: {text}"));
     let report =
         report::report(&outcome, (&derived, &parameters), &schedule, &engine, options.format);
     out!("{report}");

@@ -61,7 +61,7 @@ impl States {
         let left: Vec<&str> =
             found.unused.iter().chain(table.others()).map(String::as_str).collect();
         if !carried && !left.is_empty() {
-            eprintln!(
+            errln!(
                 "not carried through, which is done from .csv to .csv alone: {}",
                 left.join(", ")
             );

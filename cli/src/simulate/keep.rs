@@ -89,7 +89,7 @@ pub(crate) fn keep(
                 records.stop(&error.to_string());
                 let part = target.map(Target::part);
                 if let Some(part) = part.filter(|part| part.is_file()) {
-                    eprintln!("the records up to there are in {}", part.display());
+                    errln!("the records up to there are in {}", part.display());
                 }
             }
             return Err(error);
@@ -139,12 +139,10 @@ impl Keeper<'_> {
         let Some((path, found)) = found else { return Ok(None) };
         let path = path.display();
         if found.complete {
-            eprintln!(
-                "this run has finished; its report is made from {path}: remove it to run anew"
-            );
+            errln!("this run has finished; its report is made from {path}: remove it to run anew");
         } else {
             let (step, steps) = (found.resume.step, settings.setup.schedule.steps);
-            eprintln!("going on from {path} at step {step} of {steps}");
+            errln!("going on from {path} at step {step} of {steps}");
         }
         self.samples = found.samples;
         Ok(Some(found.resume))
@@ -261,7 +259,7 @@ impl Sink for Keeper<'_> {
     }
 
     fn warn(&mut self, text: &str) {
-        let tell = || eprintln!("warning: {text}");
+        let tell = || errln!("warning: {text}");
         match &self.bar {
             Some(bar) => bar.suspend(tell),
             None => tell(),

@@ -46,7 +46,7 @@ pub(crate) fn run(options: &SimulateOptions) -> Result<(), CliError> {
     let report = report::report(&runs, &units, options.format);
     // Records on the standard output are not mixed with the report.
     if out.is_some_and(|out| out.place == Place::Standard) {
-        eprint!("{report}");
+        err!("{report}");
     } else {
         out!("{report}");
     }
@@ -105,7 +105,7 @@ fn runs(
         let setup = &settings.setup;
         let announcement = setup.schedule.announcement();
         if let Some(line) = announcement.filter(|_| runs.is_empty()) {
-            eprintln!("{line}");
+            errln!("{line}");
         }
         let system = derived(path, system)?;
         let header = Header::new(&settings, &system);
@@ -182,7 +182,7 @@ pub(crate) fn schedule(
 ) -> Result<Schedule, CliError> {
     let schedule = Schedule::new(file, asked, run)?;
     if let Some(line) = schedule.announcement() {
-        eprintln!("{line}");
+        errln!("{line}");
     }
     Ok(schedule)
 }
@@ -195,6 +195,6 @@ fn outs(out: Option<&Target>, systems: &[System]) -> Result<Vec<Option<Target>>,
     let numbered = systems.iter().map(|system| out.numbered(system.problem.facts().truncation));
     let targets: Vec<Target> = numbered.collect::<Result<_, _>>()?;
     let names: Vec<String> = targets.iter().map(|t| t.path.display().to_string()).collect();
-    eprintln!("--out: a file for each truncation, {}", names.join(", "));
+    errln!("--out: a file for each truncation, {}", names.join(", "));
     Ok(targets.into_iter().map(Some).collect())
 }

@@ -67,7 +67,10 @@ pub(crate) fn setup(
     run: &Run,
 ) -> Result<Setup, CliError> {
     let schedule = Schedule::new(file, asked, run)?;
-    let momentum = run.momentum.clone().ok_or_else(|| RunError::Missing {
+    let momentum = run.momentum_at(schedule.start);
+    let momentum =
+        momentum.map_err(|what| RunError::System { file: file.into(), source: what.into() })?;
+    let momentum = momentum.ok_or_else(|| RunError::Missing {
         file: file.into(),
         key: "[initial] momentum",
         example: "momentum = [2.0, 0.5, 1.0]",

@@ -1,5 +1,9 @@
 //! Damping by the double bracket: what it keeps, what falls, and its own equations.
 
+use coadjoint::collocation::{Damping, Energy};
+use coadjoint::{LieGroup, Phase, SO3};
+use nalgebra::Vector3;
+
 use crate::smooth_examples::{cross, runge_kutta};
 use crate::support::{Folder, distance, json, numbers, text_of};
 
@@ -22,6 +26,64 @@ fn a_damped_body_moves_as_its_own_equations_say() {
     };
     let [coarse, fine] = [error(0.05), error(0.025)];
     assert!(fine < 2e-6 && (coarse / fine - 4.0).abs() < 0.1, "{coarse:e} {fine:e}");
+}
+
+/// Π' = Π × (ω + α Π × ω) with ω = (1 + 0.9 cos 3t) I⁻¹Π: the damping has the slope of its own time.
+#[test]
+fn damping_goes_with_the_time_of_its_hamiltonian() {
+    let folder = Folder::with(
+        "group = \"SO3\"\ncoordinates = \"x y z\"\nhamiltonian = \"(1 + 0.9*cos(3*t))*(x^2/2 + y^2/4 + z^2/6)\"\n\
+         damping = 0.3\n[integrator]\nstep = 0.1\n[initial]\nmomentum = [0.6, -0.4, 1.0]\n[run]\ntime = 3\n",
+    );
+    let expected = runge_kutta([0.6, -0.4, 1.0], (3.0, 3000), |t, mu| {
+        let strength = 1.0 + 0.9 * (3.0 * t).cos();
+        let omega: [f64; 3] = std::array::from_fn(|i| strength * mu[i] / [1.0, 2.0, 3.0][i]);
+        let lost = cross(mu, &omega);
+        let turn: [f64; 3] = std::array::from_fn(|i| omega[i] + 0.3 * lost[i]);
+        cross(mu, &turn)
+    });
+    let error = |step: f64| {
+        let report = folder.json(&format!("simulate system.toml --step {step}"));
+        distance(&numbers(&report["momentum"]), &expected)
+    };
+    let [coarse, fine] = [error(0.05), error(0.025)];
+    assert!(fine < 1e-3 && (coarse / fine - 4.0).abs() < 0.3, "{coarse:e} {fine:e}");
+}
+
+/// H = z⁴.
+struct Bent;
+
+impl Energy<Vector3<f64>> for Bent {
+    fn value(&self, _: f64, mu: &Vector3<f64>) -> f64 {
+        mu[2].powi(4)
+    }
+
+    fn gradient(&self, _: f64, mu: &Vector3<f64>) -> Vector3<f64> {
+        Vector3::new(0.0, 0.0, 4.0 * mu[2].powi(3))
+    }
+}
+
+/// With the mean slope of H between its ends, a step of damping by x takes Σ xᵢ²/(h Γᵢ) from the energy, however H is bent; between
+/// two such halves z stays, and the momentum turns by −4 z³ h about the third axis.
+#[test]
+fn damping_takes_the_mean_slope_of_its_hamiltonian() {
+    let (group, mut phase) = (SO3::new(), Phase::<SO3>::at_identity([1.0, 0.2, 0.9]));
+    let damping = Damping::<_, _, 8>::new(group, Bent, Vector3::repeat(0.4)).unwrap();
+    let before = phase.momentum[2].powi(4);
+    damping.advance(&mut phase, 0.0, 0.05).unwrap();
+    let x = group.log(&phase.group_element).unwrap();
+    let lost = x.norm_squared() / (0.05 * 0.4);
+    assert!(lost > 0.01 && (phase.momentum[2].powi(4) - before + lost).abs() < 1e-14, "{lost}");
+    let turn = Vector3::new(0.0, 0.0, 0.1 * 4.0 * phase.momentum[2].powi(3));
+    let turned = group.exp_transport(&turn, &phase.momentum).1;
+    let mut phase = Phase::<SO3>::new(phase.group_element, turned);
+    damping.advance(&mut phase, 0.05, 0.05).unwrap();
+    let folder = Folder::with(
+        "group = \"SO3\"\ncoordinates = \"x y z\"\nhamiltonian = \"z^4\"\ndamping = 0.4\n[integrator]\nstep = 0.1\n\
+         method = \"collocation\"\n[initial]\nmomentum = [1.0, 0.2, 0.9]\n[run]\ntime = 0.1\n",
+    );
+    let found = numbers(&folder.json("simulate system.toml")["momentum"]);
+    assert!(distance(&found, phase.momentum.as_slice()) < 1e-13, "{found:?} {phase:?}");
 }
 
 /// Π' = Π × (ω + x) + τ and r' = r × (ω + x) with x = α (Π × ω + τ), τ = r × ∇V and the last row r of R; for H with and without

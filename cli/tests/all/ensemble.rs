@@ -433,6 +433,37 @@ fn a_column_named_after_a_parameter_varies_it() {
     assert_eq!(report["parameters"], serde_json::json!(["I1"]));
 }
 
+/// Each column varies its own parameter, at the end and at times between: H = ω z turns μ about the third axis by −ω t.
+#[test]
+fn columns_vary_each_its_own_parameter() {
+    for method in ["", "method = \"collocation\"\n"] {
+        let folder = Folder::with(&format!(
+            "group = \"SO3\"\ncoordinates = [\"x\", \"y\", \"z\"]\nhamiltonian = \"(a + 2*b[1] + b[0])*z\"\n\
+             [parameters]\na = 0.7\nb = [0.05, 0.2]\n[integrator]\nstep = 0.1\n{method}[run]\ntime = 2\n"
+        ));
+        folder.write("in.csv", "b[1],mu_1,mu_2,mu_3,a\n0.1,1,0,0.5,0.3\n0.4,1,0,0.5,0.1\n");
+        let turned = |omega: f64, time: f64| {
+            let (sin, cos) = (omega * time).sin_cos();
+            [cos, -sin, 0.5]
+        };
+        let omegas = [0.3 + 0.2 + 0.05, 0.1 + 0.8 + 0.05];
+        folder.run("ensemble system.toml --initial in.csv --out out.csv").ok();
+        for (row, omega) in folder.table("out.csv")[1..].iter().zip(omegas) {
+            let found = cells(&row[1..4].join(","));
+            assert!(distance(&found, &turned(omega, 2.0)) < 1e-9, "{method}{row:?}");
+        }
+        folder.run("ensemble system.toml --initial in.csv --out out.npy --at 0,0.37,2").ok();
+        let (shape, found) = array(&folder.bytes("out.npy"));
+        assert_eq!(shape, "2, 3, 5");
+        let states = omegas.iter().zip([[0.1, 0.3], [0.4, 0.1]]).flat_map(|(&omega, own)| {
+            [0.0, 0.37, 2.0].map(|time| [&turned(omega, time)[..], &own].concat())
+        });
+        for (state, expected) in found.chunks(5).zip(states) {
+            assert!(distance(state, &expected) < 1e-9, "{method}{state:?} {expected:?}");
+        }
+    }
+}
+
 /// A body that is symmetric by its file has a comoving frame for a tolerance, which its rows do not: they meet the tolerance in
 /// a frame that all of them have.
 #[test]

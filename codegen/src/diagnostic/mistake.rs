@@ -34,6 +34,10 @@ pub(crate) enum Mistake {
     Time(String),
     #[error("`{0}` is not known")]
     Inverse(String),
+    #[error("`{0}` has no inverse: {1}")]
+    NoInverse(String, String),
+    #[error("`{0}` is a list of {1}, and no number")]
+    List(String, usize),
     #[error("the index `{0}` is not an integer known here")]
     Index(String),
     #[error("`{0}` is {1}, and an index must be a whole number")]
@@ -199,6 +203,8 @@ impl Mistake {
                 | Self::UnknownFunction(..)
                 | Self::Time(_)
                 | Self::Inverse(_)
+                | Self::NoInverse(..)
+                | Self::List(..)
                 | Self::Index(..)
         )
     }
@@ -247,6 +253,7 @@ impl Mistake {
                 "inv(J) is the inverse of a square matrix J under [parameters] and needs indices: \
                  inv(J)[0][1]"
             }
+            Self::List(name, _) => return Some(format!("write an entry of it, such as {name}[0]")),
             Self::Index(..) | Self::IndexNumber(..) => {
                 "an index is made of integers, indices of sums and parameters that are integers, with + - * % and \
                  parentheses"

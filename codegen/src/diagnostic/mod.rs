@@ -6,6 +6,7 @@
 mod encoding;
 mod mistake;
 
+use std::borrow::Cow;
 use std::cell::RefCell;
 use std::fmt::{Display, Write};
 use std::ops::Range;
@@ -151,8 +152,25 @@ impl Diagnostics {
             // Writing into a string cannot fail.
             let _ = one(&mut out, diagnostic, file, text);
         }
-        out
+        visible(&out).into_owned()
     }
+}
+
+/// A text without the control characters that a terminal would obey: each as its escape, `\u{1b}`; lines and tabs stay.
+#[must_use]
+pub fn visible(text: &str) -> Cow<'_, str> {
+    let obeyed = |c: char| {
+        let of_direction = matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+        of_direction || c.is_control() && !matches!(c, '\n' | '\r' | '\t')
+    };
+    if !text.contains(obeyed) {
+        return Cow::Borrowed(text);
+    }
+    let shown = |c: char| match obeyed(c) {
+        true => c.escape_unicode().to_string(),
+        false => c.to_string(),
+    };
+    Cow::Owned(text.chars().map(shown).collect())
 }
 
 fn one(out: &mut String, diagnostic: &Diagnostic, file: &str, text: &str) -> std::fmt::Result {

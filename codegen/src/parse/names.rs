@@ -1,6 +1,6 @@
 //! The names an expression may use.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::diagnostic::{Diagnostics, Mistake, Span, nearest};
 use crate::expr::Function;
@@ -36,6 +36,12 @@ pub(crate) struct Names {
     known: BTreeMap<String, Name>,
     /// In the order given, for messages.
     order: Vec<String>,
+    /// Names whose definitions are mistakes already.
+    wrong: BTreeSet<String>,
+    /// There may be others, which a mistake in the coordinates or the group has hidden.
+    incomplete: bool,
+    /// Reasons for which parameters have no inverse.
+    singular: BTreeMap<String, String>,
 }
 
 impl Names {
@@ -54,9 +60,34 @@ impl Names {
         }
     }
 
+    /// Uses of this name, whose definition is a mistake, are no further mistakes.
+    #[cfg(feature = "system")]
+    pub(crate) fn excuse(&mut self, name: &str) {
+        self.wrong.insert(name.to_owned());
+    }
+
+    /// Unknown names are no further mistakes.
+    #[cfg(feature = "system")]
+    pub(crate) fn set_incomplete(&mut self) {
+        self.incomplete = true;
+    }
+
+    /// The reason for which this parameter has no inverse.
+    #[cfg(feature = "system")]
+    pub(crate) fn set_singular(&mut self, name: &str, reason: String) {
+        self.singular.insert(name.to_owned(), reason);
+    }
+
+    /// Whether not knowing what stands in this text follows from a mistake that is reported.
+    pub(super) fn excuses(&self, text: &str) -> bool {
+        let mut words = text.split(|c| !continues_name(c));
+        self.incomplete || words.any(|word| self.wrong.contains(word))
+    }
+
     /// Adds a name, or reports that it is no name or already taken.
     pub(crate) fn add(&mut self, name: &str, meaning: Name, span: Span, diagnostics: &Diagnostics) {
         let taken = if !is_name(name) {
+            self.incomplete = true;
             return diagnostics.report(span, Mistake::BadName(name.to_owned()));
         } else if Function::lookup(name).is_some() || name == "sum" {
             "a function"
@@ -67,6 +98,7 @@ impl Names {
             self.order.push(name.to_owned());
             return;
         };
+        self.incomplete = true;
         diagnostics.report(span, Mistake::NameTaken(name.to_owned(), taken.to_owned()));
     }
 
@@ -87,6 +119,15 @@ impl Names {
         for (name, meaning) in &others.known {
             self.alias(name.clone(), meaning.clone());
         }
+        self.inherit(others);
+    }
+
+    /// What others lack, and why.
+    #[cfg(feature = "system")]
+    pub(crate) fn inherit(&mut self, others: &Self) {
+        self.wrong.extend(others.wrong.iter().cloned());
+        self.incomplete |= others.incomplete;
+        self.singular.extend(others.singular.clone());
     }
 
     pub(crate) fn get(&self, name: &str) -> Option<&Name> {
@@ -105,8 +146,20 @@ impl Names {
         if matches!(name, "t" | "time") {
             return Mistake::Time(name.to_owned());
         }
-        if name.starts_with("inv(") {
-            return Mistake::Inverse(name.to_owned());
+        if let Some((matrix, indices)) = name.strip_prefix("inv(").and_then(|n| n.split_once(')')) {
+            return match self.singular.get(matrix) {
+                Some(reason) => Mistake::NoInverse(matrix.to_owned(), reason.clone()),
+                None if indices.is_empty()
+                    || !is_word(matrix)
+                    || self.entries(matrix).is_some() =>
+                {
+                    Mistake::Inverse(name.to_owned())
+                }
+                None => self.unknown(matrix),
+            };
+        }
+        if let Some(count) = self.entries(name) {
+            return Mistake::List(name.to_owned(), count);
         }
         let suggestion = nearest(name, self.order.iter().map(String::as_str));
         let suggestion = suggestion.map(str::to_owned);

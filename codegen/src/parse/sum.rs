@@ -80,7 +80,10 @@ impl Scope<'_> {
             result.push_str(&format!("[{value}]"));
             rest = &rest[length..];
         }
-        Ok(result)
+        match rest {
+            "" => Ok(result),
+            index => Err(Mistake::Index(index.trim_matches(['[', ']']).to_owned())),
+        }
     }
 
     /// The value of an integer expression with `+`, `-`, `*`, `%` and parentheses, in indices of sums and

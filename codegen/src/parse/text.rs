@@ -205,6 +205,7 @@ impl Parser<'_> {
             Err(_) if Function::lookup(name).is_some() => {
                 return self.wrong(span, Mistake::FunctionWithoutArgument(name.to_owned()));
             }
+            Err(_) if self.scope.names.excuses(name) => Node::Wrong,
             Err(mistake) => return self.wrong(span, mistake),
         };
         self.operand(node, span);
@@ -266,7 +267,11 @@ impl Parser<'_> {
             Ok(_) => "",
         };
         let (Ok((first, last)), "") = (&bounds, reason) else {
-            self.wrong(whole, Mistake::Sum(reason.to_owned()));
+            if self.scope.names.excuses(&text[start..form.end]) {
+                self.operand(Node::Wrong, whole);
+            } else {
+                self.wrong(whole, Mistake::Sum(reason.to_owned()));
+            }
             return form.end;
         };
         let (body, offset) = (&text[form.body.clone()], self.offset + form.body.start);
@@ -323,6 +328,9 @@ impl Parser<'_> {
                 if arguments != 1 {
                     for _ in 1..arguments {
                         self.operands.pop();
+                    }
+                    if callee.function.is_none() {
+                        return self.operand(Node::Wrong, whole);
                     }
                     return self.wrong(whole, Mistake::ArgumentCount(callee.name, arguments));
                 }

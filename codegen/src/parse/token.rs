@@ -3,7 +3,9 @@
 use std::ops::Range;
 
 use super::decimal::decimal;
-use super::names::{begins_name, continues_name, is_word};
+#[cfg(feature = "system")]
+use super::names::is_word;
+use super::names::{begins_name, continues_name};
 use crate::diagnostic::Mistake;
 use crate::number::Rational;
 
@@ -65,12 +67,15 @@ impl<'a> Tokens<'a> {
         // `inv(J)` is the name of a matrix, `len(P)` of a number.
         if let Some(inside) = rest.strip_prefix("inv(").or_else(|| rest.strip_prefix("len("))
             && let Some((matrix, _)) = inside.split_once(')')
-            && is_word(matrix.trim())
         {
             length += matrix.len() + 2;
         }
         while let Some(inside) = bracketed(&rest[length..]) {
             length += inside;
+        }
+        // One that cannot be read is one mistake.
+        if rest[length..].starts_with('[') {
+            length += rest[length..].find(']').map_or(rest.len() - length, |end| end + 1);
         }
         length
     }

@@ -24,6 +24,15 @@ pub(super) fn hamiltonian(
     inputs: &[(Signal, Span)],
 ) -> Energy {
     let mut names = Names::of_coordinates(coordinates, root.diagnostics);
+    match algebra {
+        Some(algebra) if algebra.dim() == coordinates.len() => {}
+        Some(_) => names.set_incomplete(),
+        // Without a group it is not known how many there are of each.
+        None => {
+            let own = coordinates.iter().map(|(name, _)| name.as_str());
+            own.chain(["mu"]).for_each(|name| names.excuse(name));
+        }
+    }
     let kept = parameters.add_to(&mut names, root.diagnostics);
     if names.get("mu").is_none() {
         let dim = algebra.map_or(0, LieAlgebra::dim);
@@ -46,6 +55,11 @@ pub(super) fn hamiltonian(
 
 /// Reports inputs that none of these has.
 pub(super) fn check_inputs(root: &Table<'_>, inputs: &[(Signal, Span)], energies: &[&Energy]) {
+    // Of one that could not be read it is not known.
+    let unread = |energy: &&Energy| energy.arena.iter().any(|(_, node, _)| *node == Node::Wrong);
+    if energies.iter().any(unread) {
+        return;
+    }
     for (i, (signal, place)) in inputs.iter().enumerate() {
         let has =
             |energy: &&Energy| energy.arena.iter().any(|(_, node, _)| *node == Node::Signal(i));

@@ -10,6 +10,7 @@ use crate::lie::{LieAlgebra, RationalMatrix};
 use crate::number::{Rational, integer, nearest_float};
 use crate::poly::split_at;
 use crate::problem::Problem;
+use crate::smooth::Smooth;
 
 const TIME: &str = "time = 5.0";
 const MOMENTUM: &str = "momentum = [2.0, 0.5, 1.0]";
@@ -77,6 +78,8 @@ pub(super) fn coordinates(
     algebra: Option<&LieAlgebra>,
 ) -> Option<(Vec<Rational>, Span)> {
     let (list, place) = table.array(key, example)?;
+    // Without a group, what may stand in an entry is not known.
+    algebra?;
     if let Some(copies) = algebra.and_then(|algebra| copies(algebra, list.len())) {
         let column = |value: &Value<'_>| match value.get_ref() {
             DeValue::String(text) => {
@@ -101,22 +104,55 @@ pub(super) fn coordinates(
     Some((numbers?, place))
 }
 
-/// The momentum with ∂H/∂μ = `velocity`, at the defaults of parameters that are kept; reports a Hamiltonian that is no
-/// quadratic function of which the velocity determines the momentum.
+/// A and b of ∂H/∂μ = A μ + b at the start, at the defaults of parameters that are kept.
+pub(super) type Linear = (RationalMatrix, Vec<Rational>);
+
+/// The momentum with ∂H/∂μ = `velocity`; reports a Hamiltonian that is no quadratic function of which the velocity determines the
+/// momentum.
 pub(super) fn momentum(
-    problem: &Problem,
+    gradient: Option<Linear>,
     (velocity, place): &(Vec<Rational>, Span),
     root: &Table<'_>,
 ) -> Option<Vec<f64>> {
-    let momentum = solved(problem, velocity);
+    let solved = |(matrix, bias): Linear| {
+        let right = velocity.iter().zip(bias).enumerate().map(|(i, (w, b))| (i, 0, w - b));
+        let right = RationalMatrix::from_entries(velocity.len(), 1, right);
+        let momentum = matrix.inverse()?.times(&right);
+        Some((0..velocity.len()).map(|i| nearest_float(&momentum.get(i, 0))).collect())
+    };
+    let momentum = gradient.and_then(solved);
     if momentum.is_none() {
-        let what = "this does not determine the momentum: the Hamiltonian is not a quadratic function with an inverse";
+        let what = "this does not determine the momentum: the Hamiltonian is not a quadratic function with an inverse, or has \
+                    inputs that stand in a file";
         root.refuse(*place, what, MOMENTUM);
     }
     momentum
 }
 
-fn solved(problem: &Problem, velocity: &[Rational]) -> Option<Vec<f64>> {
+/// That of a smooth Hamiltonian at this time, if it is quadratic and has no inputs in files.
+pub(super) fn of_smooth(smooth: &Smooth, time: f64) -> Option<Linear> {
+    if !smooth.is_quadratic() {
+        return None;
+    }
+    let dim = smooth.algebra.dim();
+    let symbols = smooth.symbols_at(&smooth.facts().defaults());
+    let at = |mu: &[f64]| -> Option<Vec<Rational>> {
+        smooth.gradient(&symbols, time, mu).into_iter().map(Rational::from_float).collect()
+    };
+    let mut mu = vec![0.0; dim];
+    let bias = at(&mu)?;
+    let mut entries = Vec::new();
+    for j in 0..dim {
+        mu[j] = 1.0;
+        let column = at(&mu)?.into_iter().zip(&bias).enumerate();
+        entries.extend(column.map(|(i, (value, bias))| (i, j, value - bias)));
+        mu[j] = 0.0;
+    }
+    Some((RationalMatrix::from_entries(dim, dim, entries), bias))
+}
+
+/// That of a polynomial, if it is quadratic.
+pub(super) fn of_polynomial(problem: &Problem) -> Option<Linear> {
     let dim = problem.algebra.dim();
     let defaults =
         problem.parameters.iter().flat_map(|parameter| parameter.default.iter().flatten());
@@ -127,8 +163,8 @@ fn solved(problem: &Problem, velocity: &[Rational]) -> Option<Vec<f64>> {
         .map(|symbol| Rational::from_float(symbol.expr.evaluate(&defaults)))
         .collect();
     let symbols = symbols?;
-    // A μ = ω − b, where H = μᵀAμ/2 + bᵀμ.
-    let mut right: Vec<Rational> = velocity.to_vec();
+    // H = μᵀAμ/2 + bᵀμ.
+    let mut bias = vec![integer(0); dim];
     let mut quadratic = Vec::new();
     for (factors, mut value) in problem.hamiltonian.factors() {
         let (momenta, own) = split_at(&factors, dim);
@@ -139,7 +175,7 @@ fn solved(problem: &Problem, velocity: &[Rational]) -> Option<Vec<f64>> {
         }
         match *momenta {
             [] => {}
-            [(i, 1)] => right[i as usize] -= value,
+            [(i, 1)] => bias[i as usize] += value,
             [(i, 2)] => quadratic.push((i as usize, i as usize, value * integer(2))),
             [(i, 1), (j, 1)] => {
                 quadratic.push((i as usize, j as usize, value.clone()));
@@ -148,10 +184,7 @@ fn solved(problem: &Problem, velocity: &[Rational]) -> Option<Vec<f64>> {
             _ => return None,
         }
     }
-    let inverse = RationalMatrix::from_entries(dim, dim, quadratic).inverse()?;
-    let right = right.into_iter().enumerate().map(|(i, value)| (i, 0, value));
-    let momentum = inverse.times(&RationalMatrix::from_entries(dim, 1, right));
-    Some((0..dim).map(|i| nearest_float(&momentum.get(i, 0))).collect())
+    Some((RationalMatrix::from_entries(dim, dim, quadratic), bias))
 }
 
 fn element(table: &Table<'_>, algebra: Option<&LieAlgebra>) -> Option<Vec<Vec<f64>>> {

@@ -49,7 +49,7 @@ fn of_text(root: &Table<'_>) -> Vec<(Signal, Span)> {
             let place = match error {
                 SignalError::Lengths(..) => whole,
                 SignalError::Short => *all,
-                SignalError::Times(at, _) => span(of_times[at]),
+                SignalError::Times(at, _) | SignalError::Close(_, at, _) => span(of_times[at]),
                 SignalError::Value(_, at, _) => span(own[at]),
             };
             table.refuse(place, &error.to_string(), TIMES);

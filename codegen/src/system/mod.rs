@@ -172,7 +172,8 @@ pub(crate) fn read_varying(
     let given = &Functions::default();
     let kind = Kind {
         assemble: &assemble,
-        polynomial: |problem| Some(problem),
+        gradient: |problem, _| initial::of_polynomial(problem),
+        moves: |_| false,
         quadratic: Problem::is_quadratic,
         given,
     };
@@ -181,7 +182,7 @@ pub(crate) fn read_varying(
     })
 }
 
-/// The same for a Hamiltonian that need not be a polynomial; one that is none has no angular velocity.
+/// The same for a Hamiltonian that need not be a polynomial.
 ///
 /// # Errors
 /// As [`read`], and where other numbers of the file follow from a parameter that stays one.
@@ -207,8 +208,13 @@ pub fn read_given(
         Some((_, function)) => assemble_given(draft, function.clone(), diagnostics),
         None => assemble_either(draft, diagnostics),
     };
-    let (polynomial, quadratic) = (Hamiltonian::polynomial, Hamiltonian::is_quadratic);
-    let kind = Kind { assemble: &assemble, polynomial, quadratic, given };
+    let gradient = |system: &Hamiltonian, time: f64| match system {
+        Hamiltonian::Polynomial(problem) => initial::of_polynomial(problem),
+        Hamiltonian::Smooth(smooth) => initial::of_smooth(smooth, time),
+    };
+    let quadratic = Hamiltonian::is_quadratic;
+    let moves = |system: &Hamiltonian| matches!(system, Hamiltonian::Smooth(smooth) if smooth.depends_on_time());
+    let kind = Kind { assemble: &assemble, gradient, moves, quadratic, given };
     read_by(text, |document, diagnostics| {
         system((document, text), (options, varied), &kind, diagnostics)
     })
@@ -231,8 +237,10 @@ pub fn read_group(text: &str) -> Result<LieAlgebra, Diagnostics> {
 struct Kind<'a, H> {
     /// How a draft becomes a system.
     assemble: &'a dyn Fn(Draft, &Diagnostics) -> Option<H>,
-    /// The polynomial that it has if it has one.
-    polynomial: fn(&H) -> Option<&Problem>,
+    /// Its gradient at the start, if it is linear.
+    gradient: fn(&H, f64) -> Option<initial::Linear>,
+    /// Whether it depends on time.
+    moves: fn(&H) -> bool,
     /// Whether it is known to be of degree at most two.
     quadratic: fn(&H) -> bool,
     /// What is given in place of keys.
@@ -251,8 +259,16 @@ fn read_by<T>(
         diagnostics.report(Span::text(at..at + 1), Mistake::UnclosedQuote);
         return Err(diagnostics);
     }
+    // A table that is given twice has all its keys once more: that is one mistake.
+    let mut twice = None;
     for error in errors {
         let span = error.span().map_or(Span::Whole, Span::text);
+        let start = error.span().map_or(0, |span| span.start);
+        let header = text[..start].rfind("\n[").filter(|_| error.message() == "duplicate key");
+        if header.is_some() && header == twice {
+            continue;
+        }
+        twice = header.filter(|at| text[*at..start].trim_matches(['\n', '[']).is_empty());
         // One line: more would repeat the source, which is shown anyway.
         let message = error.message().lines().collect::<Vec<_>>().join("; ");
         diagnostics.report(span, Mistake::Toml(message));
@@ -338,14 +354,10 @@ fn system<H>(
     let draft =
         Draft { name, algebra, coordinates, coordinates_span, hamiltonian, signals, choice };
     let problem = (kind.assemble)(draft, diagnostics)?;
-    match (velocity, (kind.polynomial)(&problem)) {
-        (Some(velocity), Some(known)) => run.momentum = initial::momentum(known, &velocity, &root),
-        (Some((_, place)), None) => {
-            let what =
-                "`angular_velocity`: steps are made by collocation, and with it there is none";
-            diagnostics.report_other(place, what, "leave `angular_velocity` out");
-        }
-        (None, _) => {}
+    if let Some(velocity) = velocity {
+        let gradient = (kind.gradient)(&problem, run.initial_time);
+        run.momentum = initial::momentum(gradient, &velocity, &root);
+        run.velocity_time = (kind.moves)(&problem).then_some(run.initial_time);
     }
     let quadratic = (kind.quadratic)(&problem);
     let potential = potential.map(|potential| {

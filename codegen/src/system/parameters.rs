@@ -1,6 +1,6 @@
 //! The table `[parameters]`: numbers with names, which every other number of the file may use.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use num_traits::One;
 use toml::de::DeValue;
@@ -38,6 +38,7 @@ impl Parameters {
         let mut result = Self { list: Vec::new(), constants: Names::default() };
         let Some(table) = root.table("parameters") else { return result };
         let of_key = |key| root.get(key).map_or(BTreeSet::new(), |value| words_of(value.get_ref()));
+        let inverts = root.file.contains("inv(");
         let mut numbers = of_key("algebra");
         numbers.extend(of_key("damping"));
         let energy = |key: &&str| root.get(key)?.get_ref().as_str();
@@ -52,24 +53,25 @@ impl Parameters {
         }
         let entries = table.entries();
         let used: Vec<_> = entries.iter().map(|(.., value)| words_of(value.get_ref())).collect();
-        // Each after those that it uses, as far as there is no circle.
-        let mut left: Vec<usize> = (0..entries.len()).collect();
-        let mut order = Vec::new();
-        while !left.is_empty() {
-            let ready = |&i: &usize| left.iter().all(|&other| !used[i].contains(entries[other].0));
-            let next = left.iter().position(ready).unwrap_or(0);
-            order.push(left.remove(next));
-        }
-        for at in order {
+        for (at, circular) in order(&entries, &used) {
             let (name, place, value) = entries[at];
             let known = table.with(&result.constants);
-            // The name of a wrong one is known all the same, so that its uses are no further mistakes.
-            let (shape, values) = result
-                .value(name, value, &known)
-                .unwrap_or_else(|| (Shape::Scalar, vec![Rational::one()]));
+            let found = match circular {
+                false => result.value(name, value, &known),
+                true => {
+                    let what = format!("the parameter `{name}` is computed from itself");
+                    table.refuse(place, &what, &format!("{name} = 1.5"));
+                    None
+                }
+            };
+            if found.is_none() {
+                result.constants.excuse(name);
+            }
+            let (shape, values) = found.unwrap_or_else(|| (Shape::Scalar, vec![Rational::one()]));
             let parameter = Parameter { name: name.to_owned(), shape, default: Some(values) };
             let varies = varied.iter().any(|varied| varied == name);
-            let user = entries.iter().zip(&used).find(|(_, words)| words.contains(name));
+            let using = || entries.iter().zip(&used).find(|(_, words)| words.contains(name));
+            let user = varies.then(using).flatten();
             let why = match user {
                 _ if numbers.contains(name) => Some(
                     "it is a number of the algebra or of the damping, an index, the range of a sum or inv(…)"
@@ -86,7 +88,7 @@ impl Parameters {
                 root.diagnostics.report_other(place, &what, help);
             }
             let kept = (varies || options.parameters == Treatment::Kept) && !numbers.contains(name);
-            let inverse = if root.file.contains("inv(") { inverse(&parameter) } else { None };
+            let inverse = if inverts { inverse(&parameter, &mut result.constants) } else { None };
             let given = Given { parameter, place, kept, inverse };
             given.add_to(&mut result.constants, None, root.diagnostics);
             result.list.push((at, given));
@@ -97,6 +99,7 @@ impl Parameters {
 
     /// Adds their names to others, and returns those that are kept.
     pub(super) fn add_to(&self, names: &mut Names, diagnostics: &Diagnostics) -> Vec<Parameter> {
+        names.inherit(&self.constants);
         let mut scalars = 0;
         let mut kept = Vec::new();
         for (_, given) in &self.list {
@@ -170,11 +173,67 @@ impl Given {
     }
 }
 
-fn inverse(parameter: &Parameter) -> Option<RationalMatrix> {
-    let (Shape::Grid(_, columns), Some(values)) = (&parameter.shape, &parameter.default) else {
-        return None;
+/// The inverse of a parameter; without one, `names` get the reason.
+fn inverse(parameter: &Parameter, names: &mut Names) -> Option<RationalMatrix> {
+    let Parameter { name, shape, default } = parameter;
+    let (inverse, reason) = match (shape, default) {
+        (Shape::Grid(rows, columns), Some(values)) if rows == columns => {
+            let rows = values.chunks((*columns).max(1)).map(<[_]>::to_vec);
+            (RationalMatrix::from_rows(rows).inverse(), "the matrix is singular".to_owned())
+        }
+        (Shape::Grid(rows, columns), _) => (None, format!("it is {rows} × {columns}, not square")),
+        _ => (None, "it is no matrix".to_owned()),
     };
-    RationalMatrix::from_rows(values.chunks((*columns).max(1)).map(<[_]>::to_vec)).inverse()
+    if inverse.is_none() {
+        names.set_singular(name, reason);
+    }
+    inverse
+}
+
+/// The entries, each after those that it uses and else in their order; a circle is entered at its first, which is marked.
+fn order(entries: &[(&str, Span, &Value<'_>)], used: &[BTreeSet<String>]) -> Vec<(usize, bool)> {
+    let places: BTreeMap<&str, usize> =
+        entries.iter().enumerate().map(|(at, (name, ..))| (*name, at)).collect();
+    let mut users = vec![Vec::new(); entries.len()];
+    let mut missing = vec![0; entries.len()];
+    for (at, words) in used.iter().enumerate() {
+        for &other in words.iter().filter_map(|word| places.get(&word[..])) {
+            users[other].push(at);
+            missing[at] += 1;
+        }
+    }
+    let mut left: BTreeSet<usize> = (0..entries.len()).collect();
+    let mut ready: BTreeSet<usize> = left.iter().copied().filter(|&at| missing[at] == 0).collect();
+    let mut order = Vec::new();
+    while let Some(&first) = ready.first().or(left.first()) {
+        let circular = ready.is_empty();
+        let at = if circular { on_circle(first, used, &places, &left) } else { first };
+        ready.remove(&at);
+        left.remove(&at);
+        order.push((at, circular));
+        for &user in &users[at] {
+            missing[user] -= 1;
+            if missing[user] == 0 && left.contains(&user) {
+                ready.insert(user);
+            }
+        }
+    }
+    order
+}
+
+/// An entry that uses itself in the end, found from one of those that are left, all of which use another one.
+fn on_circle(
+    mut at: usize,
+    used: &[BTreeSet<String>],
+    places: &BTreeMap<&str, usize>,
+    left: &BTreeSet<usize>,
+) -> usize {
+    let mut seen = BTreeSet::new();
+    while seen.insert(at) {
+        let mut others = used[at].iter().filter_map(|word| places.get(&word[..]));
+        at = others.find(|other| left.contains(other)).copied().unwrap_or(at);
+    }
+    at
 }
 
 fn words_of(value: &DeValue<'_>) -> BTreeSet<String> {

@@ -34,8 +34,25 @@ pub struct Run {
     pub initial_time: f64,
     /// The body momentum μ at the start.
     pub momentum: Option<Vec<f64>>,
+    /// The time at which that momentum has the angular velocity of the file, where it follows from one and H depends on time.
+    pub velocity_time: Option<f64>,
     /// The group element at the start, row by row; the identity if it is not given.
     pub group_element: Option<Vec<Vec<f64>>>,
+}
+
+impl Run {
+    /// The body momentum of a run that starts at this time, as far as the file says.
+    ///
+    /// # Errors
+    /// The reason where it follows from an angular velocity at another time.
+    pub fn momentum_at(&self, start: f64) -> Result<Option<Vec<f64>>, String> {
+        match self.velocity_time.filter(|time| *time != start) {
+            Some(time) => Err(format!(
+                "`angular_velocity` gives the momentum at the file's own time, {time}: write the time {start} under [initial]"
+            )),
+            None => Ok(self.momentum.clone()),
+        }
+    }
 }
 
 /// Reads `[run]`, and `step`, `tolerance` and `region` of `[integrator]`.

@@ -178,7 +178,7 @@ impl<'a> Table<'a> {
         {
             return Some((n, span(value)));
         }
-        self.wrong_kind(key, "a whole number from 0", value, example);
+        self.wrong_kind(key, "a whole number from 1", value, example);
         None
     }
 
@@ -204,7 +204,12 @@ impl<'a> Table<'a> {
                 return None;
             }
         };
-        self.diagnostics.check(span(value), fraction(&text))
+        let number = self.diagnostics.check(span(value), fraction(&text))?;
+        if !nearest_float(&number).is_finite() {
+            let what = format!("{text} is too large: numbers reach 1.8e308");
+            self.refuse(span(value), &what, example);
+        }
+        Some(number)
     }
 
     /// The number that the text of a value is, an expression in numbers, the constants and integers `indices`.

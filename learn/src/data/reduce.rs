@@ -123,7 +123,7 @@ pub struct Reduction {
 /// the spatial momentum is conserved).
 ///
 /// # Errors
-/// [`LearnError::BadRows`] under [`RowPolicy::Refuse`], [`LearnError::NoSamples`] if none is left.
+/// [`LearnError::Centre`], [`LearnError::BadRows`] under [`RowPolicy::Refuse`], [`LearnError::NoSamples`] if none is left.
 pub fn reduce<G, C>(
     group: &G,
     given: &PairRows<G>,
@@ -134,6 +134,10 @@ where
     G: DataGroup,
     C: Chart<G>,
 {
+    let chart = C::default();
+    if chart.coordinate(group, &group.identity()).is_none() {
+        return Err(LearnError::Centre);
+    }
     let total = given.pairs.len() + given.bad.len();
     let mut bad = given.bad.clone();
     let mut columns: [Vec<f64>; 4] = Default::default();

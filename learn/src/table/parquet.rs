@@ -137,7 +137,7 @@ fn read_column(column: &mut ColumnReader, count: usize) -> Result<Vec<f64>, Parq
 
 /// Writes rows, one after the other in each piece that `next` gives until one is empty, as required columns of 64-bit
 /// floats; a row group a piece.
-pub(crate) fn write_parquet(
+pub fn write_parquet(
     to: impl Write + Send,
     names: &[String],
     mut next: impl FnMut() -> std::io::Result<Vec<f64>>,

@@ -372,7 +372,7 @@ impl Evaluator<'_> {
     /// Reports a truth value that is not known.
     pub(super) fn undecided(&mut self, what: &str, span: Span) -> Value {
         let message = format!(
-            "{what} must not depend on the momentum or a parameter: the Hamiltonian must be one polynomial"
+            "{what} must not depend on an argument: the function must be one expression, the same everywhere"
         );
         let help = "compare integers known beforehand only, such as loop variables";
         self.unsupported(span, &message, help)
