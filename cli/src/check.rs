@@ -22,7 +22,7 @@ pub(crate) fn run(options: &CheckOptions) -> Result<(), CliError> {
     let phase = progress::phase("deriving the series");
     let system = Derived::of_file(path, system)?;
     drop(phase);
-    system.gave_way().iter().for_each(|note| eprintln!("note: {note}"));
+    system.gave_way().iter().for_each(|note| errln!("note: {note}"));
     let (laws, ratio) = check(&system, &trial)?;
     if let Some(ratio) = ratio {
         errln!("warning: {}", steep(ratio));

@@ -65,6 +65,6 @@ fn source(options: &EmitOptions) -> Result<(PathBuf, Source), CliError> {
     let (mut system, choice) = load::settled(&source, &asked, parameters)?;
     let (problem, gave_way) = system.problem.settled();
     system.problem = problem;
-    gave_way.iter().for_each(|reason| eprintln!("note: {}", reason.gave_way()));
+    gave_way.iter().for_each(|reason| errln!("note: {}", reason.gave_way()));
     Ok((source.file, Source::System(Box::new(system), choice)))
 }

@@ -73,7 +73,7 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     states.times = at.as_ref().map(|times| times.0.clone());
     let momentum = system.run.momentum.clone();
     let derived = simulate::derived(path, in_lanes(system)?)?;
-    derived.gave_way().iter().for_each(|note| eprintln!("note: {note}"));
+    derived.gave_way().iter().for_each(|note| errln!("note: {note}"));
     let facts = derived.facts();
     let precision = options.precision;
     let device = options.device.map(|device| (device, precision));
