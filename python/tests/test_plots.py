@@ -24,7 +24,7 @@ def test_every_picture_is_drawn(body: ca.System, tmp_path) -> None:
         assert (tmp_path / f"{name}.png").stat().st_size > 5000
     # The level curves lie on the sphere, and the energy is the same along each.
     radius = float(np.linalg.norm(run.momentum[0]))
-    for curve in plots._level_curves(body, radius, 8):
+    for curve in plots._level_curves(body, radius, 8, 0.0):
         assert np.allclose(np.linalg.norm(curve, axis=1), radius)
         energy = (curve**2 / [3, 4, 5]).sum(axis=1)
         assert np.ptp(energy) < 1e-2 * energy.mean()

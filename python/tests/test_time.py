@@ -13,7 +13,7 @@ from coadjoint import InputError
 
 BODY = "x^2/3 + y^2/4 + z^2/5"
 START = [2, 0.5, 1]
-TABLE = dict(times=[0, 1, 2, 3, 4, 5], u=[0, 2, -1, 3, 1, 2])
+TABLE = dict(times=[0, 1, 2, 3, 4, 5], u=[0, 0.4, -0.2, 0.6, 0.2, 0.4])
 #: Systems that depend on time in each of the ways that there are.
 DRIVEN: list[dict[str, Any]] = [
     dict(hamiltonian=BODY + " + 3*sin(t)*x"),
