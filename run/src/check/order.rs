@@ -103,13 +103,14 @@ mod tests {
         let algebra = catalogue::lookup("SO3").unwrap();
         let group: DirectProduct<MatrixGroup> =
             product_group(std::path::Path::new("test"), &algebra).unwrap();
-        let mut run = |(size, count): (f64, u32), _: f64, state: &mut Phase<_>| {
-            let time = size * f64::from(count);
-            let error = time * size.powi(order) * (1.0 + c * size);
-            let rounding = 1e-15 * f64::from(count % 3);
-            state.momentum *= 1.0 + error + rounding;
-            Ok(())
-        };
+        let mut run =
+            |(size, count): (f64, u32), _: f64, state: &mut Phase<DirectProduct<MatrixGroup>>| {
+                let time = size * f64::from(count);
+                let error = time * size.powi(order) * (1.0 + c * size);
+                let rounding = 1e-15 * f64::from(count % 3);
+                state.momentum *= 1.0 + error + rounding;
+                Ok(())
+            };
         let start = Phase::new(group.exp(&DVector::zeros(3)), DVector::from_element(3, 1.0));
         measured(0.1, expected, &group, &[(start, 0.0)], &mut run)
     }
