@@ -29,7 +29,12 @@ pub(crate) fn warnings(outcome: &Outcome) -> Vec<(Value, String)> {
         );
         (json!({ "kind": "estimated_error", "error": error, "text": text }), text)
     });
-    series.into_iter().chain(error).collect()
+    let journal = &outcome.journal;
+    let unresolved = journal.why.as_ref().map(|why| {
+        let text = format!("the error at the end of {} rows estimated is {why}", journal.unknown);
+        (json!({ "kind": "no_estimate", "rows": journal.unknown, "text": text }), text)
+    });
+    series.into_iter().chain(error).chain(unresolved).collect()
 }
 
 /// The text to print.
@@ -85,10 +90,15 @@ pub(crate) fn report(
         if !parameters.is_empty() {
             value["parameters"] = json!(parameters);
         }
-        if let Some([median, largest]) = journal.estimated() {
-            let rows = journal.estimates.len();
-            value["estimated_error"] =
-                json!({ "rows": rows, "median": median, "largest": largest });
+        let rows = journal.estimates.len();
+        let estimated = journal
+            .estimated()
+            .map(|[median, largest]| json!({ "rows": rows, "median": median, "largest": largest }));
+        if rows as u64 + journal.unknown > 0 {
+            value["estimated_error"] = json!(estimated);
+        }
+        if let Some(why) = &journal.why {
+            value["estimated_error_unknown"] = json!({ "rows": journal.unknown, "first": why });
         }
         return format!("{value:#}\n");
     }
@@ -122,6 +132,10 @@ pub(crate) fn report(
         lines.push(format!(
             "  estimated relative error at the end, of {rows} rows: median {median:.1e}, largest {largest:.1e}"
         ));
+    }
+    if let Some(why) = &journal.why {
+        let rows = journal.unknown;
+        lines.push(format!("  estimated relative error at the end, of {rows} rows: {why}"));
     }
     lines.push("  largest relative drift".to_owned());
     let casimirs = match engine.casimirs() {
