@@ -152,6 +152,9 @@ pub(crate) struct SimulateOptions {
     /// Draw the drift of energy, momentum and Casimirs
     #[arg(long, value_name = "SVG", conflicts_with = "model")]
     pub plot: Option<PathBuf>,
+    /// Leave out the estimate of the error at the end, which takes about half as long as the run
+    #[arg(long)]
+    pub no_estimate: bool,
     /// The backend that evaluates the steps
     #[arg(long, value_parser = named(BACKENDS), default_value = "auto", conflicts_with = "model")]
     pub backend: Backend,

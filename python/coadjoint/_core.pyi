@@ -45,6 +45,7 @@ class Core:
         events: list[tuple[str, Callable[..., float], int, bool]],
         looks: int | None,
         backend: str,
+        estimate: bool,
         record: bool,
         progress: _Progress | None,
     ) -> dict[str, Any]: ...

@@ -195,17 +195,29 @@ class Run:
         return Drift(*(Unknown(f"drift of the {name}", why or _HIDDEN) if value is None else value for name, value, why in named))
 
     @property
-    def estimated_error(self) -> float | Unknown:
+    def estimated_error(self) -> float | None:
         """An estimate of the error at the end: the larger of the relative errors of the momentum and of the group element's
-        matrix, in Euclidean norms; :class:`Unknown` where none can be made.
+        matrix, in Euclidean norms; None where it is not known, for the reason in ``estimated_error_unknown``.
 
         >>> import coadjoint as ca
         >>> body = ca.System("SO3", "x^2/3 + y^2/4 + z^2/5", coordinates="x y z")
         >>> body.simulate([2, 0.5, 1], time=10, step=0.1).estimated_error < 1e-9
         True
+        >>> body.simulate([2, 0.5, 1], time=10, step=0.1, estimate=False).estimated_error_unknown
+        'not estimated'
         """
-        found, why = self._found["estimated_error"], self._found["no_estimate"]
-        return Unknown("estimate of the error", why) if found is None else float(found)
+        return self._found["estimated_error"]
+
+    @property
+    def estimated_error_unknown(self) -> str | None:
+        """Why ``estimated_error`` is None."""
+        return self._found["no_estimate"]
+
+    @property
+    def trusted_until(self) -> float | None:
+        """The time until which runs in steps of other sizes go together, where they end elsewhere: then the end is not
+        resolved, and ``estimated_error`` is None."""
+        return self._found["trusted_until"]
 
     @property
     def drift_scale(self) -> Drift:

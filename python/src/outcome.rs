@@ -1,6 +1,6 @@
 //! The result of a run, in Python's types.
 
-use coadjoint_run::simulate::{Block, Crossing, Kind, Outcome, Schedule, split};
+use coadjoint_run::simulate::{Block, Crossing, Kind, Outcome, Schedule, Unknown, split};
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -57,8 +57,14 @@ pub fn result_of<'py>(
     found.set_item("rotations", rotations.collect::<Vec<usize>>())?;
     let drift = outcome.drift;
     found.set_item("largest_drift", (drift.spatial_momentum, drift.casimirs, drift.energy))?;
-    found.set_item("estimated_error", outcome.estimated_error.ok())?;
-    found.set_item("no_estimate", outcome.estimated_error.err())?;
+    let estimate = &outcome.estimated_error;
+    found.set_item("estimated_error", estimate.as_ref().ok())?;
+    found.set_item("no_estimate", estimate.as_ref().err().map(ToString::to_string))?;
+    let until = match estimate {
+        Err(Unknown::Unresolved { until }) => Some(*until),
+        _ => None,
+    };
+    found.set_item("trusted_until", until)?;
     let scales = &outcome.scales;
     let scales = (scales.spatial_momentum, scales.casimirs.clone(), scales.energy);
     found.set_item("drift_scale", scales)?;

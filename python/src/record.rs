@@ -64,6 +64,10 @@ impl Sink for Keeper<'_> {
         if self.control.stop.load(Ordering::Relaxed) { Err(Halt) } else { Ok(()) }
     }
 
+    fn stop(&mut self) -> bool {
+        self.control.stop.load(Ordering::Relaxed)
+    }
+
     fn warn(&mut self, text: &str) {
         self.table.warnings.push(text.to_owned());
     }

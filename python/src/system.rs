@@ -266,7 +266,7 @@ impl Core {
     }
 
     /// One trajectory; a dictionary of arrays and facts.
-    #[pyo3(signature = (asked, *, momentum, group_element, every, at, events, looks, backend, record, progress))]
+    #[pyo3(signature = (asked, *, momentum, group_element, every, at, events, looks, backend, estimate, record, progress))]
     #[allow(clippy::too_many_arguments)]
     fn simulate<'py>(
         &self,
@@ -279,6 +279,7 @@ impl Core {
         events: Vec<Watched>,
         looks: Option<u32>,
         backend: &str,
+        estimate: bool,
         record: bool,
         progress: Option<Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyDict>> {
@@ -330,6 +331,8 @@ impl Core {
             let at = at.map_err(|what| RunError::Option(format!("at: {what}")))?;
             let setup = Setup {
                 recording: record,
+                estimate: estimate && system.run.estimate != Some(false),
+                tolerance: choice.as_ref().map(|choice| choice.tolerance),
                 every,
                 at,
                 events,

@@ -289,6 +289,15 @@ impl Derived {
         }
     }
 
+    /// Whether the equations depend on the time other than through the state.
+    pub(crate) fn moves(&self) -> bool {
+        let flow = match &self.flow {
+            Flow::Series(_) => false,
+            Flow::Collocation(smooth, ..) => smooth.depends_on_time(),
+        };
+        flow || self.kicks().is_some_and(Kicks::moves)
+    }
+
     /// Whether states move by programs alone, so that many may move side by side.
     pub(crate) fn alike(&self) -> bool {
         let calls = matches!(&self.flow, Flow::Collocation(smooth, ..) if smooth.given.is_some());

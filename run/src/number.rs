@@ -17,6 +17,11 @@ pub fn shortest(value: f64) -> String {
     if scientific.len() < plain.len() { scientific } else { plain }
 }
 
+/// Five digits of a number.
+pub(crate) fn brief(value: f64) -> String {
+    shortest(format!("{value:.4e}").parse().unwrap_or(value))
+}
+
 /// The larger of two numbers; NaN where one of them is, unlike `f64::max`.
 pub(crate) fn maximum(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }

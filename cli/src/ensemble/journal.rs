@@ -41,6 +41,9 @@ pub(crate) struct Journal {
     pub redone: u64,
     /// The errors estimated at the ends of some rows so far.
     pub estimates: Vec<f64>,
+    /// How many of those rows have no estimate, and why the first has none.
+    pub unknown: u64,
+    pub why: Option<String>,
 }
 
 impl Journal {
@@ -49,6 +52,19 @@ impl Journal {
         let mut all = self.estimates.clone();
         all.sort_by(f64::total_cmp);
         Some([*all.get(all.len() / 2)?, *all.last()?])
+    }
+
+    /// Takes note of estimates.
+    pub(crate) fn note(&mut self, found: Vec<Result<f64, String>>) {
+        for one in found {
+            match one {
+                Ok(error) => self.estimates.push(error),
+                Err(why) => {
+                    self.unknown += 1;
+                    self.why.get_or_insert(why);
+                }
+            }
+        }
     }
 
     /// The largest drifts so far.

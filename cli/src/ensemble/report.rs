@@ -33,7 +33,12 @@ pub(crate) fn warnings(outcome: &Outcome, steps: u64, engine: &Engine<'_>) -> Ve
     // Of single precision the report says what drifts are.
     let drift = Some(outcome.journal.drift().conserved).filter(|_| !single).unwrap_or_default();
     let drifts = drifting(drift, steps).map(|warning| (warning.object(), warning.text()));
-    series.into_iter().chain(error).chain(drifts).collect()
+    let journal = &outcome.journal;
+    let unresolved = journal.why.as_ref().map(|why| {
+        let text = format!("the error at the end of {} rows estimated is {why}", journal.unknown);
+        (json!({ "kind": "no_estimate", "rows": journal.unknown, "text": text }), text)
+    });
+    series.into_iter().chain(error).chain(drifts).chain(unresolved).collect()
 }
 
 /// The text to print.
@@ -89,10 +94,15 @@ pub(crate) fn report(
         if !parameters.is_empty() {
             value["parameters"] = json!(parameters);
         }
-        if let Some([median, largest]) = journal.estimated() {
-            let rows = journal.estimates.len();
-            value["estimated_error"] =
-                json!({ "rows": rows, "median": median, "largest": largest });
+        let rows = journal.estimates.len();
+        let estimated = journal
+            .estimated()
+            .map(|[median, largest]| json!({ "rows": rows, "median": median, "largest": largest }));
+        if rows as u64 + journal.unknown > 0 {
+            value["estimated_error"] = json!(estimated);
+        }
+        if let Some(why) = &journal.why {
+            value["estimated_error_unknown"] = json!({ "rows": journal.unknown, "first": why });
         }
         return format!("{value:#}\n");
     }
@@ -128,6 +138,10 @@ pub(crate) fn report(
         lines.push(format!(
             "  estimated relative error at the end, of {rows} rows: median {median:.1e}, largest {largest:.1e}"
         ));
+    }
+    if let Some(why) = &journal.why {
+        let rows = journal.unknown;
+        lines.push(format!("  estimated relative error at the end, of {rows} rows: {why}"));
     }
     lines.push("  largest relative drift".to_owned());
     let casimirs = match engine.casimirs() {

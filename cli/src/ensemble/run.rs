@@ -187,7 +187,7 @@ impl Run<'_> {
                 let chosen = (done..).zip(rows).filter(|(row, _)| row % apart == 0);
                 let chosen: Vec<&[f64]> = chosen.map(|(_, row)| row).collect();
                 let found = engine.estimates(&layout, self.job.course.steps, &chosen);
-                self.journal.estimates.extend(found.into_iter().flatten());
+                self.journal.note(found);
             }
             let made = |made: u64| {
                 bar.set_position(done.saturating_mul(steps).saturating_add(take * made));

@@ -258,6 +258,10 @@ impl Sink for Keeper<'_> {
         self.note(tended)
     }
 
+    fn stop(&mut self) -> bool {
+        self.guard.as_ref().is_some_and(Guard::asked)
+    }
+
     fn warn(&mut self, text: &str) {
         let tell = || errln!("warning: {text}");
         match &self.bar {

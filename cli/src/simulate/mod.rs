@@ -98,9 +98,10 @@ fn runs(
         let phase = progress::phase("choosing the step");
         let fixed = (!options.truncation.is_empty()).then_some(truncation);
         let asked = options.accuracy.of_run(fixed, options.t0, options.time);
-        load::meet_tolerance(path, &mut system, &asked)?;
+        let choice = load::meet_tolerance(path, &mut system, &asked)?;
         drop(phase);
-        let setup = settings::setup(options, path, &asked, &system.run)?;
+        let tolerance = choice.map(|choice| choice.tolerance);
+        let setup = Setup { tolerance, ..settings::setup(options, path, &asked, &system.run)? };
         let settings = Settings::new(options, (path, &hash), out, setup)?;
         let setup = &settings.setup;
         let announcement = setup.schedule.announcement();

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use coadjoint_codegen::system::Units;
 use coadjoint_run::number::shortest;
-use coadjoint_run::simulate::{Block, Crossing, Kind, Outcome, Warning, matrix, split};
+use coadjoint_run::simulate::{Block, Crossing, Kind, Outcome, Unknown, Warning, matrix, split};
 use nalgebra::{DMatrix, Matrix3, Rotation3, UnitQuaternion};
 use serde_json::{Value, json};
 
@@ -31,7 +31,7 @@ pub(crate) fn report(runs: &[Trajectory], units: &Units, format: Format) -> Stri
     }
 }
 
-/// A quantity without a number has no key: no value is null.
+/// A quantity without a number has no key; the error at the end, which every run is asked for, is null with the reason beside it.
 fn object(run: &Trajectory, units: &Units) -> Value {
     let end = &run.outcome;
     let names = ["spatial_momentum", "casimirs", "energy"];
@@ -87,8 +87,12 @@ fn object(run: &Trajectory, units: &Units) -> Value {
     if (1..=WIDEST).contains(&size) {
         object["group_element"] = json!(dense(end, size));
     }
-    if let Ok(error) = end.estimated_error {
-        object["estimated_error"] = json!(error);
+    object["estimated_error"] = json!(end.estimated_error.as_ref().ok());
+    if let Err(why) = &end.estimated_error {
+        object["estimated_error_unknown"] = json!(why.to_string());
+        if let Unknown::Unresolved { until } = why {
+            object["trusted_until"] = json!(until);
+        }
     }
     let events = run.header.get("events");
     if let Some(names) = events.and_then(Value::as_array) {
@@ -186,7 +190,7 @@ fn text(run: &Trajectory, units: &Units) -> String {
     if let Some([_, energy]) = end.energy {
         let _ = writeln!(out, "  energy     {:>24}", shortest(energy));
     }
-    let _ = match end.estimated_error {
+    let _ = match &end.estimated_error {
         Ok(error) => writeln!(out, "  estimated relative error at the end {error:.1e}"),
         Err(why) => writeln!(out, "  estimated relative error at the end {why}"),
     };

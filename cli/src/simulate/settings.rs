@@ -91,8 +91,9 @@ pub(crate) fn setup(
     }
     let looks = run.looks.unwrap_or(1) as u32;
     let (backend, group_element) = (options.backend, run.group_element.clone());
+    let estimate = !options.no_estimate && run.estimate != Some(false);
     let setup = Setup::new(schedule, momentum);
-    Ok(Setup { every, at, events, looks, backend, group_element, ..setup })
+    Ok(Setup { every, at, events, looks, backend, estimate, group_element, ..setup })
 }
 
 /// The system called `name` of this text with the event of `--until`, at which its run ends. Without it the text has no

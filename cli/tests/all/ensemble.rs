@@ -389,9 +389,17 @@ fn errors_of_a_sample_are_estimated() {
     let largest = found["largest"].as_f64().unwrap();
     assert!((0.1..10.0).contains(&(largest / off)), "{found} {off}");
     assert!(found["median"].as_f64().unwrap() <= largest);
-    let ran =
-        run(&folder, "in.csv", "out.csv", "--truncation 1 --time 400 --step 0.25 --estimate 2");
-    ran.ok().says(&["the error at the end of a row is about"]).prints(&["of 2 rows: median"]);
+    // Far off, and so far that nothing is known.
+    let rough = |time: u32| {
+        let options =
+            format!("--truncation 1 --time {time} --step 0.25 --estimate 2 --format json");
+        run(&folder, "in.csv", "out.csv", &options).ok()
+    };
+    rough(40).says(&["the error at the end of a row is about"]).prints(&["\"median\""]);
+    let ran = rough(400).says(&["the error at the end of 2 rows estimated is not known: "]);
+    let report: Value = serde_json::from_str(&ran.out).unwrap();
+    assert!(report["estimated_error"].is_null(), "{report}");
+    assert_eq!(report["estimated_error_unknown"]["rows"], 2);
 }
 
 /// The end of a row is that of a system file with the row's value, in every format; a bad value is told by its row.

@@ -209,7 +209,7 @@ pub fn read_given(
         None => assemble_either(draft, diagnostics),
     };
     let gradient = |system: &Hamiltonian, time: f64| match system {
-        Hamiltonian::Polynomial(problem) => initial::of_polynomial(problem),
+        Hamiltonian::Polynomial(problem, _) => initial::of_polynomial(problem),
         Hamiltonian::Smooth(smooth) => initial::of_smooth(smooth, time),
     };
     let quadratic = Hamiltonian::is_quadratic;

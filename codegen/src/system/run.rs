@@ -32,6 +32,8 @@ pub struct Run {
     pub looks: Option<usize>,
     /// The time at the start t₀, of which energies, torques, inputs and events are functions; 0 if it is not given.
     pub initial_time: f64,
+    /// Whether the error at the end is estimated.
+    pub estimate: Option<bool>,
     /// The body momentum μ at the start.
     pub momentum: Option<Vec<f64>>,
     /// The time at which that momentum has the angular velocity of the file, where it follows from one and H depends on time.
@@ -76,7 +78,7 @@ pub(super) fn read(root: &Table<'_>, integrator: Option<&Table<'_>>) -> Run {
         run.region = region(table);
     }
     if let Some(table) = root.table("run") {
-        table.check_keys(&["time", "every", "looks"]);
+        table.check_keys(&["time", "every", "looks", "estimate"]);
         let time = table.number("time", "time = 100.0");
         run.time = accepted(&table, time, "time = 100.0", |time| {
             (time <= 0.0 || !time.is_finite()).then_some("the time must be finite and positive")
@@ -85,6 +87,7 @@ pub(super) fn read(root: &Table<'_>, integrator: Option<&Table<'_>>) -> Run {
         run.every = accepted(&table, every, "every = 1", |every| {
             (every == 0).then_some("`every` counts steps from 1")
         });
+        run.estimate = table.has("estimate").then(|| table.flag("estimate", "estimate = false"));
         let looks = table.integer("looks", "looks = 4");
         run.looks = accepted(&table, looks, "looks = 4", |looks| {
             (!(1..=1000).contains(&looks)).then_some("a step is looked at in 1 to 1000 parts")

@@ -19,7 +19,7 @@ use crate::error::RunError;
 use crate::grid::Grid;
 use crate::load::{Derived, System};
 use crate::number::{maximum, shortest};
-use crate::simulate::{Stop, estimate};
+use crate::simulate::{Stop, error_of};
 
 /// The system as ensembles solve it: in lanes by Newton's method whatever the dimension, since its Hessian is then exact.
 ///
@@ -422,17 +422,13 @@ impl<'a> Engine<'a> {
         let estimate = |row: &&[f64]| {
             let start = self.read(layout, row)?;
             let parameters = self.parameters(&places, &row[layout.state()..]);
-            let of = |step| {
-                let grid = Grid { step, ..self.grid };
+            let other = |size| {
+                let grid = Grid { step: self.grid.step * size, ..self.grid };
                 self.system.varied(grid, &parameters, self.compiled.as_ref())
             };
-            let motion = of(self.grid.step).map_err(|error| error.to_string())?;
-            let mut end = start.clone();
-            let made = motion.advance(&mut end, 0, steps);
-            made.map_err(|(_, error)| error.to_string())?;
-            let other = |size| of(self.grid.step * size);
-            let found = estimate(motion.as_ref(), other, [&start, &end], steps, self.order);
-            found.map_err(str::to_owned)
+            let method = (self.order, self.system.moves(), true);
+            let found = error_of(&other, &start, (steps, self.grid), method);
+            found.map_err(|why| why.to_string())
         };
         rows.par_iter().map(estimate).collect()
     }

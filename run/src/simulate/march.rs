@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use super::estimate;
 use super::event::{self, Crossing, Lookout};
 use super::orbit::Orbit;
 use super::recorder::{Outcome, Recorder, Watched, drifting};
@@ -15,11 +16,21 @@ use crate::error::RunError;
 const LOOKS: u64 = 10_000;
 
 /// How many steps are made at a time: few enough to come back every ten milliseconds.
-struct Pace(u64);
+pub(super) struct Pace(u64);
 
 impl Pace {
+    /// At the beginning.
+    pub(super) fn new() -> Self {
+        Self(16)
+    }
+
+    /// The number of steps to be made now.
+    pub(super) fn steps(&self) -> u64 {
+        self.0
+    }
+
     /// Records the time of some steps.
-    fn took(&mut self, steps: u64, time: Duration) {
+    pub(super) fn took(&mut self, steps: u64, time: Duration) {
         const GOAL: f64 = 0.005;
         let each = time.as_secs_f64().max(1e-9) / steps.max(1) as f64;
         // At most twice as many as before: the first may have been cheap.
@@ -57,12 +68,16 @@ struct March<'a> {
     ended: Option<f64>,
     /// How many of the times asked for are recorded.
     times: usize,
+    /// The states kept for the estimate of the error, one after so many steps.
+    kept: Vec<(u64, Numbers)>,
+    part: u64,
     /// The number of steps between two measurements of the drift: at each record, or, where none are kept, at [`LOOKS`] moments.
     interval: u64,
 }
 
 impl Subject<'_> {
-    /// Makes the steps from the start, or from where an earlier run has ended; also the state at the end.
+    /// Makes the steps from the start, or from where an earlier run has ended; also the state at the end, and those on the way
+    /// that an estimate of the error looks at.
     ///
     /// # Errors
     /// Why the run stopped.
@@ -71,7 +86,7 @@ impl Subject<'_> {
         motion: &dyn Motion,
         start: &Numbers,
         sink: &mut dyn Sink,
-    ) -> Result<(Outcome, Numbers), RunError> {
+    ) -> Result<(Outcome, Numbers, Vec<(u64, Numbers)>), RunError> {
         let Self { setup, watched, warnings } = self;
         let state = start.clone();
         warnings.iter().for_each(|warning| sink.warn(&warning.text()));
@@ -90,6 +105,7 @@ impl Subject<'_> {
         };
         let (n, times, ended) = (0, 0, None);
         let (values, signs, crossings) = Default::default();
+        let part = if setup.estimate { estimate::part(steps) } else { u64::MAX };
         let mut march = March {
             setup,
             motion,
@@ -104,6 +120,8 @@ impl Subject<'_> {
             crossings,
             ended,
             times,
+            kept: Vec::new(),
+            part,
             interval,
         };
         march.values = march.lookout(0).values(time, &march.state).map_err(|w| march.stuck(w))?;
@@ -113,7 +131,7 @@ impl Subject<'_> {
             None => march.record()?,
             Some(resume) => march.resume(resume)?,
         }
-        let mut pace = Pace(16);
+        let mut pace = Pace::new();
         while march.n < steps && march.ended.is_none() {
             march.steps(&mut pace)?;
             if march.ended.is_none() {
@@ -121,7 +139,7 @@ impl Subject<'_> {
             }
             march.pause()?;
         }
-        let March { sink, recorder, state, moment, n, values, crossings, ended, .. } = march;
+        let March { sink, recorder, state, moment, n, values, crossings, ended, kept, .. } = march;
         let end = (n, ended.unwrap_or(setup.schedule.end));
         let mut outcome = recorder.finish(end, motion.space(), &state, &moment);
         outcome.warnings.splice(0..0, warnings);
@@ -135,7 +153,7 @@ impl Subject<'_> {
         outcome.events = crossings;
         let drifting = drifting(outcome.drift, outcome.steps);
         outcome.warnings.extend(drifting.inspect(|warning| sink.warn(&warning.text())));
-        Ok((outcome, state))
+        Ok((outcome, state, kept))
     }
 }
 
@@ -200,6 +218,9 @@ impl March<'_> {
             let noted = self.recorder.solved(solved);
             noted.map_err(|what| self.stuck(what))?;
         }
+        if self.n.is_multiple_of(self.part) && self.n < self.setup.schedule.steps {
+            self.kept.push((self.n, self.state.clone()));
+        }
         if let Some(before) = before {
             self.look_out(first, &before)?;
             if self.ended.is_some() {
@@ -213,7 +234,7 @@ impl March<'_> {
         if self.watched() {
             let seen = self.visit(schedule.time(self.n));
             self.moment = seen.map_err(|what| self.stuck(what))?;
-        } else if self.n == next {
+        } else if self.n == next && self.setup.recording {
             self.moment = self.measure()?;
         }
         Ok(())
@@ -301,8 +322,8 @@ impl March<'_> {
 
     /// The next grid point at which the drift is measured, or something is recorded.
     fn next_look(&self) -> u64 {
-        let next = (self.n / self.interval + 1).saturating_mul(self.interval);
-        let next = next.min(self.setup.schedule.steps);
+        let after = |interval: u64| (self.n / interval + 1).saturating_mul(interval);
+        let next = after(self.interval).min(after(self.part)).min(self.setup.schedule.steps);
         self.next_time()
             .map_or(next, |time| next.min(self.setup.schedule.nearest(time).max(self.n + 1)))
     }

@@ -16,8 +16,8 @@ mod tally;
 pub(crate) use setup::not_an_element;
 
 pub use blocks::{Block, Kind, matrix, split};
-pub use estimate::LARGE;
-pub(crate) use estimate::{estimate, estimate_from};
+pub(crate) use estimate::error_of;
+pub use estimate::{LARGE, Unknown};
 pub use event::{Crossing, Direction, Event};
 pub use recorder::{Drift, Outcome, Scales, drifting};
 pub use run::{run, run_model};

@@ -5,6 +5,7 @@ pub use coadjoint_codegen::step::{Drift, Scales};
 use coadjoint_codegen::step::{Invariants, Start, nudge, rounding};
 
 use super::blocks::{Block, blocks, off_group};
+use super::estimate::Unknown;
 use super::event::Crossing;
 use super::orbit::Orbit;
 use super::sink::Begun;
@@ -54,7 +55,7 @@ pub struct Outcome {
     pub solver: Option<Solver>,
     /// An estimate of the error at the end, the larger of the relative errors of μ and of the matrix of g in Euclidean norms;
     /// or why there is none.
-    pub estimated_error: Result<f64, &'static str>,
+    pub estimated_error: Result<f64, Unknown>,
 }
 
 /// Warnings of what every step conserves and has moved by more than rounding explains in this many steps.
@@ -268,7 +269,7 @@ impl<'a> Recorder<'a> {
             events: Vec::new(),
             solver,
             blocks: self.blocks,
-            estimated_error: Err("not estimated"),
+            estimated_error: Err(Unknown::OFF),
         }
     }
 }

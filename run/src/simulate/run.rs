@@ -1,5 +1,6 @@
 //! The runs of systems, flows or flows and kicks, and of learned maps: from the initial state to the end.
 
+use std::cell::RefCell;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -12,7 +13,7 @@ use coadjoint_codegen::step::Invariants;
 use coadjoint_learn::{Generating, LearnError, Model, ModelFile};
 use coadjoint_program::Trajectories;
 
-use super::estimate::{ENDED, estimate};
+use super::estimate::{Made, Unknown, part};
 use super::march::Subject;
 use super::recorder::{Outcome, Watched};
 use super::setup::Setup;
@@ -48,23 +49,41 @@ pub fn run(system: &Derived, setup: &Setup, sink: &mut dyn Sink) -> Result<Outco
     let made = subject.run(motion.as_ref(), &start, sink);
     let code = compiled.as_ref().map(|compiled| compiled.code());
     code.iter().flat_map(|code| code.notes()).for_each(|note| sink.warn(&note));
-    let (mut outcome, end) = made?;
+    let (mut outcome, end, mut kept) = made?;
     let parameters = facts.defaults();
-    let other = |size| {
-        let grid = Grid { step: grid.step * size, ..grid };
-        system.varied(grid, &parameters, compiled.as_ref())
+    let found = if setup.estimate {
+        let sink = RefCell::new(&mut *sink);
+        // An event ends a run between two steps.
+        let steps = match outcome.time == schedule.end {
+            true => schedule.steps as f64,
+            false => (outcome.time - grid.start) / grid.step,
+        };
+        kept.retain(|(place, _)| (*place as f64) < steps);
+        let made = Made {
+            motion: motion.as_ref(),
+            other: &|size| {
+                let grid = Grid { step: grid.step * size, ..grid };
+                system.varied(grid, &parameters, compiled.as_ref())
+            },
+            ends: [&start, &end],
+            kept: &kept,
+            part: part(schedule.steps),
+            steps,
+            grid,
+            order: system.order(),
+            moves: system.moves(),
+            stop: &|| sink.borrow_mut().stop(),
+        };
+        made.error()
+    } else {
+        Err(Unknown::OFF)
     };
-    let order = system.order();
     let shorter = |step| system.varied(Grid { step, ..grid }, &parameters, compiled.as_ref());
     if let Some(warning) = slow(&outcome, grid.step, &start, shorter) {
         sink.warn(&warning.text());
         outcome.warnings.push(warning);
     }
-    let found = match outcome.time == schedule.end {
-        true => estimate(motion.as_ref(), other, [&start, &end], schedule.steps, order),
-        false => Err(ENDED),
-    };
-    outcome.estimated(found, sink);
+    outcome.estimated(found, setup.tolerance, sink);
     outcome.backend = code.map(|code| code.used());
     Ok(outcome)
 }
@@ -110,9 +129,9 @@ pub fn run_model(
         Charted::Cayley(group) => Box::new(Learned::<_, Cayley>::new(group, model, grid)),
     };
     let start = setup.start(file, motion.space())?;
-    let (mut outcome, _) =
+    let (mut outcome, ..) =
         Subject { setup, watched, warnings }.run(motion.as_ref(), &start, sink)?;
-    outcome.estimated_error = Err("not known: a learned map has steps of one size");
+    outcome.estimated_error = Err(Unknown::LEARNED);
     Ok(outcome)
 }
 

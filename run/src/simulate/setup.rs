@@ -239,6 +239,10 @@ pub struct Setup {
     pub looks: u32,
     /// The backend that evaluates the programs of a step.
     pub backend: Backend,
+    /// Whether the error at the end is estimated.
+    pub estimate: bool,
+    /// The error wanted at the end, where one is.
+    pub tolerance: Option<f64>,
     /// μ at the start.
     pub momentum: Vec<f64>,
     /// g at the start, row by row; the identity if it is not given.
@@ -250,8 +254,20 @@ impl Setup {
     pub fn new(schedule: Schedule, momentum: Vec<f64>) -> Self {
         let (recording, every, at) = (false, Some(1), None);
         let (events, looks, backend) = (Vec::new(), 1, Backend::Auto);
-        let group_element = None;
-        Self { schedule, recording, every, at, events, looks, backend, momentum, group_element }
+        let (estimate, tolerance, group_element) = (true, None, None);
+        Self {
+            schedule,
+            recording,
+            every,
+            at,
+            events,
+            looks,
+            backend,
+            estimate,
+            tolerance,
+            momentum,
+            group_element,
+        }
     }
 
     /// The state at the start.

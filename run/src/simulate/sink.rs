@@ -120,6 +120,11 @@ pub trait Sink {
         Ok(())
     }
 
+    /// After the end, from time to time while the error is estimated: whether to leave that.
+    fn stop(&mut self) -> bool {
+        false
+    }
+
     /// A warning that the user should see at once.
     fn warn(&mut self, _text: &str) {}
 }

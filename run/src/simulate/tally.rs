@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::engine::STEEP;
-use crate::number::shortest;
+use crate::number::{brief, shortest};
 
 /// The measurements at a moment.
 #[derive(Clone, Copy, Debug)]
@@ -94,6 +94,18 @@ pub enum Warning {
         /// A smaller step, with which the programs make all steps of the run; none where none was found.
         step: Option<f64>,
     },
+    /// The error estimated at the end is above the tolerance asked for.
+    AboveTolerance {
+        /// The estimate.
+        error: f64,
+        /// The tolerance.
+        tolerance: f64,
+    },
+    /// Runs in steps of other sizes end elsewhere.
+    Unresolved {
+        /// Until this time they go together.
+        until: f64,
+    },
     /// An event that was to end the run did not occur.
     NoEvent {
         /// Its name.
@@ -137,6 +149,14 @@ impl Warning {
                      them, which takes far longer: {advice}"
                 )
             }
+            Self::AboveTolerance { error, tolerance } => format!(
+                "the error at the end is about {error:.1e}, above the tolerance {tolerance:e}: give a smaller step"
+            ),
+            Self::Unresolved { until } => format!(
+                "the end is not resolved: runs in steps of other sizes end elsewhere, and go with this one until time {}; \
+                 take a smaller step, a larger truncation or a shorter run",
+                brief(*until)
+            ),
             Self::NoEvent { name, values: [start, end] } => format!(
                 "the event `{name}` did not occur; its function was {} at the start and is {} at the end",
                 shortest(*start),
@@ -168,6 +188,12 @@ impl Warning {
                     object["step"] = json!(step);
                 }
                 object
+            }
+            Self::AboveTolerance { error, tolerance } => json!({
+                "kind": "above_tolerance", "error": error, "tolerance": tolerance, "text": text,
+            }),
+            Self::Unresolved { until } => {
+                json!({ "kind": "unresolved", "trusted_until": until, "text": text })
             }
             Self::NoEvent { name, values } => {
                 json!({ "kind": "no_event", "event": name, "values": values, "text": text })
