@@ -104,7 +104,8 @@ pub fn plus_outer<T: Number>(constant: [V3<T>; 3], a: V3<T>, b: V3<T>) -> [V3<T>
     [row(0), row(1), row(2)]
 }
 
-/// Zero where all entries are finite, else not a number.
+/// Zero where all entries are finite, else not a number: ∞ − ∞ is none.
+#[allow(clippy::eq_op)]
 #[inline(always)]
 pub fn finite<T: Number, const N: usize>(list: [T; N]) -> T {
     let mut sum = T::of(0.0);

@@ -162,7 +162,10 @@ fn overshoot(times: &[f64], values: &[f64], slopes: &[f64]) -> Option<(usize, f6
         let beyond = |x: &f64| (x - high).max(low - x);
         tangents.into_iter().max_by(|a, b| beyond(a).total_cmp(&beyond(b))).unwrap_or(high)
     };
-    let far = |x: f64| !((x - high).max(low - x) <= FARTHEST * (high - low));
+    let far = |x: f64| {
+        let beyond = (x - high).max(low - x);
+        beyond.is_nan() || beyond > FARTHEST * (high - low)
+    };
     let pieces = times.len() - 1;
     let at = (0..pieces).find(|&i| high > low && far(reached(i)))?;
     let beside = at.saturating_sub(1)..(at + 2).min(pieces);
