@@ -1,8 +1,8 @@
 //! A step by collocation as a kernel: the equations, the solution and the acceptance of the runtime's `collocation`, in which a
 //! sweep is a correction.
 //!
-//! The numbers solved for are hẋᵢ of all nodes, then hṗᵢ of all, then the residual of the sweep before. A solution is read as x, three
-//! measures of how well the nodes resolve the step, each as a share of its limit, and the rates. Steps leave differences of
+//! The numbers solved for are hẋᵢ of all nodes, then hṗᵢ of all, then the residual of the sweep before. A solution is read as x, two
+//! measures of how well the nodes resolve the step, each as a share of its limit, the rates, and the momenta at the nodes. Steps leave differences of
 //! their rates to the next one, beside the group element. Steps that are not ordinary ones are refused: the runtime follows them.
 
 use coadjoint_program::collocation::{
@@ -22,7 +22,7 @@ use crate::smooth::Smooth;
 use crate::step::StepError;
 
 /// The measures of how well the nodes resolve a step.
-const MEASURES: usize = 3;
+const MEASURES: usize = 2;
 
 /// The coefficients of the nodes of a step, for a number of nodes known at run time.
 struct Gauss {
@@ -113,7 +113,7 @@ pub(super) fn kernel(smooth: &Smooth, group: &Product) -> Result<Kernel, StepErr
         dim: step.n,
         element: group.element(),
         unknowns: rates + 1,
-        solution: step.n + MEASURES + rates,
+        solution: step.n + MEASURES + rates + step.n * step.nodes(),
         tolerance: SOLVED,
         near: 0.0,
         corrections: MAX_SWEEPS,
@@ -370,11 +370,11 @@ impl<'a> Collocation<'a> {
         let left = graph.select(before, zero, left, stays);
 
         let (x, _) = self.whole(&graph, &next, &mu);
-        let [velocity, force] = self.measures(&graph, &next, &mu, &model);
-        let measures = [velocity, force, self.reach(&graph, &mu, &momenta)];
+        let measures = self.measures(&graph, &next, &mu, &model);
         let mut outputs = next.numbers();
         outputs.push(residual);
         outputs.extend(x.into_iter().chain(measures).chain(next.numbers()));
+        outputs.extend(momenta.into_iter().flatten());
         outputs.extend([left, finite(&graph, &change.numbers())]);
         graph.finish(count + 1 + n + constants, &outputs)
     }
@@ -490,7 +490,8 @@ impl<'a> Collocation<'a> {
     /// μ, the solution, the error left, the distance ↦ 1 where the step is solved, in the chart, and resolved by its nodes.
     fn accept(&self) -> Program {
         let (graph, n) = (Graph::new(), self.n);
-        let solution = inputs(&graph, n, n + MEASURES + self.rates());
+        let momenta = n + MEASURES + self.rates();
+        let solution = inputs(&graph, n, momenta + n * self.nodes());
         let end = n + solution.len();
         let [left, distance] = [end, end + 1].map(|i| graph.input(i));
         let tolerance = graph.constant(SOLVED / f64::EPSILON);
@@ -500,7 +501,9 @@ impl<'a> Collocation<'a> {
         let extent = graph.mul(graph.constant(4.0), self.group.extent(&graph, &solution[..n]));
         let measures = solution[n..n + MEASURES].iter().map(|&measure| (measure, one));
         let tests = [(left, tolerance), (distance, zero), (extent, one)].into_iter();
-        let tests: Vec<_> = tests.chain(measures).collect();
+        let nodes: Rows = solution[momenta..].chunks(n).map(<[Id]>::to_vec).collect();
+        let reach = self.reach(&graph, &inputs(&graph, 0, n), &nodes);
+        let tests: Vec<_> = tests.chain(measures).chain([(reach, one)]).collect();
         graph.finish(end + 2, &[all_at_most(&graph, &tests)])
     }
 
@@ -509,13 +512,13 @@ impl<'a> Collocation<'a> {
         let (graph, n, rates) = (Graph::new(), self.n, self.rates());
         let g = inputs(&graph, 0, self.group.element());
         let mu = inputs(&graph, g.len(), n);
-        let solution = inputs(&graph, g.len() + n, n + MEASURES + rates);
+        let solution = inputs(&graph, g.len() + n, n + MEASURES + rates + n * self.nodes());
         let Moved { g: mut outputs, mu } = self.group.transport(&graph, &g, &solution[..n], &mu);
         outputs.truncate(self.element);
         if let Some((&count, differences)) = g[self.element..].split_first() {
             let [one, most] = [1.0, KEPT as f64].map(|value| graph.constant(value));
             outputs.push(graph.min(graph.add(count, one), most));
-            let mut new = solution[n + MEASURES..].to_vec();
+            let mut new = solution[n + MEASURES..][..rates].to_vec();
             for old in differences.chunks(rates) {
                 outputs.extend_from_slice(&new);
                 new = new.iter().zip(old).map(|(&new, &old)| graph.sub(new, old)).collect();
