@@ -275,260 +275,260 @@ const _: () = {
         let t23 = p[1].times_plus(c.at(6), c.at(8));
         let t24 = p[0].times_plus(c.at(2), t23);
         let t25 = p[2].times_plus(c.at(7), t24);
-        let t29 = t14 * t14;
-        let t30 = t20.times_plus(t20, t29);
-        let t31 = t25.times_plus(t25, t30);
-        let t42 = t31.times_plus(c.of(-0.041666666666666664), c.of(0.5));
-        let t43 = t31
+        let t26 = t14 * t14;
+        let t27 = t20.times_plus(t20, t26);
+        let t28 = t25.times_plus(t25, t27);
+        let t29 = t28 * t28;
+        let t30 = t29 * t29;
+        let t31 = t30 * t30;
+        let t34 = t28.times_plus(c.of(-0.041666666666666664), c.of(0.5));
+        let t37 = t28
             .times_plus(c.of(-0.0000248015873015873), c.of(0.001388888888888889));
-        let t44 = t31
+        let t38 = t29.times_plus(t37, t34);
+        let t41 = t28
             .times_plus(
                 c.of(-0.00000000208767569878681),
                 c.of(0.0000002755731922398589),
             );
-        let t45 = t31
+        let t44 = t28
             .times_plus(
                 c.of(-0.00000000000004779477332387385),
                 c.of(0.000000000011470745597729725),
             );
-        let t46 = t31
+        let t45 = t29.times_plus(t44, t41);
+        let t46 = t30.times_plus(t45, t38);
+        let t49 = t28
             .times_plus(
                 c.of(-0.0000000000000000004110317623312165),
                 c.of(0.00000000000000015619206968586225),
             );
-        let t47 = t31 * t31;
-        let t48 = t43.times_plus(t47, t42);
-        let t49 = t45.times_plus(t47, t44);
-        let t50 = c.of(0.0000000000000000000008896791392450574).times_plus(t47, t46);
-        let t51 = t47 * t47;
-        let t52 = t49.times_plus(t51, t48);
-        let t53 = t51 * t51;
-        let t54 = t50.times_plus(t53, t52);
-        let t65 = t31.times_plus(c.of(-0.008333333333333333), c.of(0.16666666666666666));
-        let t66 = t31
+        let t51 = t29.times_plus(c.of(0.0000000000000000000008896791392450574), t49);
+        let t52 = t31.times_plus(t51, t46);
+        let t55 = t28.times_plus(c.of(-0.008333333333333333), c.of(0.16666666666666666));
+        let t58 = t28
             .times_plus(c.of(-0.0000027557319223985893), c.of(0.0001984126984126984));
-        let t67 = t31
+        let t59 = t29.times_plus(t58, t55);
+        let t62 = t28
             .times_plus(
                 c.of(-0.00000000016059043836821613),
                 c.of(0.00000002505210838544172),
             );
-        let t68 = t31
+        let t65 = t28
             .times_plus(
                 c.of(-0.0000000000000028114572543455206),
                 c.of(0.0000000000007647163731819816),
             );
-        let t69 = t31
+        let t66 = t29.times_plus(t65, t62);
+        let t67 = t30.times_plus(t66, t59);
+        let t70 = t28
             .times_plus(
                 c.of(-0.000000000000000000019572941063391263),
                 c.of(0.00000000000000000822063524662433),
             );
-        let t70 = t47.times_plus(t66, t65);
-        let t71 = t47.times_plus(t68, t67);
-        let t72 = t51.times_plus(t71, t70);
-        let t73 = t53.times_plus(t69, t72);
-        let t81 = t31.times_plus(c.of(0.005555555555555556), c.of(-0.08333333333333333));
-        let t82 = t31
+        let t71 = t31.times_plus(t70, t67);
+        let t74 = t28.times_plus(c.of(0.005555555555555556), c.of(-0.08333333333333333));
+        let t77 = t28
             .times_plus(c.of(0.000002204585537918871), c.of(-0.00014880952380952382));
-        let t83 = t31
+        let t78 = t29.times_plus(t77, t74);
+        let t81 = t28
             .times_plus(
                 c.of(0.0000000001376489471727567),
                 c.of(-0.0000000208767569878681),
             );
-        let t84 = t47.times_plus(t82, t81);
-        let t85 = t47.times_plus(c.of(-0.0000000000006691268265342339), t83);
-        let t86 = t51.times_plus(t85, t84);
-        let t94 = t31
+        let t83 = t29.times_plus(c.of(-0.0000000000006691268265342339), t81);
+        let t84 = t30.times_plus(t83, t78);
+        let t87 = t28
             .times_plus(c.of(0.0007936507936507937), c.of(-0.016666666666666666));
-        let t95 = t31
+        let t90 = t28
             .times_plus(c.of(0.00000020041686708353376), c.of(-0.000016534391534391536));
-        let t96 = t31
+        let t91 = t29.times_plus(t90, t87);
+        let t94 = t28
             .times_plus(
                 c.of(0.00000000000917659647818378),
                 c.of(-0.0000000016059043836821613),
             );
-        let t97 = t47.times_plus(t95, t94);
-        let t98 = t47.times_plus(c.of(-0.00000000000003936040156083729), t96);
-        let t99 = t51.times_plus(t98, t97);
-        let t100 = mu[1] * t25;
-        let t101 = -mu[2];
-        let t102 = t20.times_plus(t101, t100);
-        let t103 = mu[2] * t14;
-        let t104 = -mu[0];
-        let t105 = t25.times_plus(t104, t103);
-        let t106 = mu[0] * t20;
-        let t107 = -mu[1];
-        let t108 = t14.times_plus(t107, t106);
-        let t109 = t25 * t105;
-        let t110 = -t108;
-        let t111 = t20.times_plus(t110, t109);
-        let t112 = t14 * t108;
-        let t113 = -t102;
-        let t114 = t25.times_plus(t113, t112);
-        let t115 = t20 * t102;
-        let t116 = -t105;
-        let t117 = t14.times_plus(t116, t115);
-        let t118 = t54.times_plus(t102, mu[0]);
-        let t119 = t54.times_plus(t105, mu[1]);
-        let t120 = t54.times_plus(t108, mu[2]);
-        let t121 = t73.times_plus(t111, t118);
-        let t122 = t73.times_plus(t114, t119);
-        let t123 = t73.times_plus(t117, t120);
-        let t124 = t86 * t102;
-        let t125 = t86 * t105;
-        let t126 = t86 * t108;
-        let t127 = t99.times_plus(t111, t124);
-        let t128 = t99.times_plus(t114, t125);
-        let t129 = t99.times_plus(t117, t126);
-        let t130 = -t73;
-        let t131 = mu[0].times_plus(t130, t127);
-        let t132 = mu[1].times_plus(t130, t128);
-        let t133 = mu[2].times_plus(t130, t129);
-        let t134 = mu[0] * t54;
-        let t135 = mu[1] * t54;
-        let t136 = mu[2] * t54;
-        let t137 = t73.times_plus(t102, t134);
-        let t138 = t73.times_plus(t105, t135);
-        let t139 = t73.times_plus(t108, t136);
-        let t140 = mu[0] * t14;
-        let t141 = mu[1].times_plus(t20, t140);
-        let t142 = mu[2].times_plus(t25, t141);
-        let t143 = t73 * t142;
-        let t144 = -t137;
-        let t145 = -t138;
-        let t146 = -t139;
-        let t147 = t14.times_plus(t131, t143);
-        let t148 = t20.times_plus(t131, t146);
-        let t149 = t25.times_plus(t131, t138);
-        let t150 = t14.times_plus(t132, t139);
-        let t151 = t20.times_plus(t132, t143);
-        let t152 = t25.times_plus(t132, t144);
-        let t153 = t14.times_plus(t133, t145);
-        let t154 = t20.times_plus(t133, t137);
-        let t155 = t25.times_plus(t133, t143);
-        let t156 = -t147;
-        let t157 = -t148;
-        let t158 = -t149;
-        let t159 = -t150;
-        let t160 = -t151;
-        let t161 = -t152;
-        let t162 = -t153;
-        let t163 = -t154;
-        let t164 = -t155;
-        let t165 = c.at(0).times_plus(t156, c.of(1.0));
-        let t166 = c.at(3).times_plus(t157, t165);
-        let t167 = c.at(2).times_plus(t158, t166);
-        let t168 = c.at(3) * t156;
-        let t169 = c.at(4).times_plus(t157, t168);
-        let t170 = c.at(6).times_plus(t158, t169);
-        let t171 = c.at(2) * t156;
-        let t172 = c.at(6).times_plus(t157, t171);
-        let t173 = c.at(7).times_plus(t158, t172);
-        let t174 = c.at(0) * t159;
-        let t175 = c.at(3).times_plus(t160, t174);
-        let t176 = c.at(2).times_plus(t161, t175);
-        let t177 = c.at(3).times_plus(t159, c.of(1.0));
-        let t178 = c.at(4).times_plus(t160, t177);
-        let t179 = c.at(6).times_plus(t161, t178);
-        let t180 = c.at(2) * t159;
-        let t181 = c.at(6).times_plus(t160, t180);
-        let t182 = c.at(7).times_plus(t161, t181);
-        let t183 = c.at(0) * t162;
-        let t184 = c.at(3).times_plus(t163, t183);
-        let t185 = c.at(2).times_plus(t164, t184);
-        let t186 = c.at(3) * t162;
-        let t187 = c.at(4).times_plus(t163, t186);
-        let t188 = c.at(6).times_plus(t164, t187);
-        let t189 = c.at(2).times_plus(t162, c.of(1.0));
-        let t190 = c.at(6).times_plus(t163, t189);
-        let t191 = c.at(7).times_plus(t164, t190);
-        let t192 = p[0] - t121;
-        let t193 = p[1] - t122;
-        let t194 = p[2] - t123;
-        let t195 = t179 * t191;
-        let t196 = -t182;
-        let t197 = t188.times_plus(t196, t195);
-        let t198 = t173 * t188;
-        let t199 = -t191;
-        let t200 = t170.times_plus(t199, t198);
-        let t201 = t170 * t182;
-        let t202 = -t173;
-        let t203 = t179.times_plus(t202, t201);
-        let t204 = t182 * t185;
-        let t205 = -t176;
-        let t206 = t191.times_plus(t205, t204);
-        let t207 = t167 * t191;
-        let t208 = -t185;
-        let t209 = t173.times_plus(t208, t207);
-        let t210 = t173 * t176;
-        let t211 = -t167;
-        let t212 = t182.times_plus(t211, t210);
-        let t213 = t176 * t188;
-        let t214 = -t179;
-        let t215 = t185.times_plus(t214, t213);
-        let t216 = t170 * t185;
-        let t217 = -t188;
-        let t218 = t167.times_plus(t217, t216);
-        let t219 = t167 * t179;
-        let t220 = -t170;
-        let t221 = t176.times_plus(t220, t219);
-        let t222 = t167 * t197;
-        let t223 = t170.times_plus(t206, t222);
-        let t224 = t173.times_plus(t215, t223);
-        let t225 = c.of(1.0) / t224;
-        let t226 = t192 * t197;
-        let t227 = t193.times_plus(t200, t226);
-        let t228 = t194.times_plus(t203, t227);
-        let t229 = t192 * t206;
-        let t230 = t193.times_plus(t209, t229);
-        let t231 = t194.times_plus(t212, t230);
-        let t232 = t192 * t215;
-        let t233 = t193.times_plus(t218, t232);
-        let t234 = t194.times_plus(t221, t233);
-        let t235 = t225 * t228;
-        let t236 = t225 * t231;
-        let t237 = t225 * t234;
-        let t238 = c.at(0) * t235;
-        let t239 = c.at(3).times_plus(t236, t238);
-        let t240 = c.at(2).times_plus(t237, t239);
-        let t241 = c.at(3) * t235;
-        let t242 = c.at(4).times_plus(t236, t241);
-        let t243 = c.at(6).times_plus(t237, t242);
-        let t244 = c.at(2) * t235;
-        let t245 = c.at(6).times_plus(t236, t244);
-        let t246 = c.at(7).times_plus(t237, t245);
-        let t247 = p[0] - t235;
-        let t248 = p[1] - t236;
-        let t249 = p[2] - t237;
-        let t250 = t14 - t240;
-        let t251 = t20 - t243;
-        let t252 = t25 - t246;
+        let t96 = t29.times_plus(c.of(-0.00000000000003936040156083729), t94);
+        let t97 = t30.times_plus(t96, t91);
+        let t98 = -mu[2];
+        let t99 = mu[1] * t25;
+        let t100 = t20.times_plus(t98, t99);
+        let t101 = -mu[0];
+        let t102 = mu[2] * t14;
+        let t103 = t25.times_plus(t101, t102);
+        let t104 = -mu[1];
+        let t105 = mu[0] * t20;
+        let t106 = t14.times_plus(t104, t105);
+        let t107 = -t106;
+        let t108 = t25 * t103;
+        let t109 = t20.times_plus(t107, t108);
+        let t110 = -t100;
+        let t111 = t14 * t106;
+        let t112 = t25.times_plus(t110, t111);
+        let t113 = -t103;
+        let t114 = t20 * t100;
+        let t115 = t14.times_plus(t113, t114);
+        let t116 = t52.times_plus(t100, mu[0]);
+        let t117 = t52.times_plus(t103, mu[1]);
+        let t118 = t52.times_plus(t106, mu[2]);
+        let t119 = t71.times_plus(t109, t116);
+        let t120 = t71.times_plus(t112, t117);
+        let t121 = t71.times_plus(t115, t118);
+        let t122 = t84 * t100;
+        let t123 = t84 * t103;
+        let t124 = t84 * t106;
+        let t125 = t97.times_plus(t109, t122);
+        let t126 = t97.times_plus(t112, t123);
+        let t127 = t97.times_plus(t115, t124);
+        let t128 = -t71;
+        let t129 = mu[0].times_plus(t128, t125);
+        let t130 = mu[1].times_plus(t128, t126);
+        let t131 = mu[2].times_plus(t128, t127);
+        let t132 = mu[0] * t52;
+        let t133 = mu[1] * t52;
+        let t134 = mu[2] * t52;
+        let t135 = t71.times_plus(t100, t132);
+        let t136 = t71.times_plus(t103, t133);
+        let t137 = t71.times_plus(t106, t134);
+        let t138 = mu[0] * t14;
+        let t139 = mu[1].times_plus(t20, t138);
+        let t140 = mu[2].times_plus(t25, t139);
+        let t141 = t71 * t140;
+        let t142 = -t137;
+        let t143 = -t135;
+        let t144 = -t136;
+        let t145 = t14.times_plus(t129, t141);
+        let t146 = t20.times_plus(t129, t142);
+        let t147 = t25.times_plus(t129, t136);
+        let t148 = t14.times_plus(t130, t137);
+        let t149 = t20.times_plus(t130, t141);
+        let t150 = t25.times_plus(t130, t143);
+        let t151 = t14.times_plus(t131, t144);
+        let t152 = t20.times_plus(t131, t135);
+        let t153 = t25.times_plus(t131, t141);
+        let t155 = -t145;
+        let t156 = -t146;
+        let t157 = -t147;
+        let t158 = -t148;
+        let t159 = -t149;
+        let t160 = -t150;
+        let t161 = -t151;
+        let t162 = -t152;
+        let t163 = -t153;
+        let t164 = c.at(0).times_plus(t155, c.of(1.0));
+        let t165 = c.at(3).times_plus(t156, t164);
+        let t166 = c.at(2).times_plus(t157, t165);
+        let t167 = c.at(3) * t155;
+        let t168 = c.at(4).times_plus(t156, t167);
+        let t169 = c.at(6).times_plus(t157, t168);
+        let t170 = c.at(2) * t155;
+        let t171 = c.at(6).times_plus(t156, t170);
+        let t172 = c.at(7).times_plus(t157, t171);
+        let t173 = c.at(0) * t158;
+        let t174 = c.at(3).times_plus(t159, t173);
+        let t175 = c.at(2).times_plus(t160, t174);
+        let t176 = c.at(3).times_plus(t158, c.of(1.0));
+        let t177 = c.at(4).times_plus(t159, t176);
+        let t178 = c.at(6).times_plus(t160, t177);
+        let t179 = c.at(2) * t158;
+        let t180 = c.at(6).times_plus(t159, t179);
+        let t181 = c.at(7).times_plus(t160, t180);
+        let t182 = c.at(0) * t161;
+        let t183 = c.at(3).times_plus(t162, t182);
+        let t184 = c.at(2).times_plus(t163, t183);
+        let t185 = c.at(3) * t161;
+        let t186 = c.at(4).times_plus(t162, t185);
+        let t187 = c.at(6).times_plus(t163, t186);
+        let t188 = c.at(2).times_plus(t161, c.of(1.0));
+        let t189 = c.at(6).times_plus(t162, t188);
+        let t190 = c.at(7).times_plus(t163, t189);
+        let t191 = p[0] - t119;
+        let t192 = p[1] - t120;
+        let t193 = p[2] - t121;
+        let t194 = t178 * t190;
+        let t195 = -t181;
+        let t196 = t187.times_plus(t195, t194);
+        let t197 = t172 * t187;
+        let t198 = -t190;
+        let t199 = t169.times_plus(t198, t197);
+        let t200 = t169 * t181;
+        let t201 = -t172;
+        let t202 = t178.times_plus(t201, t200);
+        let t203 = t181 * t184;
+        let t204 = -t175;
+        let t205 = t190.times_plus(t204, t203);
+        let t206 = t166 * t190;
+        let t207 = -t184;
+        let t208 = t172.times_plus(t207, t206);
+        let t209 = t172 * t175;
+        let t210 = -t166;
+        let t211 = t181.times_plus(t210, t209);
+        let t212 = t175 * t187;
+        let t213 = -t178;
+        let t214 = t184.times_plus(t213, t212);
+        let t215 = t169 * t184;
+        let t216 = -t187;
+        let t217 = t166.times_plus(t216, t215);
+        let t218 = t166 * t178;
+        let t219 = -t169;
+        let t220 = t175.times_plus(t219, t218);
+        let t221 = t166 * t196;
+        let t222 = t169.times_plus(t205, t221);
+        let t223 = t172.times_plus(t214, t222);
+        let t224 = c.of(1.0) / t223;
+        let t225 = t191 * t196;
+        let t226 = t192.times_plus(t199, t225);
+        let t227 = t193.times_plus(t202, t226);
+        let t228 = t191 * t205;
+        let t229 = t192.times_plus(t208, t228);
+        let t230 = t193.times_plus(t211, t229);
+        let t231 = t191 * t214;
+        let t232 = t192.times_plus(t217, t231);
+        let t233 = t193.times_plus(t220, t232);
+        let t234 = t224 * t227;
+        let t235 = t224 * t230;
+        let t236 = t224 * t233;
+        let t237 = c.at(0) * t234;
+        let t238 = c.at(3).times_plus(t235, t237);
+        let t239 = c.at(2).times_plus(t236, t238);
+        let t240 = c.at(3) * t234;
+        let t241 = c.at(4).times_plus(t235, t240);
+        let t242 = c.at(6).times_plus(t236, t241);
+        let t243 = c.at(2) * t234;
+        let t244 = c.at(6).times_plus(t235, t243);
+        let t245 = c.at(7).times_plus(t236, t244);
+        let t246 = p[0] - t234;
+        let t247 = p[1] - t235;
+        let t248 = p[2] - t236;
+        let t249 = t14 - t239;
+        let t250 = t20 - t242;
+        let t251 = t25 - t245;
+        let t252 = t234.simd_abs();
         let t253 = t235.simd_abs();
-        let t254 = t236.simd_abs();
-        let t255 = T::select(t253, T::simd_le(t254, t253), t254);
-        let t256 = t237.simd_abs();
-        let t257 = T::select(t255, T::simd_le(t256, t255), t256);
-        let t258 = k[0] * t257;
-        let t259 = t240.simd_abs();
-        let t260 = t243.simd_abs();
-        let t261 = T::select(t259, T::simd_le(t260, t259), t260);
-        let t262 = t246.simd_abs();
-        let t263 = T::select(t261, T::simd_le(t262, t261), t262);
-        let t264 = t14.simd_abs();
-        let t265 = t20.simd_abs();
-        let t266 = T::select(t264, T::simd_le(t265, t264), t265);
-        let t267 = t25.simd_abs();
-        let t268 = T::select(t266, T::simd_le(t267, t266), t267);
-        let t269 = t268 * t268;
-        let t270 = c.of(0.25) * t269;
-        let t271 = t258 * t270;
-        let t272 = c.of(0.5).times_plus(t263, t271);
-        let t273 = k[1] * t258;
-        let t274 = t263.times_plus(t272, t273);
+        let t254 = T::select(t252, T::simd_le(t253, t252), t253);
+        let t255 = t236.simd_abs();
+        let t256 = T::select(t254, T::simd_le(t255, t254), t255);
+        let t257 = k[0] * t256;
+        let t258 = t239.simd_abs();
+        let t259 = t242.simd_abs();
+        let t260 = T::select(t258, T::simd_le(t259, t258), t259);
+        let t261 = t245.simd_abs();
+        let t262 = T::select(t260, T::simd_le(t261, t260), t261);
+        let t263 = t14.simd_abs();
+        let t264 = t20.simd_abs();
+        let t265 = T::select(t263, T::simd_le(t264, t263), t264);
+        let t266 = t25.simd_abs();
+        let t267 = T::select(t265, T::simd_le(t266, t265), t266);
+        let t268 = t267 * t267;
+        let t270 = t268 * c.of(0.25);
+        let t271 = t257 * t270;
+        let t272 = c.of(0.5).times_plus(t262, t271);
+        let t273 = k[1] * t257;
+        let t274 = t262.times_plus(t272, t273);
         let t278 = c.epsilon() * c.of(4.0);
-        let t279 = T::select(t274, T::simd_le(t258, c.of(0.001)), t258);
-        let t280 = T::select(t279, T::simd_le(t279, t258), t258);
-        let t281 = T::select(t280, T::simd_le(t258, t278), t279);
-        ([t247, t248, t249], [t250, t251, t252], t281, t258)
+        let t279 = T::select(t274, T::simd_le(t257, c.of(0.001)), t257);
+        let t280 = T::select(t279, T::simd_le(t279, t257), t257);
+        let t281 = T::select(t280, T::simd_le(t257, t278), t279);
+        ([t246, t247, t248], [t249, t250, t251], t281, t257)
     }
 
     #[inline(always)]
@@ -537,15 +537,15 @@ const _: () = {
         C: ::coadjoint::plumbing::Coefficients<T>,
     >(c: C, mu: &[T; 3], x: &[T; 3], residual_bound: T, distance: T) -> T {
         let t7 = c.epsilon() * c.of(4.0);
-        let t10 = x[0] * x[0];
-        let t11 = x[1].times_plus(x[1], t10);
-        let t12 = x[2].times_plus(x[2], t11);
-        let t14 = t12 * c.of(0.10132118364233778);
-        let t15 = t14.simd_abs();
+        let t9 = x[0] * x[0];
+        let t10 = x[1].times_plus(x[1], t9);
+        let t11 = x[2].times_plus(x[2], t10);
+        let t13 = t11 * c.of(0.10132118364233778);
+        let t15 = t13.simd_abs();
         let t18 = T::select(
             c.of(0.0),
             T::simd_le(
-                t14,
+                t13,
                 c
                     .of(
                         179769313486231570000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000.0,
@@ -575,30 +575,31 @@ const _: () = {
         let t10 = x[0] * x[0];
         let t11 = x[1].times_plus(x[1], t10);
         let t12 = x[2].times_plus(x[2], t11);
-        let t22 = t12.times_plus(c.of(-0.125), c.of(1.0));
-        let t23 = t12
+        let t13 = t12 * t12;
+        let t14 = t13 * t13;
+        let t15 = t14 * t14;
+        let t18 = t12.times_plus(c.of(-0.125), c.of(1.0));
+        let t21 = t12
             .times_plus(c.of(-0.00002170138888888889), c.of(0.0026041666666666665));
-        let t24 = t12
+        let t22 = t13.times_plus(t21, t18);
+        let t25 = t12
             .times_plus(
                 c.of(-0.0000000002691144455467372),
                 c.of(0.0000000968812003968254),
             );
-        let t25 = t12
+        let t28 = t12
             .times_plus(
                 c.of(-0.0000000000000007001187498614334),
                 c.of(0.0000000000005096864498991235),
             );
-        let t26 = t12 * t12;
-        let t27 = t23.times_plus(t26, t22);
-        let t28 = t25.times_plus(t26, t24);
-        let t29 = t26 * t26;
-        let t30 = t28.times_plus(t29, t27);
-        let t31 = t29 * t29;
-        let t32 = c.of(0.0000000000000000007292903644389931).times_plus(t31, t30);
-        let t42 = t12.times_plus(c.of(-0.020833333333333332), c.of(0.5));
-        let t43 = t12
+        let t29 = t13.times_plus(t28, t25);
+        let t30 = t14.times_plus(t29, t22);
+        let t32 = t15.times_plus(c.of(0.0000000000000000007292903644389931), t30);
+        let t35 = t12.times_plus(c.of(-0.020833333333333332), c.of(0.5));
+        let t38 = t12
             .times_plus(c.of(-0.0000015500992063492063), c.of(0.00026041666666666666));
-        let t44 = t12
+        let t39 = t13.times_plus(t38, t35);
+        let t42 = t12
             .times_plus(
                 c.of(-0.000000000012232474797578965),
                 c.of(0.000000005382288910934745),
@@ -608,70 +609,69 @@ const _: () = {
                 c.of(-0.00000000000000002333729166204778),
                 c.of(0.000000000000019603324996120133),
             );
-        let t46 = t26.times_plus(t43, t42);
-        let t47 = t26.times_plus(t45, t44);
-        let t48 = t29.times_plus(t47, t46);
-        let t49 = t31.times_plus(c.of(0.000000000000000000021449716601146855), t48);
-        let t51 = mu[1] * x[2];
-        let t52 = -mu[2];
-        let t53 = x[1].times_plus(t52, t51);
-        let t54 = mu[2] * x[0];
-        let t55 = -mu[0];
-        let t56 = x[2].times_plus(t55, t54);
-        let t57 = mu[0] * x[1];
-        let t58 = -mu[1];
-        let t59 = x[0].times_plus(t58, t57);
-        let t60 = x[2] * t56;
-        let t61 = -t59;
-        let t62 = x[1].times_plus(t61, t60);
-        let t63 = x[0] * t59;
-        let t64 = -t53;
-        let t65 = x[2].times_plus(t64, t63);
-        let t66 = x[1] * t53;
-        let t67 = -t56;
-        let t68 = x[0].times_plus(t67, t66);
-        let t69 = t49 * c.of(2.0);
-        let t70 = t32 * t69;
-        let t71 = t49 * t69;
-        let t72 = t53.times_plus(t70, mu[0]);
-        let t73 = t56.times_plus(t70, mu[1]);
-        let t74 = t59.times_plus(t70, mu[2]);
-        let t75 = t62.times_plus(t71, t72);
-        let t76 = t65.times_plus(t71, t73);
-        let t77 = t68.times_plus(t71, t74);
-        let t78 = x[0] * t49;
-        let t79 = x[1] * t49;
-        let t80 = x[2] * t49;
-        let t81 = g[1] * t78;
-        let t82 = g[2].times_plus(t79, t81);
-        let t83 = g[3].times_plus(t80, t82);
-        let t84 = -t83;
-        let t85 = g[0].times_plus(t32, t84);
-        let t86 = g[2] * t80;
-        let t87 = -g[3];
-        let t88 = t79.times_plus(t87, t86);
-        let t89 = g[3] * t78;
-        let t90 = -g[1];
-        let t91 = t80.times_plus(t90, t89);
-        let t92 = g[1] * t79;
-        let t93 = -g[2];
-        let t94 = t78.times_plus(t93, t92);
-        let t95 = g[0].times_plus(t78, t88);
-        let t96 = g[0].times_plus(t79, t91);
-        let t97 = g[0].times_plus(t80, t94);
-        let t98 = g[1].times_plus(t32, t95);
-        let t99 = g[2].times_plus(t32, t96);
-        let t100 = g[3].times_plus(t32, t97);
-        let t101 = t85 * t85;
-        let t102 = t98.times_plus(t98, t101);
-        let t103 = t99.times_plus(t99, t102);
-        let t104 = t100.times_plus(t100, t103);
-        let t107 = t104.times_plus(c.of(-0.5), c.of(1.5));
-        let t108 = t85 * t107;
-        let t109 = t98 * t107;
-        let t110 = t99 * t107;
-        let t111 = t100 * t107;
-        ([t108, t109, t110, t111], [t75, t76, t77])
+        let t46 = t13.times_plus(t45, t42);
+        let t47 = t14.times_plus(t46, t39);
+        let t49 = t15.times_plus(c.of(0.000000000000000000021449716601146855), t47);
+        let t50 = x[0] * t49;
+        let t51 = x[1] * t49;
+        let t52 = x[2] * t49;
+        let t53 = g[1] * t50;
+        let t54 = g[2].times_plus(t51, t53);
+        let t55 = g[3].times_plus(t52, t54);
+        let t56 = -t55;
+        let t57 = g[0].times_plus(t32, t56);
+        let t58 = -g[3];
+        let t59 = g[2] * t52;
+        let t60 = t51.times_plus(t58, t59);
+        let t61 = -g[1];
+        let t62 = g[3] * t50;
+        let t63 = t52.times_plus(t61, t62);
+        let t64 = -g[2];
+        let t65 = g[1] * t51;
+        let t66 = t50.times_plus(t64, t65);
+        let t67 = g[0].times_plus(t50, t60);
+        let t68 = g[0].times_plus(t51, t63);
+        let t69 = g[0].times_plus(t52, t66);
+        let t70 = g[1].times_plus(t32, t67);
+        let t71 = g[2].times_plus(t32, t68);
+        let t72 = g[3].times_plus(t32, t69);
+        let t73 = t57 * t57;
+        let t74 = t70.times_plus(t70, t73);
+        let t75 = t71.times_plus(t71, t74);
+        let t76 = t72.times_plus(t72, t75);
+        let t79 = t76.times_plus(c.of(-0.5), c.of(1.5));
+        let t80 = t57 * t79;
+        let t81 = t70 * t79;
+        let t82 = t71 * t79;
+        let t83 = t72 * t79;
+        let t84 = -mu[2];
+        let t85 = mu[1] * x[2];
+        let t86 = x[1].times_plus(t84, t85);
+        let t87 = -mu[0];
+        let t88 = mu[2] * x[0];
+        let t89 = x[2].times_plus(t87, t88);
+        let t90 = -mu[1];
+        let t91 = mu[0] * x[1];
+        let t92 = x[0].times_plus(t90, t91);
+        let t94 = t49 * c.of(2.0);
+        let t95 = t32 * t94;
+        let t96 = t86.times_plus(t95, mu[0]);
+        let t97 = t89.times_plus(t95, mu[1]);
+        let t98 = t92.times_plus(t95, mu[2]);
+        let t99 = t49 * t94;
+        let t100 = -t92;
+        let t101 = x[2] * t89;
+        let t102 = x[1].times_plus(t100, t101);
+        let t103 = -t86;
+        let t104 = x[0] * t92;
+        let t105 = x[2].times_plus(t103, t104);
+        let t106 = -t89;
+        let t107 = x[1] * t86;
+        let t108 = x[0].times_plus(t106, t107);
+        let t109 = t99.times_plus(t102, t96);
+        let t110 = t99.times_plus(t105, t97);
+        let t111 = t99.times_plus(t108, t98);
+        ([t80, t81, t82, t83], [t109, t110, t111])
     }
 
     #[inline(always)]
