@@ -239,7 +239,8 @@ impl<'a> Trial<'a> {
     /// the smallest error. Steps become larger than the first only if `larger`.
     fn step(&self, first: f64, goal: f64, larger: bool) -> Option<(f64, f64)> {
         let order = f64::from(self.derived.order());
-        let (mut found, mut nearest): (Option<(f64, f64)>, Option<(f64, f64)>) = (None, None);
+        let mut found: Option<(f64, f64)> = None;
+        let mut nearest: Option<(f64, f64)> = None;
         let (mut next, mut most, mut tried) = (first, self.longest(), Vec::new());
         for _ in 0..TRIALS {
             let step = self.whole(next.min(most));

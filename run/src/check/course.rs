@@ -47,6 +47,8 @@ pub(super) struct Course {
 
 /// A state from which a step of this size and one back can be made, and its time.
 pub(super) type Start<G> = (Phase<G>, f64);
+/// Points at which laws are tried, and starts from which the order is measured.
+pub(super) type Tried<G> = (Vec<Phase<G>>, Vec<Start<G>>);
 
 /// Makes a step of a state, as a trial.
 pub(super) type Attempt<'a, G> = dyn FnMut(&Phase<G>) -> Result<(), StepError> + 'a;
@@ -154,7 +156,7 @@ impl Course {
         trial: &Trial,
         (group, kicked): (&G, bool),
         mut attempt: impl FnMut(&Phase<G>) -> Result<(), StepError>,
-    ) -> Result<(Vec<Phase<G>>, Vec<Start<G>>), StepError> {
+    ) -> Result<Tried<G>, StepError> {
         let mut random = ChaCha8Rng::seed_from_u64(trial.seed);
         let mut point = || self.point((group, kicked), &mut random, &mut attempt);
         let points = (0..trial.points).map(|_| point().map(|(phase, _)| phase));

@@ -25,6 +25,9 @@ const UNRESOLVED: f64 = 0.1;
 const NEAR: f64 = 0.03;
 /// The highest order at which smooth motions are taken to follow it in steps twice as long as those of a run.
 const STEADY: u32 = 8;
+/// A state on the way, after so many steps.
+pub(crate) type Milestone = (u64, Numbers);
+
 /// Parts of a run, at whose ends its state is kept for the comparison on the way, and those in which most of the error arises.
 const PARTS: u64 = 128;
 const WORST: usize = 3;
@@ -89,7 +92,7 @@ pub(crate) struct Made<'a, 'm> {
     /// Where it began and ended.
     pub ends: [&'a Numbers; 2],
     /// The states after so many steps each, as far as they are known.
-    pub kept: &'a [(u64, Numbers)],
+    pub kept: &'a [Milestone],
     /// The number of steps between two of them.
     pub part: u64,
     /// The number of steps, which is not whole where an event has ended the run.
@@ -153,7 +156,7 @@ impl<'m> Made<'_, 'm> {
     }
 
     /// The error of the run, from its difference to another.
-    fn extrapolated(&self, compared: &Compared, states: &[(u64, Numbers)]) -> f64 {
+    fn extrapolated(&self, compared: &Compared, states: &[Milestone]) -> f64 {
         let Compared { ratio, difference, ref way } = *compared;
         let gain = |power: f64| 1.0 / (power - 1.0).abs();
         let mut by = gain(ratio.powi(self.order as i32));
@@ -171,12 +174,7 @@ impl<'m> Made<'_, 'm> {
 
     /// Runs beside the run in steps of about this ratio to the end, and compares the two in these states on the way; not further
     /// than to where they part if `early`.
-    fn compare(
-        &self,
-        ratio: f64,
-        early: bool,
-        states: &[(u64, Numbers)],
-    ) -> Result<Compared, Unknown> {
+    fn compare(&self, ratio: f64, early: bool, states: &[Milestone]) -> Result<Compared, Unknown> {
         let mut count = (self.steps / ratio).round().max(1.0) as u64;
         let whole = self.steps.fract() == 0.0 && count > 2;
         while whole && common(self.steps as u64, count) > 1 {
@@ -208,7 +206,7 @@ impl<'m> Made<'_, 'm> {
     }
 
     /// The states on the way: those kept, and before them, where a run was resumed, those that are made anew.
-    fn states(&self) -> Result<Vec<(u64, Numbers)>, Unknown> {
+    fn states(&self) -> Result<Vec<Milestone>, Unknown> {
         let first = self.kept.first().map_or(self.steps.ceil() as u64, |(place, _)| *place);
         let (mut state, mut at, mut states) = (self.ends[0].clone(), 0, Vec::new());
         while at + self.part < first {
@@ -223,7 +221,7 @@ impl<'m> Made<'_, 'm> {
 
     /// 2^q, where q is the power of the step that the error follows in the parts of the run in which most of it arises;
     /// none where rounding hides it.
-    fn measured(&self, way: &[(u64, f64)], states: &[(u64, Numbers)]) -> Option<f64> {
+    fn measured(&self, way: &[(u64, f64)], states: &[Milestone]) -> Option<f64> {
         let before = std::iter::once(&(0, 0.0)).chain(way);
         let mut parts: Vec<_> = before.zip(way).collect();
         let whole = (&(0, 0.0), &(self.steps as u64 / 2 * 2, 0.0));

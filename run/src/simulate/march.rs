@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use super::estimate;
+use super::estimate::{self, Milestone};
 use super::event::{self, Crossing, Lookout};
 use super::orbit::Orbit;
 use super::recorder::{Outcome, Recorder, Watched, drifting};
@@ -69,7 +69,7 @@ struct March<'a> {
     /// How many of the times asked for are recorded.
     times: usize,
     /// The states kept for the estimate of the error, one after so many steps.
-    kept: Vec<(u64, Numbers)>,
+    kept: Vec<Milestone>,
     part: u64,
     /// The number of steps between two measurements of the drift: at each record, or, where none are kept, at [`LOOKS`] moments.
     interval: u64,
@@ -86,7 +86,7 @@ impl Subject<'_> {
         motion: &dyn Motion,
         start: &Numbers,
         sink: &mut dyn Sink,
-    ) -> Result<(Outcome, Numbers, Vec<(u64, Numbers)>), RunError> {
+    ) -> Result<(Outcome, Numbers, Vec<Milestone>), RunError> {
         let Self { setup, watched, warnings } = self;
         let state = start.clone();
         warnings.iter().for_each(|warning| sink.warn(&warning.text()));

@@ -76,7 +76,8 @@ impl Schedule {
             return refuse("the time is too short to be cut into steps; take a larger --time");
         }
         let end = start + time.copysign(asked);
-        if !(start.abs().max(end.abs()) * f64::EPSILON < step.abs()) {
+        let apart = start.abs().max(end.abs()) * f64::EPSILON;
+        if apart.is_nan() || apart >= step.abs() {
             return refuse(
                 "times so far from 0 are farther apart than the steps; take a smaller --t0",
             );

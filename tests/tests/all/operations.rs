@@ -23,7 +23,7 @@ fn example(name: &str, chart: Option<&str>) -> Step {
     }
     match read_either(&text, Options::default(), &[]).unwrap().problem {
         Hamiltonian::Smooth(smooth) => Origin::Collocation(&smooth).step(Precision::Double),
-        Hamiltonian::Polynomial(problem) => {
+        Hamiltonian::Polynomial(problem, _) => {
             Step::build(&Integrator::build(*problem, TermLimit::default()).unwrap())
         }
     }

@@ -186,7 +186,7 @@ impl Built {
         let (units, run) = (read.units, read.run);
         let (integrator, kicked);
         let origin = match &read.problem {
-            Hamiltonian::Polynomial(problem) => {
+            Hamiltonian::Polynomial(problem, _) => {
                 let flow = Integrator::build((**problem).clone(), TermLimit::default()).unwrap();
                 integrator = match read.potential {
                     Some((potential, splitting)) => {
