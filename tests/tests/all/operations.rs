@@ -36,8 +36,11 @@ fn product() -> Step {
     Step::build(&kernels::integrator("SU2*SE2*Aff1", hamiltonian, "exponential", 5)).unwrap()
 }
 
+/// A system: its name, its step and the operations that the step had.
+type Row = (&'static str, fn() -> Step, usize);
+
 /// Systems, their kernels, and the operations of all programs at commit 4621d748.
-const SYSTEMS: [(&str, fn() -> Step, usize); 14] = [
+const SYSTEMS: [Row; 14] = [
     ("rigid body", || example("rigid_body", None), 539),
     ("heavy top", || example("heavy_top", None), 2003),
     ("Kirchhoff", || example("kirchhoff_body", None), 2127),
