@@ -83,7 +83,7 @@ pub(crate) struct Accuracy {
 }
 
 impl Accuracy {
-    /// What is asked of a run with this truncation, start and duration, as far as the command line gives them.
+    /// The settings of a run with this truncation, start and duration, as far as the command line gives them.
     pub(crate) fn of_run(
         &self,
         truncation: Option<usize>,

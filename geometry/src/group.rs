@@ -57,7 +57,7 @@ pub trait Group<const N: usize, const M: usize> {
     /// The square of the share of x in a half turn of a chart that ends at this limit; not a number where x is not finite.
     fn extent<T: Number>(x: [T; N], limit: f64) -> T;
 
-    /// How far g is from the group; not a number where g is not finite.
+    /// The distance of g from the group; not a number where g is not finite.
     fn defect<T: Number>(g: [T; M]) -> T;
 }
 

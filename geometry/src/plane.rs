@@ -13,7 +13,7 @@ fn lifted<T: Number>([turn, a, b]: [T; 3]) -> [T; 6] {
     [zero, zero, turn, a, b, zero]
 }
 
-/// Those of se(2).
+/// The coordinates of se(2).
 #[inline(always)]
 fn dropped<T: Number>([_, _, turn, a, b, _]: [T; 6]) -> [T; 3] {
     [turn, a, b]

@@ -15,7 +15,7 @@ pub const NEWTON: f64 = 1e-10;
 /// Coefficients, and how many of them are needed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct List {
-    /// How many.
+    /// The number of coefficients.
     pub count: usize,
     /// The coefficients, by powers of t.
     pub coefficients: [f64; MOST],

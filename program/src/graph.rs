@@ -519,7 +519,7 @@ impl Program {
         &self.calls
     }
 
-    /// The same formula with the values of functions and roots left open: each is an input of its own, after those of this
+    /// This formula with the values of functions and roots left open: each is an input of its own, after those of this
     /// program. What holds for all values of these holds for this program; only what rests on a relation between such
     /// values (sin² + cos² = 1) is lost. No value vanishes by underflow, and none is outside of a domain.
     pub fn with_open_functions(&self) -> Self {

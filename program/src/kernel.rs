@@ -182,7 +182,7 @@ impl Kernel {
         Self { clock: Some(clock), ..self }
     }
 
-    /// The same where the first step of a trajectory begins at this time.
+    /// Sets the time at which the first step of a trajectory begins.
     #[must_use]
     pub fn starting_at(self, start: f64) -> Self {
         let clock = self.clock.map(|clock| Clock { start, ..clock });

@@ -30,7 +30,7 @@ struct Case {
     truncation: usize,
     step: f64,
     time: f64,
-    /// Whether nothing acts but H(μ).
+    /// True if nothing acts but H(μ).
     free: bool,
 }
 

@@ -1,4 +1,4 @@
-//! What is asked of a run beside what its text says.
+//! Settings of a run that override those of its text.
 
 use coadjoint_codegen::system::Run;
 
@@ -17,7 +17,7 @@ pub struct Accuracy {
     pub t0: Option<f64>,
     /// The duration, where it is not that of the text.
     pub time: Option<f64>,
-    /// Whether the frame is the comoving one, where it is not that of the text nor to be picked.
+    /// True for the comoving frame, false for the fixed one; `None` for that of the text or the one that is picked.
     pub comoving: Option<bool>,
 }
 

@@ -119,7 +119,7 @@ fn from_columns(name: &str, columns: &Columns, read: &Read) -> Result<Signal, St
     })
 }
 
-/// Whether inputs have a value from one time to the other.
+/// Checks that inputs have a value from one time to the other.
 ///
 /// # Errors
 /// The first that has not, in the system that is called `file`.

@@ -232,7 +232,7 @@ impl Derived {
         }
     }
 
-    /// Whether all inputs have a value from the start of a run to its end.
+    /// Checks that all inputs have a value from the start of a run to its end.
     ///
     /// # Errors
     /// The first that has not.
@@ -289,7 +289,7 @@ impl Derived {
         }
     }
 
-    /// Whether the equations depend on the time other than through the state.
+    /// True if the equations depend on the time other than through the state.
     pub(crate) fn moves(&self) -> bool {
         let flow = match &self.flow {
             Flow::Series(_) => false,
@@ -404,7 +404,7 @@ impl Derived {
         Box::new(Damped::new(motion, damper, (energy, kick), parameters))
     }
 
-    /// The same for another grid or other values of the parameters that are kept, by the same programs.
+    /// Steps for another grid or other values of the parameters that are kept, by the programs that are compiled.
     ///
     /// # Errors
     /// As [`Derived::steps`].

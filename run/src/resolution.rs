@@ -20,17 +20,17 @@ const STRETCHES: u64 = 10;
 const STEPS: u64 = 50;
 /// The largest share of what moves that the nodes of steps may miss.
 const LARGEST_SHARE: f64 = 0.25;
-/// What they miss over a stretch, summed, matters from here on: about the error of the momentum, relative to it.
+/// The sum missed over a stretch that is refused: about the error of the momentum, relative to it.
 const MATTERS: f64 = 0.01;
 /// Halves of a step that are tried.
 const HALVINGS: u32 = 24;
 
-/// Whether steps look often enough at what depends on time: ∂H/∂μ and a torque at the start, inputs included. In steps from all
+/// Checks that steps look often enough at what depends on time: ∂H/∂μ and a torque at the start, inputs included. In steps from all
 /// over the run their mean, as the nodes have it, is compared with that at ten points; where nodes miss much of
 /// what moves, and it adds up, an even motion may come out of a fast one.
 ///
 /// # Errors
-/// Where they do not, with a step that does, in the system that is called `file`.
+/// They do not; the error names a step that does, and the system as `file`.
 fn resolve(
     file: &Path,
     (Grid { start, step }, steps): (Grid, u64),
@@ -60,11 +60,11 @@ fn resolve(
 }
 
 impl Derived {
-    /// Whether these steps, of which there are so many, look often enough at what depends on time: at the start with this
+    /// Checks that this number of steps looks often enough at what depends on time: at the start with this
     /// momentum, else with another one.
     ///
     /// # Errors
-    /// Where they do not, with a step that does.
+    /// They do not; the error names a step that does.
     pub fn resolves(
         &self,
         grid: Grid,
@@ -137,7 +137,7 @@ impl<'a> Moving<'a> {
         Some(Self { values, looks })
     }
 
-    /// Whether these steps, of which there are so many, see what moves.
+    /// True if this number of steps sees what moves.
     fn is_seen(&self, grid: Grid, steps: u64) -> bool {
         let stretches = if steps <= STRETCHES * STEPS { 1 } else { STRETCHES };
         let long = if stretches == 1 { steps } else { STEPS };

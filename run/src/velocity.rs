@@ -26,7 +26,7 @@ pub struct Instant<'a> {
 /// is the torque of a potential. The system is called `file` in messages.
 ///
 /// # Errors
-/// Where the data defines no group, or a torque is not defined.
+/// The data defines no group, or a torque is not defined.
 pub fn velocities(
     file: &Path,
     system: &System,

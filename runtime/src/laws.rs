@@ -36,7 +36,7 @@ impl Law {
         self.value <= self.bound
     }
 
-    /// Whether it could be measured.
+    /// True if it could be measured.
     #[must_use]
     pub fn is_measured(&self) -> bool {
         !self.value.is_nan()
@@ -230,7 +230,7 @@ pub fn measured_order<G: LieGroup<Scalar = f64>>(
 /// momentum and group element, relative to these. `run(h, n, state)` makes n steps of size h.
 ///
 /// # Errors
-/// Where a step fails.
+/// A step fails.
 pub fn differences<G: LieGroup<Scalar = f64>>(
     group: &G,
     start: &Phase<G>,

@@ -462,7 +462,7 @@ struct Bent {
     slope: Vector3<f64>,
     offset: f64,
     shape: Shape,
-    /// Whether it says how far the argument of f goes.
+    /// True if it says how far the argument of f goes.
     tells: bool,
 }
 

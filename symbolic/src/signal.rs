@@ -65,7 +65,7 @@ pub enum SignalError {
     Close(String, usize, f64),
 }
 
-/// How many times the range of its values a spline may leave it.
+/// A spline may leave the range of its values by this many times the range.
 const FARTHEST: f64 = 3.0;
 
 impl Signal {

@@ -41,7 +41,7 @@ pub(crate) struct Journal {
     pub redone: u64,
     /// The errors estimated at the ends of some rows so far.
     pub estimates: Vec<f64>,
-    /// How many of those rows have no estimate, and why the first has none.
+    /// The number of those rows without an estimate, and the reason of the first.
     pub unknown: u64,
     pub why: Option<String>,
 }

@@ -78,7 +78,7 @@ impl Names {
         self.singular.insert(name.to_owned(), reason);
     }
 
-    /// Whether not knowing what stands in this text follows from a mistake that is reported.
+    /// True if a name in this text is unknown only because of a mistake that is reported.
     pub(super) fn excuses(&self, text: &str) -> bool {
         let mut words = text.split(|c| !continues_name(c));
         self.incomplete || words.any(|word| self.wrong.contains(word))
@@ -122,7 +122,7 @@ impl Names {
         self.inherit(others);
     }
 
-    /// What others lack, and why.
+    /// Adds the names that others lack, with the reasons.
     #[cfg(feature = "system")]
     pub(crate) fn inherit(&mut self, others: &Self) {
         self.wrong.extend(others.wrong.iter().cloned());

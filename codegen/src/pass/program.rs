@@ -29,7 +29,7 @@ pub(super) struct Lowered {
     pub symbols: Vec<Symbol>,
 }
 
-/// How the function that an argument is given to varies.
+/// The scale on which a function of an argument varies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Scale {
     /// By about itself when the argument changes by 1: the exponential, waves.
@@ -181,7 +181,7 @@ struct Pass<'a> {
     /// The arguments of functions that vary faster than their arguments.
     scales: Vec<(Scale, Id)>,
     values: Vec<Option<Value>>,
-    /// Whether each expression depends on coordinates, and not on the time alone.
+    /// True for an expression that depends on coordinates, and not on the time alone.
     placed: Vec<bool>,
     texts: Vec<(String, u8)>,
 }

@@ -129,7 +129,7 @@ pub(super) fn momentum(
     momentum
 }
 
-/// That of a smooth Hamiltonian at this time, if it is quadratic and has no inputs in files.
+/// The linear gradient of a smooth Hamiltonian at this time, if it is quadratic and has no inputs in files.
 pub(super) fn of_smooth(smooth: &Smooth, time: f64) -> Option<Linear> {
     if !smooth.is_quadratic() {
         return None;
@@ -151,7 +151,7 @@ pub(super) fn of_smooth(smooth: &Smooth, time: f64) -> Option<Linear> {
     Some((RationalMatrix::from_entries(dim, dim, entries), bias))
 }
 
-/// That of a polynomial, if it is quadratic.
+/// The linear gradient of a polynomial, if it is quadratic.
 pub(super) fn of_polynomial(problem: &Problem) -> Option<Linear> {
     let dim = problem.algebra.dim();
     let defaults =

@@ -111,7 +111,7 @@ impl System<Hamiltonian> {
         }
     }
 
-    /// Whether the Hamiltonian or the torque depends on time, by inputs too.
+    /// True if the Hamiltonian or the torque depends on time, by inputs too.
     #[must_use]
     pub fn depends_on_time(&self) -> bool {
         let torque = self.potential.as_ref().and_then(|(potential, _)| potential.alone());
@@ -182,7 +182,7 @@ pub(crate) fn read_varying(
     })
 }
 
-/// The same for a Hamiltonian that need not be a polynomial.
+/// Reads a system whose Hamiltonian need not be a polynomial.
 ///
 /// # Errors
 /// As [`read`], and where other numbers of the file follow from a parameter that stays one.
@@ -239,7 +239,7 @@ struct Kind<'a, H> {
     assemble: &'a dyn Fn(Draft, &Diagnostics) -> Option<H>,
     /// Its gradient at the start, if it is linear.
     gradient: fn(&H, f64) -> Option<initial::Linear>,
-    /// Whether it depends on time.
+    /// True if it depends on time.
     moves: fn(&H) -> bool,
     /// Whether it is known to be of degree at most two.
     quadratic: fn(&H) -> bool,

@@ -32,7 +32,7 @@ pub struct Run {
     pub looks: Option<usize>,
     /// The time at the start t₀, of which energies, torques, inputs and events are functions; 0 if it is not given.
     pub initial_time: f64,
-    /// Whether the error at the end is estimated.
+    /// True if the error at the end is estimated.
     pub estimate: Option<bool>,
     /// The body momentum μ at the start.
     pub momentum: Option<Vec<f64>>,

@@ -20,7 +20,7 @@ const LONGEST: f64 = 2000.0;
 const DIMENSIONS: f64 = 12.0;
 /// Steps where the file has no time.
 const STEPS: f64 = 100.0;
-/// How far a point may be moved from a state of the run, in coordinates of the group.
+/// The largest distance of a point from a state of the run, in coordinates of the group.
 const SPREAD: f64 = 0.1;
 /// The number of starts from which the order is measured.
 pub(super) const STARTS: usize = 5;
@@ -116,7 +116,7 @@ impl Course {
     /// A flow alone is the same wherever the group element is; with kicks this is near that of the run too.
     ///
     /// # Errors
-    /// Why no step can be made there.
+    /// The reason if no step can be made there.
     fn point<G: Group + Restore>(
         &self,
         (group, kicked): (&G, bool),
@@ -177,7 +177,7 @@ impl Course {
         places.iter().take(count).map(start).collect()
     }
 
-    /// Whether the file gives a start.
+    /// True if the file gives a start.
     pub(super) fn is_known(&self) -> bool {
         !self.places.is_empty()
     }

@@ -1,6 +1,6 @@
 //! A law, and what a trial says of it.
 
-/// What a trial says of a law.
+/// The result of a trial of a law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// It holds, as far as was tried.
@@ -22,12 +22,12 @@ pub struct Law {
     pub value: f64,
     /// The bound it is compared with.
     pub bound: f64,
-    /// Whether it holds.
+    /// The result.
     pub verdict: Verdict,
 }
 
 impl Law {
-    /// That the value, a relative violation, is at most the bound; where it is not a number, differences did not settle.
+    /// The law that a value, a relative violation, is at most the bound; where it is not a number, differences did not settle.
     pub(super) fn at_most(
         name: &'static str,
         statement: &'static str,

@@ -36,7 +36,7 @@ pub fn steep(ratio: f64) -> String {
     )
 }
 
-/// Why the order of whole steps is not measured, where it is not.
+/// The reason if the order of whole steps is not measured.
 pub fn unmeasured(system: &Derived) -> Option<String> {
     let signal = system.signals().first()?;
     Some(format!(
@@ -48,7 +48,7 @@ pub fn unmeasured(system: &Derived) -> Option<String> {
 /// Tries all laws; and the largest ratio of the last two terms of the series at the points, where it is worth a warning.
 ///
 /// # Errors
-/// Where a step cannot be made.
+/// A step cannot be made.
 pub fn check(system: &Derived, trial: &Trial) -> Result<(Vec<Law>, Option<f64>), RunError> {
     let course = Course::new(system, trial)?;
     if system.damping.is_some() {

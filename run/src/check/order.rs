@@ -9,14 +9,14 @@ use crate::engine::Group;
 
 /// Steps of the coarsest run.
 const STEPS: u32 = 4;
-/// How far the measured order may fall below that of the method.
+/// The measured order may fall below that of the method by this much.
 const SLACK: f64 = 0.3;
 /// Neighbouring halvings that must agree on an order that is too low.
 const MANY: usize = 4;
 /// Differences below this are near rounding, those above [`LARGE`] near the size of the solution.
 const ROUNDING: f64 = 2e-13;
 const LARGE: f64 = 0.5;
-/// Where differences are rounding up to steps this many times as long as the one tried, the map is exact.
+/// The map is exact if differences are rounding up to steps this many times as long as the one tried.
 const EXACT: f64 = 4.0;
 
 /// Makes this number of steps of this size from this time.

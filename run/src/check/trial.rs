@@ -21,7 +21,7 @@ pub struct Trial {
     pub element: Option<Vec<Vec<f64>>>,
     /// The length of that run.
     pub time: Option<f64>,
-    /// How many points.
+    /// The number of points.
     pub points: usize,
     /// The seed of the points.
     pub seed: u64,
@@ -31,7 +31,7 @@ impl Trial {
     /// With this step and from this time, else those of the system, and points near its run.
     ///
     /// # Errors
-    /// Where a setting makes no sense: by its name.
+    /// A setting makes no sense; the error names it.
     pub fn new(asked: &Accuracy, run: &Run, points: usize, seed: u64) -> Result<Self, RunError> {
         let (start, step) = (asked.start(run), asked.step.or(run.step));
         let step = step.unwrap_or(DEFAULT_STEP);

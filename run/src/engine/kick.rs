@@ -97,7 +97,7 @@ impl<'a, G: Group> Torque<'a, G> {
         }))
     }
 
-    /// Whether it is defined in a state of this time.
+    /// Checks that it is defined in a state of this time.
     ///
     /// # Errors
     /// As [`Torque::torque`].

@@ -68,7 +68,7 @@ pub(crate) trait Motion: Send + Sync {
         None
     }
 
-    /// Whether the Hamiltonian and the torque of kicks are defined in a state of this time.
+    /// Checks that the Hamiltonian and the torque of kicks are defined in a state of this time.
     ///
     /// # Errors
     /// The expression in them that is not.

@@ -33,7 +33,7 @@ const PARTS: u64 = 128;
 const WORST: usize = 3;
 /// Pieces in which a step is made that is refused at its full length.
 const PIECES: [u64; 3] = [2, 4, 8];
-/// Where steps are refused one after the other, up to this many are made in pieces before the next is tried at full length.
+/// After refused steps in a row, up to this many are made in pieces before the next is tried at full length.
 const STRETCH: u64 = 16;
 /// The share of a unit of rounding by which each step may add to the error.
 const ROUNDING: f64 = 0.125;
@@ -89,7 +89,7 @@ pub(crate) struct Made<'a, 'm> {
     pub motion: &'a dyn Motion,
     /// Makes steps of a size that is given as a multiple of the run's.
     pub other: &'a dyn Fn(f64) -> Result<Box<dyn Motion + 'm>, StepError>,
-    /// Where it began and ended.
+    /// The states at its start and end.
     pub ends: [&'a Numbers; 2],
     /// The states after so many steps each, as far as they are known.
     pub kept: &'a [Milestone],
@@ -101,7 +101,7 @@ pub(crate) struct Made<'a, 'm> {
     pub grid: Grid,
     /// The order of the method.
     pub order: u32,
-    /// Whether the equations depend on the time other than through the state.
+    /// True if the equations depend on the time other than through the state.
     pub moves: bool,
     /// Asked from time to time whether to stop.
     pub stop: &'a dyn Fn() -> bool,
@@ -127,7 +127,7 @@ impl<'m> Made<'_, 'm> {
     /// is not seen.
     ///
     /// # Errors
-    /// Why it is not known.
+    /// The reason if it is not known.
     pub(crate) fn error(&self) -> Result<f64, Unknown> {
         let sizes: &[f64] = if self.steps < FEW { &[1.0 / RATIOS[0]] } else { &RATIOS };
         let (mut why, mut states) = (Unknown::REFUSED, None);
@@ -363,7 +363,7 @@ fn beyond(space: &dyn Space, state: &mut Numbers, other: &Numbers, times: f64) {
 /// as a multiple of those of the run. What its programs refuse is made by other means, which take long, only if `patient`.
 ///
 /// # Errors
-/// Why it is not known.
+/// The reason if it is not known.
 pub(crate) fn error_of<'m>(
     other: &dyn Fn(f64) -> Result<Box<dyn Motion + 'm>, StepError>,
     start: &Numbers,

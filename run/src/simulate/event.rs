@@ -33,7 +33,7 @@ impl Direction {
         }
     }
 
-    /// Whether a change from one [sign](signs) to the other counts.
+    /// True if a change from one [sign](signs) to the other counts.
     fn counts(self, [was, is]: [f64; 2]) -> bool {
         was * is < 0.0
             && match self {

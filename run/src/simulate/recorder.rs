@@ -79,7 +79,7 @@ pub(crate) struct Watched<'a> {
     pub invariants: &'a Invariants,
     /// Whether attitudes mean something; maps learned from momenta alone have none.
     pub attitude: bool,
-    /// What damping does to the energy, where there is any.
+    /// The effect of damping on the energy, if there is any damping.
     pub damped: Option<&'static str>,
 }
 

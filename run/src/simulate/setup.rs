@@ -53,7 +53,7 @@ impl Schedule {
     /// Steps of about the size of this grid, from its start on, over the duration `time`.
     ///
     /// # Errors
-    /// Where the step or a time makes no sense.
+    /// The step or a time makes no sense.
     pub fn of(Grid { start, step: asked }: Grid, time: f64) -> Result<Self, RunError> {
         let refuse = |what: &str| Err(RunError::Option(what.to_owned()));
         if asked == 0.0 || !asked.is_finite() {
@@ -121,7 +121,7 @@ impl Schedule {
         ((time - self.start) / self.step).round().min(self.steps as f64) as u64
     }
 
-    /// Whether a time is as good as this one of the run: rounding leaves no more.
+    /// True if two times are equal up to rounding.
     pub(crate) fn same(&self, time: f64, other: f64) -> bool {
         let size = self.start.abs().max(time.abs()).max(self.step.abs());
         (time - other).abs() <= 4.0 * f64::EPSILON * size
@@ -240,7 +240,7 @@ pub struct Setup {
     pub looks: u32,
     /// The backend that evaluates the programs of a step.
     pub backend: Backend,
-    /// Whether the error at the end is estimated.
+    /// True if the error at the end is estimated.
     pub estimate: bool,
     /// The error wanted at the end, where one is.
     pub tolerance: Option<f64>,

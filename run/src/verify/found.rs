@@ -28,7 +28,7 @@ pub struct Found {
     pub why_not_judged: Option<String>,
     /// The file's own statement about its end, where it is a part.
     pub part: Option<String>,
-    /// How the file was cut before its end, where it was.
+    /// The place at which the file was cut before its end, if it was.
     pub cut: Option<String>,
     /// The first wrong row, and what is wrong with it.
     pub wrong: Option<String>,

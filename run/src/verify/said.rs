@@ -1,4 +1,4 @@
-//! What a file says of its rows beside the states: its head, and the columns of energies and drifts.
+//! Statements of a file beside the states of its rows: its head, and the columns of energies and drifts.
 
 use coadjoint_codegen::smooth::{Facts, Hamiltonian};
 use coadjoint_codegen::step::Start;
@@ -12,7 +12,7 @@ use crate::number::shortest;
 
 /// A time may be this far from where the grid has it, relative to a step.
 const SLACK: f64 = 1e-6;
-/// How far numbers that follow from the head may be from it.
+/// The largest distance of numbers from those that follow from the head.
 const NEAR: f64 = 1e-9;
 
 /// The statements of a file, compared with its rows.

@@ -135,7 +135,7 @@ impl Invariants {
         })
     }
 
-    /// What is conserved in a state, and the sizes that drifts from it are relative to.
+    /// The conserved quantities of a state, and the sizes that drifts from them are relative to.
     pub(crate) fn start(&self, time: f64, state: &State) -> step::Start {
         let spatial = self.spatial(state).unwrap_or_default();
         self.functions.start(time, &state.momentum, &spatial, Vec::new)

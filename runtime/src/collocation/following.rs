@@ -44,7 +44,7 @@ struct Point<V> {
     p: V,
 }
 
-/// Why a step is not followed.
+/// The reason if a step is not followed.
 pub(super) enum Lost<V> {
     /// This measure exceeds this limit.
     Measured(f64, f64),
@@ -64,7 +64,7 @@ where
     G: LieGroup<Scalar = f64>,
     E: Energy<G::Vector>,
 {
-    /// Whether a step that is solved is one of those that may be wrong although its nodes do not show it: where the arguments of
+    /// True for a solved step that may be wrong although its nodes do not show it: where the arguments of
     /// H's functions go far from node to node. Of a closure that is not known, and steps without a step before them, or that took
     /// many sweeps, or whose `measure`, as a share of its limit, is near it, count instead.
     pub(super) fn is_unusual(
@@ -195,7 +195,7 @@ where
     /// The momentum on the polynomials at a time, and the defects of the rates there.
     ///
     /// # Errors
-    /// Where the gradient is not finite, or a defect too large.
+    /// The gradient is not finite, or a defect is too large.
     fn point(
         &self,
         mu: &G::Vector,
@@ -238,7 +238,7 @@ fn scale<V: Coordinates<f64>>(mu: &V) -> f64 {
 }
 
 /// # Errors
-/// Where a measure exceeds its limit, or is no number.
+/// A measure exceeds its limit, or is not a number.
 fn within<V>(measure: f64, limit: f64) -> Result<(), Lost<V>> {
     if measure <= limit { Ok(()) } else { Err(Lost::Measured(measure, limit)) }
 }

@@ -205,7 +205,7 @@ where
         guess
     }
 
-    /// Whether an attempt is the step: solved, in the chart, and with velocities that the nodes resolve, between which it is followed
+    /// Checks that an attempt is the step: solved, in the chart, and with velocities that the nodes resolve, between which it is followed
     /// where it is no ordinary step.
     fn judge(
         &self,

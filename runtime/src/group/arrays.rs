@@ -79,7 +79,7 @@ macro_rules! by_formulas {
     };
 }
 
-/// Those of [`CayleyGroup`](crate::groups::CayleyGroup).
+/// The methods of [`CayleyGroup`](crate::groups::CayleyGroup).
 macro_rules! cayley_by_formulas {
     ($group:ty) => {
         fn cayley_extent(&self, x: &Self::Vector) -> T {

@@ -157,7 +157,7 @@ impl Step<'_> {
         self.polished(x).map(|(solution, _)| solution)
     }
 
-    /// The same, and whether G contracts where the last factors were taken, which is next to the solution.
+    /// The polished solution, and true if G contracts where the last factors were taken, which is next to the solution.
     fn polished(&self, x: &DMatrix<f64>) -> Result<(RightSolution, bool), JudgeError> {
         let mut last = f64::INFINITY;
         let mut model = self.model(x, 1.0)?;
@@ -230,7 +230,7 @@ impl Step<'_> {
     }
 }
 
-/// Whether no eigenvalue of a slope is larger than a half: it is that small itself, or its eighth power is.
+/// True if no eigenvalue of a slope is larger than a half: it is that small itself, or its eighth power is.
 fn contracts(slope: &DMatrix<f64>) -> bool {
     let eighth = || norm(&(0..3).fold(slope.clone(), |power, _| &power * &power));
     spectral(slope) < 0.5 || eighth() < 0.5_f64.powi(8)

@@ -106,7 +106,7 @@ fn motion_of(matrix: &[f64]) -> Vec<f64> {
     element
 }
 
-/// The same of a motion of the plane.
+/// The numbers of a motion of the plane, from its matrix.
 fn motion_of_plane(matrix: &[f64]) -> Vec<f64> {
     let m = |i: usize, j: usize| matrix.get(i * 3 + j).copied().unwrap_or(0.0);
     let space = [

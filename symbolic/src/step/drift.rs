@@ -304,7 +304,7 @@ impl Start {
     }
 }
 
-/// How far rounding of a state may move a quantity whose drift is measured, relative to its scale.
+/// Rounding of a state may move a quantity whose drift is measured by this much, relative to its scale.
 pub const MEASURABLE: f64 = 1e-11;
 
 /// The drift that rounding explains after this many steps of what every step conserves: it adds up at random, and each step

@@ -14,7 +14,7 @@ use super::verdict::{Tally, Wrong};
 const DRAWS: usize = 32;
 /// Steps made from each, the later ones from guesses by the earlier ones.
 const STEPS: usize = 4;
-/// How far, relatively, an accepted step may be from the flow.
+/// The largest relative distance of an accepted step from the flow.
 const FARTHEST: f64 = 0.2;
 
 /// A function of one variable.
