@@ -116,7 +116,7 @@ const SAFETY: f64 = 0.5;
 const TRIALS: usize = 30;
 /// The most steps of a run that is tried: a minute for a small system.
 const MOST_STEPS: f64 = 2e7;
-/// A step is confirmed by one that is so many times as long, so often.
+/// A step is confirmed by one that is longer by this factor, at most this many times.
 const CONFIRMING: f64 = 0.93;
 const CONFIRMED: usize = 6;
 /// The fewest steps of a run whose equations depend on the time: no pulse of half a step's width is passed over.

@@ -521,7 +521,7 @@ fn parameters_that_cannot_vary_are_refused() {
     folder.write("system.toml", body("3").replace("I1 = 3", "I1 = 3\nI2 = \"2*I1\""));
     folder.refused(&[(
         &format!("{run} in.csv"),
-        "system.toml:5:1: error: the parameter `I1` cannot vary",
+        "system.toml:5:1: error: the parameter `I1` can neither vary from row to row nor have derivatives: `I2` is computed",
     )]);
     folder.write(
         "system.toml",

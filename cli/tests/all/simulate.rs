@@ -65,6 +65,8 @@ fn the_estimated_error_is_near_the_truth() {
         assert_eq!(coarse["warnings"], Value::Array(Vec::new()), "{system}");
     }
     let rough = run(&format!("simulate {BODY} --truncation 1 --step 0.25 --time 400")).ok();
+    rough.says(&["warning: the end is not resolved"]).prints(&["  warning: the end is not"]);
+    let rough = run(&format!("simulate {BODY} --truncation 1 --step 0.25 --time 100")).ok();
     rough.says(&["warning: the error at the end is about "]).prints(&["  warning: the error at"]);
 }
 

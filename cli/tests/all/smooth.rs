@@ -163,7 +163,7 @@ fn laws_hold_and_can_be_broken_by_long_steps() {
     let folder = Folder::with(&six);
     let found = folder.json("check system.toml");
     let laws = found["laws"].as_array().unwrap();
-    assert_eq!(laws.len(), 7, "{found}");
+    assert_eq!(laws.len(), 8, "{found}");
     assert!(laws.iter().all(|law| law["pass"] == true), "{found}");
     folder.run("check system.toml --step 30").fails(1, &["step"]);
 }

@@ -7,12 +7,13 @@ use coadjoint::StepError;
 use coadjoint_codegen::cancel;
 
 use super::march::Pace;
+use super::milestone::{Milestone, part};
 use super::recorder::Outcome;
 use super::sink::Sink;
 use super::tally::Warning;
+use super::unknown::Unknown;
 use crate::engine::{Motion, Numbers, Space};
 use crate::grid::Grid;
-use crate::number::brief;
 
 /// The steps of the second run as multiples of those of the run; the second size is for runs that are too far off to be judged
 /// by the first. Neither is near a ratio of small numbers, so that no jump in time lies at the same place in steps of both.
@@ -25,11 +26,7 @@ const UNRESOLVED: f64 = 0.1;
 const NEAR: f64 = 0.03;
 /// The highest order at which smooth motions are taken to follow it in steps twice as long as those of a run.
 const STEADY: u32 = 8;
-/// A state on the way, after so many steps.
-pub(crate) type Milestone = (u64, Numbers);
-
-/// Parts of a run, at whose ends its state is kept for the comparison on the way, and those in which most of the error arises.
-const PARTS: u64 = 128;
+/// The parts of a run in which most of the error arises.
 const WORST: usize = 3;
 /// Pieces in which a step is made that is refused at its full length.
 const PIECES: [u64; 3] = [2, 4, 8];
@@ -40,49 +37,6 @@ const ROUNDING: f64 = 0.125;
 /// An error above this is worth a warning.
 pub const LARGE: f64 = 0.01;
 
-/// Interrupted.
-const STOPPED: &str = "not known: the estimate was interrupted";
-
-/// The reasons for which the error at the end of a run is not known.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Unknown {
-    /// Runs in steps of other sizes end elsewhere.
-    Unresolved {
-        /// Until this time they go together.
-        until: f64,
-    },
-    /// Another reason.
-    Other(&'static str),
-}
-
-impl Unknown {
-    /// Nobody has asked for an estimate.
-    pub const OFF: Self = Self::Other("not estimated");
-    /// The steps have the size that the map was learned for.
-    pub(crate) const LEARNED: Self = Self::Other("not known: a learned map has steps of one size");
-    const REFUSED: Self = Self::Other("not known: steps of other sizes are refused on the way");
-    const STOPPED: Self = Self::Other(STOPPED);
-}
-
-impl std::fmt::Display for Unknown {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Other(why) => f.write_str(why),
-            Self::Unresolved { until } => write!(
-                f,
-                "not known: runs in steps of other sizes end elsewhere, and go together until time {}",
-                brief(*until)
-            ),
-        }
-    }
-}
-
-/// The number of steps after which, again and again, the state of a run is kept. It is even, so that steps of twice the size
-/// begin there.
-pub(super) fn part(steps: u64) -> u64 {
-    (steps / PARTS).max(1).next_multiple_of(2)
-}
-
 /// A run that has been made.
 pub(crate) struct Made<'a, 'm> {
     /// The steps of the run.
@@ -91,7 +45,7 @@ pub(crate) struct Made<'a, 'm> {
     pub other: &'a dyn Fn(f64) -> Result<Box<dyn Motion + 'm>, StepError>,
     /// The states at its start and end.
     pub ends: [&'a Numbers; 2],
-    /// The states after so many steps each, as far as they are known.
+    /// The states on the way, as far as they are known.
     pub kept: &'a [Milestone],
     /// The number of steps between two of them.
     pub part: u64,
@@ -139,8 +93,8 @@ impl<'m> Made<'_, 'm> {
             }
             let states = states.as_deref().unwrap_or_default();
             let compared = match self.compare(ratio, last, states) {
-                Err(Unknown::Other(reason)) if reason != STOPPED => {
-                    why = Unknown::Other(reason);
+                Err(unknown @ Unknown::Other(_)) if unknown != Unknown::STOPPED => {
+                    why = unknown;
                     continue;
                 }
                 compared => compared?,
@@ -246,7 +200,7 @@ impl<'m> Made<'_, 'm> {
         (short > 2.0 * count as f64 * f64::EPSILON).then_some(long / short)
     }
 
-    /// Makes steps `first` to `end`, so many at a time that it may be stopped between them; how many were made before one that
+    /// Makes steps `first` to `end`, in groups between which it may be stopped; the number of those made before one that
     /// is refused. What programs refuse is made by other means, which take long, only if `patient`.
     fn go(
         &self,
@@ -350,7 +304,7 @@ impl Beside<'_, '_> {
     }
 }
 
-/// Moves a state away from another by so many times their difference.
+/// Moves a state away from another by a multiple of their difference.
 fn beyond(space: &dyn Space, state: &mut Numbers, other: &Numbers, times: f64) {
     let away = |(a, b): (&f64, &f64)| a + times * (a - b);
     let mu = state.mu.iter().zip(&other.mu).map(away).collect();
@@ -359,7 +313,7 @@ fn beyond(space: &dyn Space, state: &mut Numbers, other: &Numbers, times: f64) {
     *state = Numbers { g: space.settled(&space.numbers(&matrix)), mu };
 }
 
-/// Makes a run from this state in so many steps, and estimates the error at its end. `other` makes steps of a size that is given
+/// Makes a run from this state in this number of steps, and estimates the error at its end. `other` makes steps of a size that is given
 /// as a multiple of those of the run. What its programs refuse is made by other means, which take long, only if `patient`.
 ///
 /// # Errors

@@ -2,8 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use super::estimate::{self, Milestone};
 use super::event::{self, Crossing, Lookout};
+use super::milestone::{Milestone, part};
 use super::orbit::Orbit;
 use super::recorder::{Outcome, Recorder, Watched, drifting};
 use super::setup::Setup;
@@ -68,7 +68,7 @@ struct March<'a> {
     ended: Option<f64>,
     /// How many of the times asked for are recorded.
     times: usize,
-    /// The states kept for the estimate of the error, one after so many steps.
+    /// The states kept for the estimate of the error.
     kept: Vec<Milestone>,
     part: u64,
     /// The number of steps between two measurements of the drift: at each record, or, where none are kept, at [`LOOKS`] moments.
@@ -105,7 +105,7 @@ impl Subject<'_> {
         };
         let (n, times, ended) = (0, 0, None);
         let (values, signs, crossings) = Default::default();
-        let part = if setup.estimate { estimate::part(steps) } else { u64::MAX };
+        let part = if setup.estimate { part(steps) } else { u64::MAX };
         let mut march = March {
             setup,
             motion,

@@ -4,6 +4,7 @@ mod blocks;
 mod estimate;
 mod event;
 mod march;
+mod milestone;
 mod orbit;
 mod recorder;
 mod run;
@@ -12,12 +13,13 @@ mod single;
 mod sink;
 mod slow;
 mod tally;
+mod unknown;
 
 pub(crate) use setup::not_an_element;
 
 pub use blocks::{Block, Kind, matrix, split};
+pub use estimate::LARGE;
 pub(crate) use estimate::error_of;
-pub use estimate::{LARGE, Unknown};
 pub use event::{Crossing, Direction, Event};
 pub use recorder::{Drift, Outcome, Scales, drifting};
 pub use run::{run, run_model};
@@ -26,3 +28,4 @@ pub use single::Single;
 pub(crate) use sink::DRIFTS;
 pub use sink::{Begun, Halt, Record, Resume, Sink};
 pub use tally::{DriftFields, Moment, Solver, Steep, Warning};
+pub use unknown::Unknown;

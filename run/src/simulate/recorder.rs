@@ -5,11 +5,11 @@ pub use coadjoint_codegen::step::{Drift, Scales};
 use coadjoint_codegen::step::{Invariants, Start, nudge, rounding};
 
 use super::blocks::{Block, blocks, off_group};
-use super::estimate::Unknown;
 use super::event::Crossing;
 use super::orbit::Orbit;
 use super::sink::Begun;
 use super::tally::{Moment, Solver, Steep, Tally, Warning};
+use super::unknown::Unknown;
 use crate::backend::Used;
 use crate::engine::{Numbers, STEEP, Solved, Space};
 use crate::number::maximum;

@@ -13,13 +13,15 @@ use coadjoint_codegen::step::Invariants;
 use coadjoint_learn::{Generating, LearnError, Model, ModelFile};
 use coadjoint_program::Trajectories;
 
-use super::estimate::{Made, Unknown, part};
+use super::estimate::Made;
 use super::march::Subject;
+use super::milestone::part;
 use super::recorder::{Outcome, Watched};
 use super::setup::Setup;
 use super::sink::Sink;
 use super::slow::slow;
 use super::tally::Warning;
+use super::unknown::Unknown;
 use crate::engine::{
     Charted, Elements, Motion, Numbers, Restore, Solved, Solves, Space, one_by_one, product_group,
 };

@@ -23,7 +23,7 @@ pub(super) struct Said<'a> {
     /// The time at the end and the number of steps between records, where the head gives them.
     end: Option<f64>,
     every: Option<f64>,
-    /// Records at times that are asked for, or at events, are not every so many steps.
+    /// Records at times that are asked for, or at events, are not a fixed number of steps apart.
     others: bool,
     grid: Grid,
     last: Option<f64>,

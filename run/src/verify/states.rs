@@ -198,14 +198,20 @@ impl Invariants {
         let apart = |a: &[f64], b: &[f64]| {
             largest(&a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>())
         };
-        // By how much rounding of the numbers of a state may move it.
+        // Rounding moves it by the sum of what each number moves, to first order.
         let rounding = |state: &State, here: &[f64]| {
-            condition(state.element.as_ref()?)?;
-            let (mut momentum, mut element) = (state.momentum.clone(), state.element.clone()?);
-            step::nudge(&mut momentum);
-            step::nudge(&mut element);
-            let beside = self.spatial(&State { momentum, element: Some(element) })?;
-            Some(apart(here, &beside) * (f64::EPSILON / step::NUDGE))
+            let element = state.element.as_ref()?;
+            condition(element)?;
+            let mut moved = vec![0.0; here.len()];
+            for place in 0..state.momentum.len() + element.len() {
+                let (mut momentum, mut element) = (state.momentum.clone(), element.clone());
+                let number = momentum.iter_mut().chain(&mut element).nth(place)?;
+                *number *= 1.0 + step::NUDGE;
+                let beside = self.spatial(&State { momentum, element: Some(element) })?;
+                let apart = here.iter().zip(&beside).map(|(a, b)| (a - b).abs());
+                moved.iter_mut().zip(apart).for_each(|(moved, apart)| *moved += apart);
+            }
+            Some(largest(&moved) * (f64::EPSILON / step::NUDGE))
         };
         let (one, other) = (self.spatial(before)?, self.spatial(after)?);
         let (drift, scale) = (apart(&one, &other), largest(&one));

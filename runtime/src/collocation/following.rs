@@ -6,6 +6,7 @@ use super::Collocation;
 use super::energy::Energy;
 use super::rates::{Rates, total};
 use super::solving::{Attempt, Ending, Equations};
+use crate::error::{Circumstances, StepError};
 use crate::group::LieGroup;
 use crate::linear::coordinates::Coordinates;
 use crate::number::Scalar;
@@ -45,7 +46,7 @@ struct Point<V> {
 }
 
 /// The reason if a step is not followed.
-pub(super) enum Lost<V> {
+enum Lost<V> {
     /// This measure exceeds this limit.
     Measured(f64, f64),
     /// The gradient is not finite at this time and momentum.
@@ -111,9 +112,22 @@ where
     /// the same momentum.
     ///
     /// # Errors
-    /// The first measure that is too large.
+    /// The first measure that is too large, or a gradient that is not finite.
     #[cold]
     pub(super) fn follow(
+        &self,
+        mu: &G::Vector,
+        middle: f64,
+        attempt: &Attempt<G::Vector, M>,
+        at: Circumstances,
+    ) -> Result<(), StepError> {
+        self.followed(mu, middle, attempt).map_err(|lost| match lost {
+            Lost::Measured(tail, limit) => StepError::Unresolved { tail, limit, at },
+            Lost::Undefined(time, node) => self.undefined(mu, time, &node, at),
+        })
+    }
+
+    fn followed(
         &self,
         mu: &G::Vector,
         middle: f64,

@@ -38,7 +38,6 @@ use crate::linear::coordinates::Coordinates;
 use crate::number::Scalar;
 use crate::step::{StepReport, check};
 
-use following::Lost;
 use rates::{Rates, largest, total};
 use solving::{Attempt, Ending, Equations};
 
@@ -239,10 +238,7 @@ where
         if !self.is_unusual(mu, middle, attempt, (tail / limit).max(force / LARGEST_FORCE)) {
             return Ok(());
         }
-        self.follow(mu, middle, attempt).map_err(|lost| match lost {
-            Lost::Measured(tail, limit) => StepError::Unresolved { tail, limit, at },
-            Lost::Undefined(time, node) => self.undefined(mu, time, &node, at),
-        })
+        self.follow(mu, middle, attempt, at)
     }
 
     /// The highest polynomials through two nodes and more: of the velocity, as a share of it, and of the force, times the

@@ -39,7 +39,8 @@ fn product() -> Step {
 /// A system: its name, its step and the operations that the step had.
 type Row = (&'static str, fn() -> Step, usize);
 
-/// Systems, their kernels, and the operations of all programs at commit 4621d748.
+/// Systems, their kernels, and the operations of all programs at commit 4621d748; steps of smooth Hamiltonians measure their
+/// reach since.
 const SYSTEMS: [Row; 14] = [
     ("rigid body", || example("rigid_body", None), 539),
     ("heavy top", || example("heavy_top", None), 2003),
@@ -52,8 +53,8 @@ const SYSTEMS: [Row; 14] = [
     ("Cayley, SO(3)", || example("gyrostat", Some("cayley")), 912),
     ("Cayley, SE(3)", || example("kirchhoff_body", Some("cayley")), 2013),
     ("Cayley, so(4)", || example("manakov_so4", Some("cayley")), 3439),
-    ("√ body", || example("relativistic_body", None), 1573),
-    ("six variables", || example("screened_top", None), 3475),
+    ("√ body", || example("relativistic_body", None), 1573 + 110),
+    ("six variables", || example("screened_top", None), 3475 + 93),
     ("product", product, 2553),
 ];
 
