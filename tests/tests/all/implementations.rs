@@ -76,8 +76,9 @@ const PARTS: &[Part] = &[
     },
     Part {
         name: "acceptance by the generic step of collocation",
+        // At the nodes, and between them.
         words: &["StepError::Unresolved {"],
-        files: &["runtime/src/collocation/mod.rs"],
+        files: &["runtime/src/collocation/following.rs", "runtime/src/collocation/mod.rs"],
     },
     Part {
         // The charts of both.
