@@ -6,7 +6,7 @@ use coadjoint_tests::stress::{Options, report, run};
 #[test]
 fn no_wrong_step_is_accepted() {
     let options = Options {
-        steps: 2_688,
+        steps: 3_360,
         seed: 20,
         only: String::new(),
         threads: 2,
