@@ -206,18 +206,21 @@ class Run:
         >>> body.simulate([2, 0.5, 1], time=10, step=0.1, estimate=False).estimated_error_unknown
         'not estimated'
         """
-        return self._found["estimated_error"]
+        error: float | None = self._found["estimated_error"]
+        return error
 
     @property
     def estimated_error_unknown(self) -> str | None:
-        """Why ``estimated_error`` is None."""
-        return self._found["no_estimate"]
+        """The reason if ``estimated_error`` is None."""
+        reason: str | None = self._found["no_estimate"]
+        return reason
 
     @property
     def trusted_until(self) -> float | None:
         """The time until which runs in steps of other sizes go together, where they end elsewhere: then the end is not
         resolved, and ``estimated_error`` is None."""
-        return self._found["trusted_until"]
+        until: float | None = self._found["trusted_until"]
+        return until
 
     @property
     def drift_scale(self) -> Drift:

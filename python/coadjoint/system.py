@@ -329,7 +329,7 @@ class System:
         array([1.1718, 3.3151])
         """
         start, element = self._state(momentum, group_element)
-        times = self._times(at)
+        times = self._times(at, step)
         watched = _events(events)
         parts = None if looks is None else _arrays.count(looks, "looks", 1)
         if parts is not None and parts > 1000:
@@ -344,7 +344,7 @@ class System:
                 events=watched,
                 looks=parts,
                 backend=_arrays.text(backend, "backend"),
-                estimate=bool(estimate),
+                estimate=_arrays.flag(estimate, "estimate"),
                 record=True,
                 progress=told,
             )
@@ -357,13 +357,14 @@ class System:
         }
         return Run(found, self)
 
-    def _times(self, at: Numbers | None) -> Floats | None:
-        """The times of ``at``, which must be in order."""
+    def _times(self, at: Numbers | None, step: Real | None) -> Floats | None:
+        """The times of ``at``, which must be in the order in which steps of this size reach them."""
         if at is None:
             return None
         times = np.atleast_1d(_arrays.floats(at, "at", unit=self._facts["time_unit"]))
-        forwards = np.diff(times) > 0
-        if times.ndim != 1 or not (forwards.all() or not forwards.any()) or (np.diff(times) == 0).any():
+        size = self._facts["step"] if step is None else _arrays.real(step, "step", self._facts["time_unit"])
+        backwards = size is not None and size < 0
+        if times.ndim != 1 or (np.diff(-times if backwards else times) <= 0).any():
             raise InputError("at must be a list of times in the order of the run, each once: sort them")
         return times
 
@@ -400,7 +401,7 @@ class System:
         >>> body.ensemble(np.ones((10, 3)), time=10, step=0.1, at=[0, 2.5, 10]).shape
         (10, 3, 3)
         """
-        times = self._times(at)
+        times = self._times(at, step)
         rows, parameters = self._rows(states)
         if rows.ndim != 2:
             raise InputError(

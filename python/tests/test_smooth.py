@@ -75,11 +75,8 @@ def test_a_polynomial_by_either_method() -> None:
 
 
 def test_functions_that_fail_are_told_with_the_time() -> None:
-    calls = []
-
     def raising(t: float, mu: np.ndarray) -> np.ndarray:
-        calls.append(t)
-        if len(calls) > 200:
+        if t > 3:
             raise ZeroDivisionError("at last")
         return gradient(t, mu)
 

@@ -46,7 +46,7 @@ def pin(
     """The run in text and numbers, with these columns of parameters: what a tolerance picks is picked here, once."""
     core = _core(system.text)
     none = np.empty((0, system.dimension + len(parameters)))
-    asked, times = system._asked(**asked), system._times(at)
+    asked, times = system._asked(**asked), system._times(at, asked.get("step"))
     _, _, facts = core.ensemble(
         none, asked, parameters=parameters, at=times, backend=text(backend, "backend"), threads=1, progress=None
     )
