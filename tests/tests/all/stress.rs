@@ -6,7 +6,7 @@ use coadjoint_tests::stress::{Options, report, run};
 #[test]
 fn no_wrong_step_is_accepted() {
     let options = Options {
-        steps: 3_360,
+        steps: 2_688,
         seed: 20,
         only: String::new(),
         threads: 2,
@@ -17,7 +17,9 @@ fn no_wrong_step_is_accepted() {
     assert!(tallies.len() > 20);
     // Every family has both kinds: the draws lie around the boundary of acceptance.
     for (name, tally) in &tallies {
-        assert!(tally.accepted > 20, "{name} accepts {} steps", tally.accepted);
+        // Most steps of a motion that comes to a pole or an edge must be refused.
+        let least = if name.starts_with("edge-") { 10 } else { 20 };
+        assert!(tally.accepted > least, "{name} accepts {} steps", tally.accepted);
     }
     assert!(tallies.iter().map(|t| t.1.refused).sum::<u64>() > 1000);
     assert!(tallies.iter().all(|(_, tally)| tally.wrong() == 0), "{}", report(&tallies));
