@@ -81,7 +81,7 @@ pub fn meet_tolerance(
         }
     }
     let choice = match choice {
-        Some(choice) => verified(path, system, &target, choice)?,
+        Some(choice) => verified(path, system, asked.start(&system.run), &target, choice)?,
         None => {
             let choice = by_running(path, system, asked.start(&system.run), &target)?;
             system.problem.set_truncation(choice.truncation);
@@ -133,11 +133,12 @@ const MANY: f64 = 1e6;
 fn verified(
     path: &Path,
     system: &System,
+    t0: f64,
     target: &Target,
     choice: Choice,
 ) -> Result<Choice, RunError> {
     let derived = Derived::of_file(path, system.clone())?;
-    let trial = Trial::new(&derived, 0.0, target);
+    let trial = Trial::new(&derived, t0, target);
     let (step, error) =
         trial.step(choice.step, target.tolerance, false).ok_or_else(|| unmet(path, target))?;
     let shorter = step / choice.step;
