@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for source in emitted::SYSTEMS {
         let integrator = emitted::from_function(source)?;
         let name = &integrator.problem.name;
-        let text = emit::file(&integrator, &emit::Options::for_problem(name));
+        let text = emit::file(emit::items(&integrator, &emit::Options::for_problem(name)));
         std::fs::write(folder.join(format!("{name}.rs")), text)?;
     }
     Ok(())

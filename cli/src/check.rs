@@ -29,7 +29,7 @@ pub(crate) fn run(options: &CheckOptions) -> Result<(), CliError> {
     }
     let Facts { name, algebra, truncation, .. } = system.facts();
     let (group, label) = (algebra.name(), system.label());
-    let chart = system.series().map(|series| series.integrator.problem.chart);
+    let chart = system.series().map(|series| series.problem.chart);
     let Trial { step, points, seed, .. } = trial;
     let breaks = system.kicks().and_then(Kicks::torque).is_some() && !system.is_damped();
     if options.format == Format::Json {

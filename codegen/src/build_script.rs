@@ -6,9 +6,9 @@ use crate::diagnostic::read_text;
 use crate::emit;
 use crate::file;
 use crate::hamilton_jacobi::{DeriveError, TermLimit};
-use crate::integrator::{Integrator, Kick};
+use crate::integrator::Kick;
 use crate::lie::Chart;
-use crate::smooth::Hamiltonian;
+use crate::step::Origin;
 use crate::system::{self, Parameters};
 
 /// Writes the integrator of a system file as a module into `OUT_DIR`, anew only when the file
@@ -153,16 +153,11 @@ impl Build {
         if let Some(reason) = gave_way {
             println!("cargo::warning={name}: {}", reason.gave_way());
         }
-        let mut module = match hamiltonian {
-            Hamiltonian::Smooth(smooth) => emit::collocation_file(&smooth, &options),
-            Hamiltonian::Polynomial(problem, _) => {
-                let integrator = Integrator::build(*problem, self.limit)
-                    .map_err(|source| BuildError::Derive { path: self.input.clone(), source })?;
-                emit::check_size(&integrator)
-                    .map_err(|source| BuildError::Size { path: self.input.clone(), source })?;
-                emit::file(&integrator, &options)
-            }
-        };
+        let origin = Origin::derive(hamiltonian, self.limit)
+            .map_err(|source| BuildError::Derive { path: self.input.clone(), source })?;
+        let items = emit::items_of(&origin, &options)
+            .map_err(|source| BuildError::Size { path: self.input.clone(), source })?;
+        let mut module = emit::file(items);
         if let Some((potential, _)) = system.potential {
             module.push_str(&emit::potential_items(&Kick::build(potential), &options));
         }

@@ -6,9 +6,9 @@ use syn::{Error, ItemFn, Result};
 use coadjoint_codegen::diagnostic::Diagnostics;
 use coadjoint_codegen::emit::{self, Items, Options};
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
-use coadjoint_codegen::integrator::{Integrator, Kick};
+use coadjoint_codegen::integrator::Kick;
 use coadjoint_codegen::parse::rust;
-use coadjoint_codegen::smooth::Hamiltonian;
+use coadjoint_codegen::step::Origin;
 
 /// The items for a function, given the arguments but `crate`; programs bind names with an underscore at their ends.
 pub(crate) type Generate = fn(TokenStream, &ItemFn, &Options) -> Result<Items>;
@@ -20,15 +20,10 @@ pub(crate) fn lie_poisson(
     options: &Options,
 ) -> Result<Items> {
     let read = rust::hamiltonian(arguments, function).map_err(Diagnostics::into_syn_error)?;
-    let problem = match read {
-        Hamiltonian::Polynomial(problem, _) => *problem,
-        Hamiltonian::Smooth(smooth) => return Ok(emit::collocation(&smooth, options)),
-    };
     let place = function.sig.ident.span();
-    let integrator = Integrator::build(problem, TermLimit::default())
-        .map_err(|error| Error::new(place, error))?;
-    emit::check_size(&integrator).map_err(|error| Error::new(place, error))?;
-    Ok(emit::items(&integrator, options))
+    let origin = Origin::derive(read, TermLimit::default());
+    let origin = origin.map_err(|error| Error::new(place, error))?;
+    emit::items_of(&origin, options).map_err(|error| Error::new(place, error))
 }
 
 /// The items of `#[potential]`.

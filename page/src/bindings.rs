@@ -1,5 +1,6 @@
 //! The functions that the page's script calls.
 
+use coadjoint_codegen::step::Origin;
 use serde::Serialize;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -8,7 +9,7 @@ use crate::file::Mistake;
 use crate::formula;
 use crate::orbit::{Curve, Orbit};
 use crate::run::Run;
-use crate::system::{Factor, START, Source, System};
+use crate::system::{Factor, START, System};
 
 /// The systems to choose from, as JSON: `[{id, title, family, about, fields}]`.
 #[wasm_bindgen]
@@ -81,7 +82,7 @@ impl Session {
     /// The facts that a page shows of the system, as JSON.
     pub fn about(&self) -> String {
         let System { step, factors, momentum, units, .. } = &self.system;
-        let (origin, series) = (self.system.source.origin(), self.system.series());
+        let (origin, series) = (&self.system.origin, self.system.series());
         let (facts, n) = (origin.facts(), self.system.dim());
         let programs = &step.kernel().programs;
         let list = [&programs.guess, &programs.correct, &programs.accept, &programs.transport];
@@ -228,12 +229,12 @@ impl Session {
 
     /// H, and where it is a polynomial S₁, S₃, …, as MathML, a JSON list.
     pub fn formulas(&self) -> String {
-        let origin = self.system.source.origin();
-        let integrator = match &self.system.source {
-            Source::Collocation(smooth) => {
+        let origin = &self.system.origin;
+        let integrator = match origin {
+            Origin::Collocation(smooth) => {
                 return json(&[formula::written("<mi>H</mi>", &smooth.source)]);
             }
-            Source::Series(integrator) => integrator,
+            Origin::Series(integrator) => integrator,
         };
         let problem = &integrator.problem;
         let mut list = vec![formula::equation("<mi>H</mi>", &problem.hamiltonian, origin)];

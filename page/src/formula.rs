@@ -12,7 +12,7 @@ use num_traits::{One, Signed};
 const MOST_TERMS: usize = 160;
 
 /// A polynomial in the momentum, `name = …`: a formula for each term, so that lines break between them.
-pub fn equation(name: &str, polynomial: &Polynomial, origin: Origin<'_>) -> String {
+pub fn equation(name: &str, polynomial: &Polynomial, origin: &Origin) -> String {
     let coordinates = origin.facts().coordinates;
     let dim = coordinates.len();
     let mut out = math(&format!("{name}<mo>=</mo>"));

@@ -4,8 +4,7 @@ use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie::{self, LieAlgebra, catalogue};
 use coadjoint_codegen::poly::{Numeric, Polynomial};
-use coadjoint_codegen::problem::{Problem, values};
-use coadjoint_codegen::smooth::{Hamiltonian, Smooth};
+use coadjoint_codegen::problem::values;
 use coadjoint_codegen::step::{Energy, Invariants, Origin, Step};
 use coadjoint_codegen::system::{self, Options, Units};
 use coadjoint_program::{Argument, Graph, Precision, Program, Stepper};
@@ -46,17 +45,11 @@ pub struct Factor {
     pub size: usize,
 }
 
-/// What steps are made from, with numbers for the parameters.
-#[derive(Debug)]
-pub enum Source {
-    Series(Box<Integrator>),
-    Collocation(Box<Smooth>),
-}
-
 #[derive(Debug)]
 pub struct System {
     pub file: String,
-    pub source: Source,
+    /// The equations, with numbers for the parameters.
+    pub origin: Origin,
     /// A step as programs.
     pub step: Step,
     /// Their folded coefficients.
@@ -76,17 +69,13 @@ pub struct System {
     pub units: Units,
 }
 
-impl Source {
-    pub fn origin(&self) -> Origin<'_> {
-        match self {
-            Self::Series(integrator) => Origin::Series(integrator),
-            Self::Collocation(smooth) => Origin::Collocation(smooth),
-        }
-    }
-}
-
-/// μ ↦ ∂H/∂μ of a polynomial H, each coordinate by itself: that takes fewer operations than reverse mode.
-fn gradient_of(problem: &Problem) -> Program {
+/// μ, then t where H is no polynomial, ↦ ∂H/∂μ. That of a polynomial is made coordinate by coordinate, which takes fewer operations
+/// than reverse mode.
+fn gradient_of(origin: &Origin) -> Program {
+    let problem = match origin {
+        Origin::Series(integrator) => &integrator.problem,
+        Origin::Collocation(smooth) => return smooth.gradient.clone(),
+    };
     let (graph, dim) = (Graph::new(), problem.algebra.dim());
     let energy = Numeric::new(&problem.hamiltonian, dim, &values(&problem.symbols));
     let slope = |slope: &Numeric| {
@@ -125,19 +114,9 @@ impl System {
             )]);
         };
         let energy = Energy::new(&read.problem);
-        let (source, gradient) = match read.problem.settled().0 {
-            Hamiltonian::Polynomial(problem, _) => {
-                let of = |error| vec![Mistake::of("truncation", error, "lower the truncation")];
-                let gradient = gradient_of(&problem);
-                let integrator = Integrator::build(*problem, LIMIT).map_err(of)?;
-                (Source::Series(Box::new(integrator)), gradient)
-            }
-            Hamiltonian::Smooth(smooth) => {
-                let gradient = smooth.gradient.clone();
-                (Source::Collocation(smooth), gradient)
-            }
-        };
-        let origin = source.origin();
+        let large = |error| vec![Mistake::of("truncation", error, "lower the truncation")];
+        let origin = Origin::derive(read.problem.settled().0, LIMIT).map_err(large)?;
+        let gradient = gradient_of(&origin);
         let refused = |error: &dyn std::fmt::Display| vec![Mistake::of_all(error, None)];
         let step = origin.step(Precision::Double).map_err(|error| refused(&error))?;
         let programs = &step.kernel().programs;
@@ -156,7 +135,7 @@ impl System {
         let rival = Rival::new(algebra, &gradient, &slots);
         let system = Self {
             file: file.text,
-            source,
+            origin,
             step,
             slots,
             h,
@@ -184,10 +163,7 @@ impl System {
 
     /// The series, where steps are made by one.
     pub fn series(&self) -> Option<&Integrator> {
-        match &self.source {
-            Source::Series(integrator) => Some(integrator),
-            Source::Collocation(_) => None,
-        }
+        self.origin.series()
     }
 
     /// Makes a step with these coefficients, where need be as if there were none before it; whether it can be made.

@@ -45,7 +45,7 @@ pub fn picture(file: &Path) -> Fallible<Picture> {
     let derived = Derived::of_file(file, system)?;
     let Facts { name, algebra, coordinates, truncation, .. } = derived.facts();
     let (name, group) = (name.to_owned(), algebra.name());
-    let chart = derived.series().map(|series| series.integrator.problem.chart.name());
+    let chart = derived.series().map(|series| series.problem.chart.name());
     let mut looks = Looks::default();
     let outcome = simulate::run(&derived, &setup, &mut looks)?;
     let Looks(looks) = looks;

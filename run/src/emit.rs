@@ -3,9 +3,8 @@
 use std::path::Path;
 
 use coadjoint_codegen::emit::c::{self, HeaderOptions, Language};
-use coadjoint_codegen::emit::{Options, check_size, collocation_file, file, potential_items};
+use coadjoint_codegen::emit::{Options, file, items, items_of, potential_items};
 use coadjoint_codegen::integrator::Kick;
-use coadjoint_codegen::smooth::Hamiltonian;
 use coadjoint_codegen::tolerance::Choice;
 use coadjoint_learn::{ModelFile, problem};
 use coadjoint_program::Precision;
@@ -13,7 +12,7 @@ use coadjoint_program::print::DeviceLanguage;
 
 use crate::engine::device_text;
 use crate::error::RunError;
-use crate::load::{Derived, System, integrator, learned};
+use crate::load::{Derived, System, derive, integrator, learned};
 
 /// The source of emitted code.
 #[derive(Debug)]
@@ -36,24 +35,18 @@ pub fn rust(path: &Path, source: Source) -> Result<String, RunError> {
             let style = Options::for_problem(&problem.name);
             return Ok(format!(
                 "//! Learned for the step {step}: build it with `new({step})`; other steps mean nothing.\n{}",
-                file(&integrator(path, problem)?, &style),
+                file(items(&integrator(path, problem)?, &style)),
                 step = model.step
             ));
         }
     };
     system.writable().map_err(RunError::of(path))?;
     let style = Options::for_problem(system.problem.facts().name);
-    let mut module = match system.problem.settled().0 {
-        Hamiltonian::Smooth(smooth) if smooth.given.is_some() => {
-            return Err(of_function(path));
-        }
-        Hamiltonian::Smooth(smooth) => collocation_file(&smooth, &style),
-        Hamiltonian::Polynomial(problem, _) => {
-            let integrator = integrator(path, *problem)?;
-            check_size(&integrator).map_err(RunError::of(path))?;
-            file(&integrator, &style)
-        }
-    };
+    let origin = derive(path, system.problem.settled().0)?;
+    if origin.is_function() {
+        return Err(of_function(path));
+    }
+    let mut module = file(items_of(&origin, &style).map_err(RunError::of(path))?);
     if let Some(line) = choice.as_ref().map(chosen) {
         module.insert_str(0, &format!("//! {line}\n"));
     }
@@ -142,9 +135,7 @@ pub fn kernel(
     let origin = derived.origin().ok_or_else(|| of_function(path))?;
     let facts = derived.facts();
     let method = match derived.series() {
-        Some(series) => {
-            format!("{} chart, K = {}", series.integrator.problem.chart, facts.truncation)
-        }
+        Some(series) => format!("{} chart, K = {}", series.problem.chart, facts.truncation),
         None => derived.label(),
     };
     let chosen = choice.as_ref().map(|choice| format!("\n{}", chosen(choice)));

@@ -29,9 +29,7 @@ pub use engine::STEEP;
 pub use error::RunError;
 pub use grid::Grid;
 pub use inputs::{inputs_files, inputs_hash};
-pub use load::{
-    Derived, Expansion, System, learned, polynomial, read_given, read_group, read_varying,
-};
+pub use load::{Derived, System, learned, polynomial, read_given, read_group, read_varying};
 pub use velocity::{Instant, velocities};
 
 /// The SHA-256 of a text in hexadecimal digits.

@@ -4,22 +4,20 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use coadjoint::StepError;
-use coadjoint::groups::{DirectProduct, MatrixGroup};
 use coadjoint_codegen::hamilton_jacobi::{DeriveError, TermLimit};
 use coadjoint_codegen::integrator::{Integrator, Kick, Kicks};
-use coadjoint_codegen::potential::Potential;
+use coadjoint_codegen::lie;
 use coadjoint_codegen::problem::Problem;
 use coadjoint_codegen::signal::Signal;
 use coadjoint_codegen::smooth::{Facts, Functions, Hamiltonian, Smooth};
 use coadjoint_codegen::step::{Energy, Invariants, Origin};
-use coadjoint_codegen::system::{self, Options, Run, Splitting};
+use coadjoint_codegen::system::{self, Options, Run};
 use coadjoint_learn::{GroupChoice, ModelFile};
 use coadjoint_program::Trajectories;
 
 use crate::backend::Backend;
 use crate::engine::{
-    Charted, Compiled, Damped, Damper, Equations, Kept, Motion, Source, Varied, collocated,
-    product_group, whole_group,
+    Charted, Compiled, Damped, Damper, Kept, Motion, Varied, product_group, whole_group,
 };
 use crate::error::RunError;
 use crate::grid::Grid;
@@ -120,19 +118,12 @@ pub(crate) fn integrator(path: &Path, problem: Problem) -> Result<Integrator, Ru
     Integrator::build(problem, TermLimit::default()).map_err(RunError::of(path))
 }
 
-/// A flow with the kicks of a potential, if there is one, which `kicked` composes it with.
+/// A system with its method: derived, where steps are made by a series.
 ///
 /// # Errors
-/// Where the potential has other parameters than the flow.
-fn with_kicks<T>(
-    flow: T,
-    potential: Option<(Potential, Splitting)>,
-    kicked: fn(T, Kick, Splitting) -> Option<T>,
-) -> Result<T, RunError> {
-    let Some((potential, splitting)) = potential else { return Ok(flow) };
-    kicked(flow, Kick::build(potential), splitting).ok_or_else(|| {
-        RunError::Option("the potential has other parameters than the Hamiltonian".to_owned())
-    })
+/// Where the series cannot be derived, or is too large.
+pub(crate) fn derive(path: &Path, hamiltonian: Hamiltonian) -> Result<Origin, RunError> {
+    Origin::derive(hamiltonian, TermLimit::default()).map_err(RunError::of(path))
 }
 
 /// A system whose steps can be made.
@@ -140,41 +131,18 @@ fn with_kicks<T>(
 pub struct Derived {
     /// The name of the system in messages.
     pub(crate) file: PathBuf,
-    /// The means by which they are made.
-    pub(crate) flow: Flow,
+    /// The equations, with the method by which steps are made.
+    pub(crate) origin: Origin,
+    /// The group that the equations are on.
+    pub(crate) group: Charted,
+    /// The programs compiled so far.
+    kept: Kept,
     /// The damping before and after each, where there is any.
     pub(crate) damping: Option<Damper>,
     /// The conserved quantities.
     pub(crate) invariants: Invariants,
     /// The reason for which the series of a polynomial gave way to collocation, where it did.
     gave_way: Option<DeriveError>,
-}
-
-/// The means by which the steps of a system are made.
-#[derive(Debug)]
-pub(crate) enum Flow {
-    /// The series of a polynomial, as programs, with kicks between flows if there are any.
-    Series(Box<Expansion>),
-    /// Collocation on a group, with kicks between flows if there are any, and the programs compiled so far.
-    Collocation(Box<Smooth>, Arc<DirectProduct<MatrixGroup>>, Kept),
-}
-
-/// The series of a polynomial as programs, with the kicks of a potential between flows if there are any.
-#[derive(Debug)]
-pub struct Expansion {
-    /// The flow and the kicks.
-    pub integrator: Integrator,
-    /// The group with the chart of the steps.
-    group: Charted,
-    /// The programs compiled so far.
-    kept: Kept,
-}
-
-impl Expansion {
-    /// The equations, for these values of the parameters.
-    fn equations(&self, parameters: Vec<f64>) -> Equations<'_> {
-        Equations { integrator: &self.integrator, parameters }
-    }
 }
 
 impl Derived {
@@ -201,35 +169,24 @@ impl Derived {
             Some(_) => whole_group(file, problem.facts().algebra)?,
             None => product_group(file, problem.facts().algebra)?,
         };
-        let kept = Kept::default();
-        let flow = match problem {
-            Hamiltonian::Polynomial(problem, _) => {
-                let flow = integrator(file, *problem)?;
-                let integrator = with_kicks(flow, potential, Integrator::with_kicks)?;
-                let group = Charted::new(file, group, integrator.problem.chart)?;
-                Flow::Series(Box::new(Expansion { integrator, group, kept }))
-            }
-            Hamiltonian::Smooth(smooth) => {
-                let smooth = with_kicks(*smooth, potential, Smooth::with_kicks)?;
-                Flow::Collocation(Box::new(smooth), Arc::new(group), kept)
-            }
-        };
-        let mut derived = Self { file: file.to_owned(), flow, damping: None, invariants, gave_way };
-        if let Some(rates) = damping {
-            derived.damping = Some(Damper { rates, group: Arc::new(derived.group()?) });
+        let mut origin = derive(file, problem)?;
+        if let Some((potential, splitting)) = potential {
+            let kicked = origin.with_kicks(Kick::build(potential), splitting);
+            origin = kicked.ok_or_else(|| {
+                let what = "the potential has other parameters than the Hamiltonian";
+                RunError::Option(what.to_owned())
+            })?;
         }
-        Ok(derived)
+        let chart = origin.series().map_or(lie::Chart::Exponential, |series| series.problem.chart);
+        let group = Charted::new(file, group, chart)?;
+        let damping = damping.map(|rates| Damper { rates, group: group.exponential.clone() });
+        let (file, kept) = (file.to_owned(), Kept::default());
+        Ok(Self { file, origin, group, kept, damping, invariants, gave_way })
     }
 
     /// The inputs u(t).
     pub fn signals(&self) -> &[Signal] {
-        match &self.flow {
-            Flow::Series(_) => {
-                let torque = self.kicks().and_then(Kicks::torque);
-                torque.map_or(&[], |torque| &torque.signals)
-            }
-            Flow::Collocation(smooth, ..) => &smooth.signals,
-        }
+        self.origin.signals()
     }
 
     /// Checks that all inputs have a value from the start of a run to its end.
@@ -247,18 +204,12 @@ impl Derived {
 
     /// The facts of the system.
     pub fn facts(&self) -> Facts<'_> {
-        match &self.flow {
-            Flow::Series(series) => series.integrator.problem.facts(),
-            Flow::Collocation(smooth, ..) => smooth.facts(),
-        }
+        self.origin.facts()
     }
 
     /// The series, where steps are made by it.
-    pub fn series(&self) -> Option<&Expansion> {
-        match &self.flow {
-            Flow::Series(series) => Some(series),
-            Flow::Collocation(..) => None,
-        }
+    pub fn series(&self) -> Option<&Integrator> {
+        self.origin.series()
     }
 
     /// Whether damping acts before and after each step.
@@ -268,12 +219,13 @@ impl Derived {
 
     /// The flows by collocation between kicks, where there are kicks, as a system without them.
     pub(crate) fn without_kicks(&self) -> Option<Self> {
-        let Flow::Collocation(smooth, group, _) = &self.flow else { return None };
+        let Origin::Collocation(smooth) = &self.origin else { return None };
         smooth.kicks.as_ref()?;
         let smooth = Smooth { kicks: None, ..(**smooth).clone() };
-        let flow = Flow::Collocation(Box::new(smooth), group.clone(), Kept::default());
         Some(Self {
-            flow,
+            origin: smooth.into(),
+            group: self.group.clone(),
+            kept: Kept::default(),
             damping: None,
             file: self.file.clone(),
             invariants: Invariants::default(),
@@ -283,37 +235,17 @@ impl Derived {
 
     /// The kicks between flows, where there are any.
     pub fn kicks(&self) -> Option<&Kicks> {
-        match &self.flow {
-            Flow::Series(series) => series.integrator.kicks.as_ref(),
-            Flow::Collocation(smooth, ..) => smooth.kicks.as_ref(),
-        }
+        self.origin.kicks()
     }
 
     /// True if the equations depend on the time other than through the state.
     pub(crate) fn moves(&self) -> bool {
-        let flow = match &self.flow {
-            Flow::Series(_) => false,
-            Flow::Collocation(smooth, ..) => smooth.depends_on_time(),
-        };
-        flow || self.kicks().is_some_and(Kicks::moves)
+        self.origin.depends_on_time()
     }
 
-    /// Whether states move by programs alone, so that many may move side by side.
+    /// True if states move by programs alone, so that many may move side by side.
     pub(crate) fn alike(&self) -> bool {
-        let calls = matches!(&self.flow, Flow::Collocation(smooth, ..) if smooth.given.is_some());
-        self.damping.is_none() && !calls
-    }
-
-    /// The group that the equations are on.
-    ///
-    /// # Errors
-    /// Where the data defines no group.
-    pub(crate) fn group(&self) -> Result<DirectProduct<MatrixGroup>, RunError> {
-        let algebra = self.facts().algebra;
-        match self.kicks() {
-            Some(_) => whole_group(&self.file, algebra),
-            None => product_group(&self.file, algebra),
-        }
+        self.damping.is_none() && !self.origin.is_function()
     }
 
     /// The programs of steps of this size, about `steps` of which are going to be made, where steps are made of programs.
@@ -327,47 +259,30 @@ impl Derived {
         steps: f64,
         trajectories: Trajectories,
     ) -> Result<Option<Arc<Compiled>>, RunError> {
-        match &self.flow {
-            Flow::Series(series) => {
-                let Expansion { integrator, kept, .. } = &**series;
-                let origin = Origin::Series(integrator);
-                Compiled::new(origin, step, backend, steps, trajectories, kept)
-            }
-            Flow::Collocation(smooth, ..) if smooth.given.is_some() => match backend {
+        let Some(origin) = self.origin() else {
+            return match backend {
                 Backend::Auto | Backend::Interpreter => Ok(None),
                 _ => Err(RunError::Option(format!(
                     "{}: no compiled --backend: the Hamiltonian is a function that is called; leave it out",
                     self.file.display()
                 ))),
-            },
-            Flow::Collocation(smooth, _, kept) => {
-                let origin = Origin::Collocation(smooth);
-                Compiled::new(origin, step, backend, steps, trajectories, kept)
-            }
-        }
+            };
+        };
+        Compiled::new(origin, step, backend, steps, trajectories, &self.kept)
     }
 
     /// Makes the programs of steps, where there are any: most of the work before the first step.
     pub fn prepare(&self) {
-        let kept = match &self.flow {
-            Flow::Series(series) => &series.kept,
-            Flow::Collocation(_, _, kept) => kept,
-        };
         // A step without programs is made without them.
-        self.origin().map(|origin| kept.programs(origin).is_ok());
+        self.origin().map(|origin| self.kept.programs(origin).is_ok());
     }
 
-    /// What the programs of steps are made from, where they are.
-    pub(crate) fn origin(&self) -> Option<Origin<'_>> {
-        match &self.flow {
-            Flow::Series(series) => Some(Origin::Series(&series.integrator)),
-            Flow::Collocation(smooth, ..) => {
-                smooth.given.is_none().then_some(Origin::Collocation(smooth))
-            }
-        }
+    /// The system that the programs of steps are made from, where there are programs.
+    pub(crate) fn origin(&self) -> Option<&Origin> {
+        Some(&self.origin).filter(|origin| !origin.is_function())
     }
 
-    /// Steps of this grid with the parameters as the file has them, by the programs that were made for their size, if any.
+    /// Steps of this grid with the parameters as the file has them, by the programs that were compiled, if any.
     ///
     /// # Errors
     /// Where the step or the parameters make no sense.
@@ -376,35 +291,10 @@ impl Derived {
         grid: Grid,
         compiled: Option<&Arc<Compiled>>,
     ) -> Result<Box<dyn Varied + '_>, StepError> {
-        let parameters = self.facts().defaults();
-        let motion = match &self.flow {
-            Flow::Series(series) => {
-                let equations = series.equations(parameters.clone());
-                series.group.steps(equations, grid, compiled.cloned())
-            }
-            Flow::Collocation(smooth, group, _) => {
-                collocated(smooth, group, grid, &parameters, compiled)?
-            }
-        };
-        Ok(self.damped(motion, &parameters))
+        self.with_parameters(grid, &self.facts().defaults(), compiled)
     }
 
-    /// These steps, with damping before and after each where there is any.
-    fn damped<'a>(
-        &'a self,
-        motion: Box<dyn Varied + 'a>,
-        parameters: &[f64],
-    ) -> Box<dyn Varied + 'a> {
-        let Some(damper) = &self.damping else { return motion };
-        let energy = match &self.flow {
-            Flow::Series(series) => Source::Polynomial(&series.integrator.problem),
-            Flow::Collocation(smooth, ..) => Source::Smooth(smooth),
-        };
-        let kick = self.kicks().map(|kicks| &kicks.kick);
-        Box::new(Damped::new(motion, damper, (energy, kick), parameters))
-    }
-
-    /// Steps for another grid or other values of the parameters that are kept, by the programs that are compiled.
+    /// Steps of this grid for these values of the parameters that are kept.
     ///
     /// # Errors
     /// As [`Derived::steps`].
@@ -414,45 +304,30 @@ impl Derived {
         parameters: &[f64],
         compiled: Option<&Arc<Compiled>>,
     ) -> Result<Box<dyn Motion + '_>, StepError> {
-        let motion = match &self.flow {
-            Flow::Series(series) => {
-                series.group.anew(series.equations(parameters.to_vec()), grid, compiled)?
-            }
-            Flow::Collocation(smooth, group, _) => {
-                collocated(smooth, group, grid, parameters, compiled)?
-            }
-        };
-        Ok(self.damped(motion, parameters))
+        Ok(self.with_parameters(grid, parameters, compiled)?)
+    }
+
+    fn with_parameters(
+        &self,
+        grid: Grid,
+        parameters: &[f64],
+        compiled: Option<&Arc<Compiled>>,
+    ) -> Result<Box<dyn Varied + '_>, StepError> {
+        let motion = self.group.steps(&self.origin, grid, parameters, compiled)?;
+        Ok(match &self.damping {
+            Some(damper) => Box::new(Damped::new(motion, damper, &self.origin, parameters)),
+            None => motion,
+        })
     }
 
     /// The order of accuracy: K + 1, or that of the splitting where it is lower; 2 with damping.
     pub(crate) fn order(&self) -> u32 {
-        if self.damping.is_some() {
-            return 2;
-        }
-        let order = self.facts().truncation as u32 + 1;
-        self.kicks().map_or(order, |kicks| order.min(kicks.splitting.order()))
+        if self.damping.is_some() { 2 } else { self.origin.order() }
     }
 
     /// The method of a run, in a few words.
     pub fn label(&self) -> String {
-        let mut label = match &self.flow {
-            Flow::Series(series) => {
-                let problem = &series.integrator.problem;
-                let mut label = format!("K = {}, {}", problem.truncation, problem.chart);
-                if problem.comoving.is_some() {
-                    label.push_str(", comoving");
-                }
-                label
-            }
-            Flow::Collocation(smooth, ..) => format!("collocation, {} nodes", smooth.nodes()),
-        };
-        if let Some(kicks) = self.kicks() {
-            label = format!("{label}, {}", kicks.splitting.name());
-        }
-        if self.damping.is_some() {
-            label.push_str(", damped");
-        }
-        label
+        let damped = if self.damping.is_some() { ", damped" } else { "" };
+        self.origin.label() + damped
     }
 }

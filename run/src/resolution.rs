@@ -4,12 +4,13 @@ use std::path::Path;
 
 use coadjoint_codegen::integrator::Kicks;
 use coadjoint_codegen::smooth::Smooth;
+use coadjoint_codegen::step::Origin;
 use coadjoint_program::collocation::nodes;
 
 use crate::engine::identity;
 use crate::error::RunError;
 use crate::grid::Grid;
-use crate::load::{Derived, Flow};
+use crate::load::Derived;
 use crate::number::shortest;
 
 /// Points of a step that are looked at.
@@ -75,9 +76,9 @@ impl Derived {
         let parameters = facts.defaults();
         let any = (0..facts.algebra.dim()).map(|i| 1.0 / (i + 1) as f64);
         let momentum = momentum.map_or_else(|| any.collect(), <[f64]>::to_vec);
-        let velocity = match &self.flow {
-            Flow::Collocation(smooth, ..) => Moving::velocity(smooth, &parameters, &momentum),
-            Flow::Series(_) => None,
+        let velocity = match &self.origin {
+            Origin::Collocation(smooth) => Moving::velocity(smooth, &parameters, &momentum),
+            Origin::Series(_) => None,
         };
         let start = (identity(facts.algebra.matrix_size()), &momentum[..]);
         let torque = self.kicks().and_then(|kicks| Moving::torque(kicks, &parameters, start));

@@ -83,7 +83,7 @@ pub(crate) fn run(options: &EnsembleOptions) -> Result<(), CliError> {
     derived.reaches(&schedule)?;
     derived.resolves(schedule.grid(), steps, momentum.as_deref())?;
     let engine = Engine::new(&derived, schedule.grid(), how)?;
-    let [chart, frame] = match derived.series().map(|series| &series.integrator.problem) {
+    let [chart, frame] = match derived.series().map(|series| &series.problem) {
         Some(problem) => [problem.chart.to_string(), problem.frame_name().to_owned()],
         None => ["collocation", "fixed"].map(str::to_owned),
     };

@@ -49,7 +49,7 @@ pub(crate) fn report(
     engine: &Engine<'_>,
     format: Format,
 ) -> String {
-    let series = system.series().map(|series| &series.integrator.problem);
+    let series = system.series().map(|series| &series.problem);
     let Outcome { trajectories, resumed, first, list, journal, seconds } = outcome;
     let (made_by, failed, redone) = (&journal.made_by, journal.rejected, journal.redone);
     let drift = journal.drift();

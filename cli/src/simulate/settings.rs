@@ -188,7 +188,7 @@ impl Header {
         ];
         match system.series() {
             Some(series) => {
-                let problem = &series.integrator.problem;
+                let problem = &series.problem;
                 let solver = match problem.solver() {
                     Solver::Newton => Solver::NAMES[0],
                     Solver::FixedPoint => Solver::NAMES[1],

@@ -15,7 +15,7 @@ use crate::smooth::Smooth;
 
 /// The integrator of a smooth Hamiltonian as items: a struct with the energy that it integrates, and the programs of this.
 #[must_use]
-pub fn collocation(smooth: &Smooth, options: &Options) -> Items {
+pub(crate) fn collocation(smooth: &Smooth, options: &Options) -> Items {
     let Options { krate, visibility, name, attributes, .. } = options;
     let types = Types::new(&smooth.algebra, Chart::Exponential, options);
     let Types { definition, tables, aliases, .. } = &types;
@@ -144,7 +144,14 @@ pub fn collocation(smooth: &Smooth, options: &Options) -> Items {
 
         #tables
     };
-    Items { opening: Vec::new(), struct_and_methods, programs }
+    let opening = format!(
+        "Written by coadjoint-codegen from H = {}; do not edit. `{name}` makes steps of order {} by collocation at {} nodes; \
+         it needs the crate coadjoint.",
+        rust_comment(&smooth.source),
+        2 * smooth.nodes(),
+        smooth.nodes()
+    );
+    Items { opening: vec![opening], struct_and_methods, programs, legend: Vec::new() }
 }
 
 /// `impl Energy`: value, gradient, and what is outside its domain.

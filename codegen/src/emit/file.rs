@@ -1,52 +1,29 @@
 //! A whole module as formatted text: for build scripts, the command line, and checking in.
 
-use coadjoint_program::quoting::rust_comment;
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use crate::emit::Options;
-use crate::emit::collocation::collocation;
-use crate::emit::header::{legend, wrapped};
-use crate::emit::item::{Items, items};
-use crate::integrator::{Integrator, Kick};
-use crate::smooth::Smooth;
+use crate::emit::header::wrapped;
+use crate::emit::item::Items;
+use crate::integrator::Kick;
 
 /// Columns of a comment.
 const WIDTH: usize = 97;
 
-/// The integrator as a Rust source file: a header that says where it comes from and how to read it,
-/// then the items, tables last, and what the coefficients mean.
+/// Items as a Rust source file: their opening, which says where they come from and how to read them, the items, tables last,
+/// and the legend of their coefficients.
 #[must_use]
-pub fn file(integrator: &Integrator, options: &Options) -> String {
-    let mut result = module(items(integrator, options));
-    let legend = legend(&integrator.coefficients);
+pub fn file(items: Items) -> String {
+    let Items { opening, struct_and_methods, programs, legend } = items;
+    let mut result = comment(opening.iter().flat_map(|paragraph| wrapped(paragraph, WIDTH)));
+    result.push('\n');
+    result.push_str(&text(quote!(#struct_and_methods #programs)));
     if !legend.is_empty() {
         let about = "The coefficients of S = Σ C(m) m that programs read, C(m) being that of the monomial m:";
         result.push('\n');
         result.push_str(&comment(std::iter::once(about.to_owned()).chain(legend)));
     }
-    result
-}
-
-/// The integrator of a Hamiltonian that is no polynomial as a Rust source file; its steps are made by collocation.
-#[must_use]
-pub fn collocation_file(smooth: &Smooth, options: &Options) -> String {
-    let opening = format!(
-        "Written by coadjoint-codegen from H = {}; do not edit. `{}` makes steps of order {} by collocation at {} nodes; \
-         it needs the crate coadjoint.",
-        rust_comment(&smooth.source),
-        options.name,
-        2 * smooth.nodes(),
-        smooth.nodes()
-    );
-    module(Items { opening: vec![opening], ..collocation(smooth, options) })
-}
-
-fn module(items: Items) -> String {
-    let Items { opening, struct_and_methods, programs } = items;
-    let mut result = comment(opening.iter().flat_map(|paragraph| wrapped(paragraph, WIDTH)));
-    result.push('\n');
-    result.push_str(&text(quote!(#struct_and_methods #programs)));
     result
 }
 

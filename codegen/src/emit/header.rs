@@ -8,6 +8,7 @@ use crate::emit::{Options, identifier};
 use crate::integrator::{Coefficients, Integrator, Kicks};
 use crate::lie::Chart;
 use crate::problem::Problem;
+use crate::smooth::Facts;
 use crate::step::{Origin, Step};
 
 /// Lines for a doc comment: source, group, chart, truncation, order, terms, operations of a step where it is printed.
@@ -69,7 +70,8 @@ pub(crate) fn opening(
         ),
         String::new(),
     ];
-    list.extend(system(Origin::Series(integrator), rust_comment));
+    let (facts, kicks) = (problem.facts(), integrator.kicks.as_ref());
+    list.extend(system(facts, kicks, &Method::of_series(integrator), rust_comment));
     list.extend(
         [
             "How to use it:",
@@ -166,36 +168,63 @@ pub(crate) fn wrapped(paragraph: &str, width: usize) -> Vec<String> {
     lines
 }
 
-/// Paragraphs about the system and a step of it; `quoted` makes a text fit for a comment.
-pub(crate) fn system(origin: Origin<'_>, quoted: fn(&str) -> String) -> Vec<String> {
-    let (source, method, error, moves) = match origin {
-        Origin::Series(integrator) => {
-            let Problem { source, chart, truncation, .. } = &integrator.problem;
-            let chart = match chart {
-                Chart::Exponential => "exponential",
-                Chart::Cayley => "Cayley",
-            };
-            let order = integrator.order();
-            let method =
-                format!("Chart: {chart}. Truncation K = {truncation}, order of accuracy {order}.");
-            (source, method, "K+2".to_owned(), false)
+/// The method of a system, for its documentation.
+pub(crate) struct Method<'a> {
+    /// The Hamiltonian as the user wrote it.
+    source: &'a str,
+    /// A sentence or two.
+    about: String,
+    /// The power of the step that its error follows.
+    error: String,
+    /// True if the Hamiltonian depends on the time.
+    moves: bool,
+}
+
+impl<'a> Method<'a> {
+    fn of_series(integrator: &'a Integrator) -> Self {
+        let Problem { source, chart, truncation, .. } = &integrator.problem;
+        let chart = match chart {
+            Chart::Exponential => "exponential",
+            Chart::Cayley => "Cayley",
+        };
+        let order = integrator.order();
+        let about =
+            format!("Chart: {chart}. Truncation K = {truncation}, order of accuracy {order}.");
+        Self { source, about, error: "K+2".to_owned(), moves: false }
+    }
+
+    /// The method of a system.
+    pub(crate) fn of(origin: &'a Origin) -> Self {
+        match origin {
+            Origin::Series(integrator) => Self::of_series(integrator),
+            Origin::Collocation(smooth) => {
+                let nodes = smooth.nodes();
+                let about = format!(
+                    "Collocation at {nodes} nodes in the exponential chart about the middle of a step, order of accuracy {}.",
+                    2 * nodes
+                );
+                let (error, moves) = ((2 * nodes + 1).to_string(), smooth.depends_on_time());
+                Self { source: &smooth.source, about, error, moves }
+            }
         }
-        Origin::Collocation(smooth) => {
-            let nodes = smooth.nodes();
-            let method = format!(
-                "Collocation at {nodes} nodes in the exponential chart about the middle of a step, order of accuracy {}.",
-                2 * nodes
-            );
-            (&smooth.source, method, (2 * nodes + 1).to_string(), smooth.depends_on_time())
-        }
-    };
+    }
+}
+
+/// Paragraphs about a system and a step of it; `quoted` makes a text fit for a comment.
+pub(crate) fn system(
+    facts: Facts<'_>,
+    kicks: Option<&Kicks>,
+    method: &Method<'_>,
+    quoted: fn(&str) -> String,
+) -> Vec<String> {
+    let Method { source, about, error, moves } = method;
     let mut list = vec![
         format!("Hamiltonian: {}", quoted(source)),
-        format!("Group: {}. {method}", quoted(origin.facts().algebra.name())),
+        format!("Group: {}. {about}", quoted(facts.algebra.name())),
     ];
-    let mut map = MAP.replace("K+2", &error);
-    map.push_str(if moves { "." } else { NEAR });
-    if let Some(Kicks { kick, splitting, .. }) = origin.kicks() {
+    let mut map = MAP.replace("K+2", error);
+    map.push_str(if *moves { "." } else { NEAR });
+    if let Some(Kicks { kick, splitting, .. }) = kicks {
         list.push(format!("Potential: {}", quoted(&kick.potential.source)));
         let (name, flows, order) = (splitting.name(), splitting.flows().len(), splitting.order());
         list.push(format!(

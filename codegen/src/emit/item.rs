@@ -12,10 +12,12 @@ use crate::emit::group::Types;
 use crate::emit::hygiene::fresh;
 use crate::emit::programs::{MOST_OPERATIONS, programs, step_operations};
 use crate::emit::table::{fold_item, last_item};
-use crate::emit::{Options, allow, header, identifier, parameter};
+use crate::emit::{
+    Options, TooManyTerms, allow, check_size, collocation, header, identifier, parameter,
+};
 use crate::integrator::{FoldTable, Integrator};
 use crate::problem::{Parameter, Shape};
-use crate::step::Step;
+use crate::step::{Origin, Step};
 
 /// An integrator as items.
 #[derive(Debug, Default)]
@@ -26,6 +28,22 @@ pub struct Items {
     pub struct_and_methods: TokenStream,
     /// The programs and tables, which are long; the names they bind end with [`Options::suffix`].
     pub programs: TokenStream,
+    /// A line for each coefficient of the series that programs read.
+    pub legend: Vec<String>,
+}
+
+/// The items of a system.
+///
+/// # Errors
+/// [`TooManyTerms`] where a series is too large for a compiler.
+pub fn items_of(origin: &Origin, options: &Options) -> Result<Items, TooManyTerms> {
+    Ok(match origin {
+        Origin::Series(integrator) => {
+            check_size(integrator)?;
+            items(integrator, options)
+        }
+        Origin::Collocation(smooth) => collocation(smooth, options),
+    })
 }
 
 /// The integrator as items, its programs and tables apart.
@@ -173,7 +191,12 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
         #tables
     };
     let opening = header::opening(integrator, options, step.as_ref());
-    Items { opening, struct_and_methods, programs }
+    Items {
+        opening,
+        struct_and_methods,
+        programs,
+        legend: header::legend(&integrator.coefficients),
+    }
 }
 
 /// `impl Lanes`: steps in lanes, where the programs of the step are printed.

@@ -24,11 +24,11 @@ use quote::{format_ident, quote};
 
 use crate::integrator::Integrator;
 
-pub use collocation::collocation;
-pub use file::{collocation_file, file, potential_items};
+use collocation::collocation;
+pub use file::{file, potential_items};
 pub use group::RUNTIME_TABLES;
 pub use hygiene::{hygienic, identifiers};
-pub use item::{Items, items};
+pub use item::{Items, items, items_of};
 pub use kick::kick;
 
 /// Lints that emitted code turns off, since it follows no style.
@@ -141,7 +141,7 @@ fn literals(terms: Option<usize>) -> String {
     })
 }
 
-/// Whether an integrator is small enough for [`file`](file()) and [`items`]:
+/// Whether an integrator is small enough for [`items`]:
 /// larger ones are written all the same, but take the compiler very long.
 ///
 /// # Errors

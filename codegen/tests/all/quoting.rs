@@ -4,7 +4,7 @@
 use crate::given::kept;
 use crate::tools::{FLAGS_C, FLAGS_CPP, Tool, scratch};
 use coadjoint_codegen::emit::c::{self, HeaderOptions, Language};
-use coadjoint_codegen::emit::{Options as RustOptions, file, potential_items};
+use coadjoint_codegen::emit::{Options as RustOptions, file, items, potential_items};
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::{Integrator, Kick};
 use coadjoint_codegen::step::{Origin, Step};
@@ -82,8 +82,8 @@ fn names_of_systems_and_algebras_stay_in_comments() {
             momentum: vec![Some(unit.to_owned()); 3],
             ..HeaderOptions::default()
         };
-        let rust = file(&integrator, &style);
-        let c = c::header(Origin::Series(&integrator), &header(name)).unwrap();
+        let rust = file(items(&integrator, &style));
+        let c = c::header(&Origin::from(integrator.clone()), &header(name)).unwrap();
         let step = Step::build(&integrator).unwrap();
         let slots = step.fold(0.1, &[]).unwrap();
         let device = |language| device_unit(step.kernel(), &slots, language, name);
@@ -105,7 +105,7 @@ fn names_of_systems_and_algebras_stay_in_comments() {
         // As the command writes it, with names from the system's.
         let integrator = own_algebra(&name);
         let own = RustOptions::for_problem(&integrator.problem.name);
-        let module = syn::parse_file(&file(&integrator, &own)).unwrap();
+        let module = syn::parse_file(&file(items(&integrator, &own))).unwrap();
         assert_eq!(module.items.len(), syn::parse_file(&rust).unwrap().items.len(), "{name}");
         assert!(own.name != "Self" && own.name != "T");
     }
@@ -135,7 +135,7 @@ fn kept_parameters_may_have_any_name() {
         problem.name = name.to_owned();
         let integrator = Integrator::build(problem, TermLimit::default()).unwrap();
         let style = RustOptions::for_problem(name);
-        let rust = file(&integrator, &style) + &potential_items(&kick, &style);
+        let rust = file(items(&integrator, &style)) + &potential_items(&kick, &style);
         syn::parse_file(&rust).unwrap();
         let folder = scratch(&format!("quoting_{name}"));
         for (language, compiler, flags, ending) in
@@ -143,7 +143,7 @@ fn kept_parameters_may_have_any_name() {
         {
             let options =
                 HeaderOptions { prefix: name.to_owned(), language, ..HeaderOptions::default() };
-            let header = c::header(Origin::Series(&integrator), &options).unwrap();
+            let header = c::header(&Origin::from(integrator.clone()), &options).unwrap();
             std::fs::write(folder.join("header.h"), header).unwrap();
             let source = folder.join(format!("main.{ending}"));
             let before = ["complex.h", "errno.h", "math.h", "stddef.h", "stdio.h"];

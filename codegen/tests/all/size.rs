@@ -53,7 +53,7 @@ fn large_systems_are_emitted_without_a_hessian_and_in_proportion() {
         let ring = ring(sites);
         assert_eq!(ring.plan.solver, Solver::FixedPoint);
         assert!(ring.hessian.is_none());
-        let code = emit::file(&ring, &emit::Options::for_problem("ring"));
+        let code = emit::file(emit::items(&ring, &emit::Options::for_problem("ring")));
         let words: String = code.split_whitespace().collect();
         assert!(
             words.contains(&format!("Power<::coadjoint::groups::SO3<T>,{sites},{},>", 3 * sites))

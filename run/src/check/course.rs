@@ -74,7 +74,7 @@ impl Course {
                 .map_err(|error| not_an_element(&system.file, &error))?,
             None => identity(space.size()),
         };
-        let group = system.group()?;
+        let group = &*system.group.exponential;
         let torque = system
             .kicks()
             .map(|kicks| Torque::new(&kicks.kick, group.clone(), &system.facts().defaults()));
@@ -91,7 +91,7 @@ impl Course {
         for n in 0..=count {
             let (time, element) = (grid.time(n), space.matrix(&state.g));
             let force = torque.as_ref().map_or(0.0, |torque| {
-                let phase = phase_of(&group, &element, &state.mu);
+                let phase = phase_of(group, &element, &state.mu);
                 let found = torque.torque(&phase.group_element, &phase.momentum, time);
                 found.map_or(0.0, |torque| torque.amax())
             });

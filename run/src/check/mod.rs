@@ -10,6 +10,7 @@ mod trial;
 use coadjoint::groups::{Cayley, Chart, DirectProduct, Exponential, MatrixGroup};
 use coadjoint::steps::advance;
 use coadjoint::{Phase, StepError, laws};
+use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;
 use coadjoint_codegen::step::rounding;
 use course::{Course, STARTS};
@@ -22,7 +23,7 @@ use crate::engine::{
 };
 use crate::error::RunError;
 use crate::grid::Grid;
-use crate::load::{Derived, Expansion, Flow};
+use crate::load::Derived;
 use crate::number::maximum;
 
 pub use law::{Law, Verdict};
@@ -52,15 +53,15 @@ pub fn unmeasured(system: &Derived) -> Option<String> {
 pub fn check(system: &Derived, trial: &Trial) -> Result<(Vec<Law>, Option<f64>), RunError> {
     let course = Course::new(system, trial)?;
     if system.damping.is_some() {
-        return Ok((laws_of_steps(system, trial, &course, &system.group()?)?, None));
+        return Ok((laws_of_steps(system, trial, &course, &system.group.exponential)?, None));
     }
     let group = product_group(&system.file, system.facts().algebra)?;
-    let (mut laws, ratio) = match &system.flow {
-        Flow::Collocation(..) => {
+    let (mut laws, ratio) = match system.series() {
+        None => {
             let alone = system.without_kicks();
             (laws_of_steps(alone.as_ref().unwrap_or(system), trial, &course, &group)?, None)
         }
-        Flow::Series(series) => match series.integrator.problem.chart {
+        Some(series) => match series.problem.chart {
             lie::Chart::Exponential => laws_of::<_, Exponential>(series, trial, &course, group)?,
             lie::Chart::Cayley => {
                 laws_of::<_, Cayley>(series, trial, &course, cayley_group(&system.file, &group)?)?
@@ -88,12 +89,12 @@ const LAWS: [(&str, &str, &str); 6] = [
 ];
 
 fn laws_of<G: Group + Restore, C: Chart<G> + Send + Sync>(
-    series: &Expansion,
+    integrator: &Integrator,
     trial: &Trial,
     course: &Course,
     group: G,
 ) -> Result<(Vec<Law>, Option<f64>), RunError> {
-    let (integrator, h) = (&series.integrator, trial.step);
+    let h = trial.step;
     let make = |h| Interpreter::<G, C>::new(integrator, group.clone(), h, &[]);
     let there = make(h).map_err(RunError::unmade)?;
     let back = make(-h).map_err(RunError::unmade)?;
@@ -206,14 +207,14 @@ fn kicked(
     trial: &Trial,
     course: &Course,
 ) -> Result<Vec<Law>, RunError> {
-    let (&Trial { start, step: h, .. }, group) = (trial, system.group()?);
+    let (&Trial { start, step: h, .. }, group) = (trial, &*system.group.exponential);
     let grids = [Grid { start, step: h }, Grid { start: start + h, step: -h }];
     let [there, back] = grids.map(|grid| system.steps(grid, None).map_err(RunError::unmade));
     let (there, back) = (there?, back?);
     let made = |motion: &dyn Motion, state: &mut Phase<_>, time| {
-        moved(motion, &group, state, |motion, state| motion.one_at(state, time))
+        moved(motion, group, state, |motion, state| motion.one_at(state, time))
     };
-    let states = course.states(trial, (&group, true), |point| {
+    let states = course.states(trial, (group, true), |point| {
         made(&*there, &mut point.clone(), start)?;
         made(&*back, &mut point.clone(), start + h)
     });
@@ -221,7 +222,7 @@ fn kicked(
     let (mut symplectic, mut symmetric): (Option<f64>, _) = (None, 0.0_f64);
     for point in points.iter().filter(|_| hamiltonian) {
         let mut step = |state: &mut _| made(&*there, state, start);
-        let defect = laws::symplectic_defect_of(&group, point, &mut step);
+        let defect = laws::symplectic_defect_of(group, point, &mut step);
         let defect = defect.map_err(RunError::at(start))?;
         // Where differences do not settle, the other points tell.
         symplectic = match (symplectic, defect) {
@@ -240,12 +241,12 @@ fn kicked(
     let symmetric = Law::at_most("symmetric+V", statement, symmetric, 1e-11);
     let order = unmeasured(system).is_none().then(|| {
         let starts = match course.is_known() {
-            true => course.forced(&group, h, STARTS),
+            true => course.forced(group, h, STARTS),
             false => starts,
         };
         let expected = f64::from(system.order());
-        let mut order = measured(h, expected, &group, &starts, &mut |steps, from, state| {
-            advanced(system, &group, state, steps, from)
+        let mut order = measured(h, expected, group, &starts, &mut |steps, from, state| {
+            advanced(system, group, state, steps, from)
         });
         if starts.is_empty() {
             let why = "the force does not act on the part of the run that is looked at";

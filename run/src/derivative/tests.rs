@@ -215,7 +215,7 @@ fn tangents_are_the_derivatives_of_runs() {
 fn tangents_of_a_step_are_those_in_doubled_precision() {
     for case in &CASES[..2] {
         let system = case.system();
-        let problem = &system.series().unwrap().integrator.problem;
+        let problem = &system.series().unwrap().problem;
         let (theta, n) = (system.facts().defaults(), problem.algebra.dim());
         let judge = Judge::of_problem(problem, TermLimit::default()).unwrap();
         let at = |column: usize, s: f64| {

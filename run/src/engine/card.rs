@@ -11,7 +11,7 @@ use crate::grid::Grid;
 
 /// The programs of a step in this precision, and their folded coefficients. `option` is what the user asked for them by.
 fn programs(
-    origin: Origin<'_>,
+    origin: &Origin,
     step_size: f64,
     precision: Precision,
     option: &str,
@@ -30,7 +30,7 @@ fn programs(
             "a step has {operations} operations, more than the {MOST_OPERATIONS} that are compiled; lower the truncation"
         )));
     }
-    let slots = coefficients(origin, &step, step_size, &[]).map_err(RunError::unmade)?;
+    let slots = coefficients(&step, step_size, &[]).map_err(RunError::unmade)?;
     Ok((step, slots))
 }
 
@@ -39,7 +39,7 @@ fn programs(
 /// # Errors
 /// Where they are not made of programs, or the device cannot be had.
 pub(crate) fn card(
-    origin: Origin<'_>,
+    origin: &Origin,
     grid: Grid,
     device: Device,
     precision: Precision,
@@ -54,7 +54,7 @@ pub(crate) fn card(
 /// # Errors
 /// Where they are not made of programs.
 pub(crate) fn device_text(
-    origin: Origin<'_>,
+    origin: &Origin,
     step_size: f64,
     precision: Precision,
     language: DeviceLanguage,

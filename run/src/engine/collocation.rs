@@ -10,7 +10,6 @@ use coadjoint::{Phase, StepError};
 use coadjoint_codegen::cancel;
 use coadjoint_codegen::integrator::Kicks;
 use coadjoint_codegen::smooth::Smooth;
-use coadjoint_codegen::step::Origin;
 use nalgebra::DVector;
 
 use super::compiled::{Compiled, Folded, Numbers, Solved, Solves};
@@ -29,20 +28,14 @@ use crate::grid::Grid;
 /// Where the size makes no sense, or an expression in the parameters is not finite.
 pub(crate) fn collocated<'a>(
     smooth: &'a Smooth,
-    group: &Arc<Group>,
+    elements: Elements<Group>,
     grid: Grid,
     parameters: &[f64],
-    compiled: Option<&Arc<Compiled>>,
 ) -> Result<Box<dyn Varied + 'a>, StepError> {
-    let own = |compiled: &Arc<Compiled>| {
-        compiled.anew(Origin::Collocation(smooth), grid.step, parameters).map(Arc::new)
-    };
-    let compiled = compiled.map(own).transpose()?;
     let energy = Interpreted::new(smooth, parameters);
     if let Some(value) = energy.symbols.iter().copied().find(|value| !value.is_finite()) {
         return Err(StepError::InvalidParameter { name: "of the Hamiltonian", value });
     }
-    let elements = Elements { group: group.clone(), compiled };
     Ok(match smooth.nodes() {
         1 => Box::new(Collocated::<1>::new(elements, energy, grid)?),
         2 => Box::new(Collocated::<2>::new(elements, energy, grid)?),
@@ -222,8 +215,8 @@ impl<const M: usize> Motion for Collocated<'_, M> {
     fn beside(&self, state: &Numbers, time: f64, size: f64) -> Result<Numbers, StepError> {
         let mut state = state.clone();
         if let Some(compiled) = &self.elements.compiled {
-            let Interpreted { smooth, parameters, .. } = self.step().energy().clone();
-            let other = compiled.anew(Origin::Collocation(smooth), size, &parameters)?;
+            let parameters = self.step().energy().parameters.clone();
+            let other = compiled.anew(size, &parameters)?;
             if other.one_at(&mut state, time) {
                 return Ok(state);
             }

@@ -87,7 +87,7 @@ pub(crate) struct Programs {
 }
 
 impl Programs {
-    fn build(origin: Origin<'_>) -> Result<Arc<Self>, step::StepError> {
+    fn build(origin: &Origin) -> Result<Arc<Self>, step::StepError> {
         let step = origin.step(Precision::Double)?;
         let spatial = Spatial::new(&step);
         Ok(Arc::new(Self { step, spatial }))
@@ -105,7 +105,7 @@ impl Kept {
     ///
     /// # Errors
     /// The reason for which there are none.
-    pub(crate) fn programs(&self, origin: Origin<'_>) -> Result<Arc<Programs>, step::StepError> {
+    pub(crate) fn programs(&self, origin: &Origin) -> Result<Arc<Programs>, step::StepError> {
         match self.programs.get() {
             Some(programs) => Ok(programs.clone()),
             None => Programs::build(origin)
@@ -139,6 +139,8 @@ impl Kept {
 pub(crate) struct Folded {
     /// The size of a step.
     size: f64,
+    /// The values of the parameters that are kept.
+    parameters: Vec<f64>,
     /// The coefficients.
     slots: Vec<f64>,
     /// The |μ| up to which the ratio of the last two terms of the series is at most [`STEEP`]; 0 where it is not known.
@@ -179,7 +181,7 @@ impl Compiled {
     /// # Errors
     /// Where the backend that the user named cannot be had.
     pub(crate) fn new(
-        origin: Origin<'_>,
+        origin: &Origin,
         size: f64,
         backend: Backend,
         steps: f64,
@@ -205,7 +207,7 @@ impl Compiled {
             ));
         }
         let backend = if large { Backend::Interpreter } else { backend };
-        let folded = fold(origin, step, size, &origin.facts().defaults());
+        let folded = fold(step, size, &origin.facts().defaults());
         let folded = folded.map_err(RunError::unmade)?;
         let framed = parts.frame.is_some();
         let code = match kept.find(backend, trajectories) {
@@ -225,43 +227,39 @@ impl Compiled {
         self.folded = folded;
     }
 
-    /// The same steps of another size or for other values of the parameters.
+    /// These steps with another size or other values of the parameters.
     ///
     /// # Errors
     /// Where a coefficient is not finite.
     pub(crate) fn anew(
-        &self,
-        origin: Origin<'_>,
+        self: &Arc<Self>,
         size: f64,
         parameters: &[f64],
-    ) -> Result<Self, StepError> {
-        let folded = self.fold(origin, size, parameters)?;
-        Ok(Self { folded, ..self.clone() })
+    ) -> Result<Arc<Self>, StepError> {
+        if self.folded.size == size && self.folded.parameters == parameters {
+            return Ok(self.clone());
+        }
+        let folded = self.fold(size, parameters)?;
+        Ok(Arc::new(Self { folded, ..(**self).clone() }))
     }
 
     /// What the programs read for another size or other values of the parameters.
     ///
     /// # Errors
     /// Where a coefficient is not finite.
-    pub(crate) fn fold(
-        &self,
-        origin: Origin<'_>,
-        size: f64,
-        parameters: &[f64],
-    ) -> Result<Folded, StepError> {
-        fold(origin, &self.programs.step, size, parameters)
+    pub(crate) fn fold(&self, size: f64, parameters: &[f64]) -> Result<Folded, StepError> {
+        fold(&self.programs.step, size, parameters)
     }
 
     /// The same for at most [`WIDTH`] rows of values of the parameters, side by side.
     pub(crate) fn fold_rows(
         &self,
-        origin: Origin<'_>,
         size: f64,
         parameters: &[Vec<f64>],
     ) -> Vec<Result<Folded, StepError>> {
         // Kicks have a list of coefficients for each flow.
         if self.kernel().flows().is_some() {
-            return parameters.iter().map(|own| self.fold(origin, size, own)).collect();
+            return parameters.iter().map(|own| self.fold(size, own)).collect();
         }
         let step = &self.programs.step;
         // Lanes without a row have the numbers of the first one.
@@ -269,19 +267,18 @@ impl Compiled {
         let count = parameters.first().map_or(0, Vec::len);
         let beside = |i: usize| from_fn(|lane| of(lane).map_or(f64::NAN, |own| own[i]));
         let beside: Vec<[f64; WIDTH]> = (0..count).map(beside).collect();
-        let symbols = origin.symbols().iter().map(|symbol| symbol.expr.evaluate_rows(&beside));
-        let symbols: Vec<_> = symbols.collect();
-        match step.fold_rows(size, &symbols, STEEP) {
+        match step.fold_rows(size, &step.symbols_of_rows(&beside), STEEP) {
             Ok((slots, quiet)) => {
                 let own = |lane: usize| Folded {
                     size,
+                    parameters: parameters[lane].clone(),
                     slots: slots.iter().map(|slot| slot[lane]).collect(),
                     quiet: quiet[lane],
                 };
                 (0..parameters.len()).map(|lane| Ok(own(lane))).collect()
             }
             // Of one row, perhaps.
-            Err(_) => parameters.iter().map(|own| self.fold(origin, size, own)).collect(),
+            Err(_) => parameters.iter().map(|own| self.fold(size, own)).collect(),
         }
     }
 
@@ -410,31 +407,20 @@ impl Compiled {
 /// # Errors
 /// Where one is not finite.
 pub(super) fn coefficients(
-    origin: Origin<'_>,
     step: &Step,
     size: f64,
     parameters: &[f64],
 ) -> Result<Vec<f64>, StepError> {
-    step.fold(size, parameters).map_err(|error| refusal(error, size, &symbols(origin, parameters)))
+    step.fold(size, parameters).map_err(|error| refusal(error, size, &step.symbols(parameters)))
 }
 
-/// The values of the symbols for these of the parameters.
-fn symbols(origin: Origin<'_>, parameters: &[f64]) -> Vec<f64> {
-    origin.symbols().iter().map(|symbol| symbol.expr.evaluate(parameters)).collect()
-}
-
-fn fold(
-    origin: Origin<'_>,
-    step: &Step,
-    size: f64,
-    parameters: &[f64],
-) -> Result<Folded, StepError> {
+fn fold(step: &Step, size: f64, parameters: &[f64]) -> Result<Folded, StepError> {
     if step.kernel().flows().is_some() {
-        let slots = coefficients(origin, step, size, parameters)?;
-        return Ok(Folded { size, slots, quiet: 0.0 });
+        let slots = coefficients(step, size, parameters)?;
+        return Ok(Folded { size, parameters: parameters.to_vec(), slots, quiet: 0.0 });
     }
-    let symbols = symbols(origin, parameters);
+    let symbols = step.symbols(parameters);
     let folded = step.fold_rows(size, &symbols, STEEP);
     let (slots, quiet) = folded.map_err(|error| refusal(error, size, &symbols))?;
-    Ok(Folded { size, slots, quiet })
+    Ok(Folded { size, parameters: parameters.to_vec(), slots, quiet })
 }

@@ -4,10 +4,8 @@ use std::sync::Arc;
 
 use coadjoint::collocation::{Damping, Energy, Undefined};
 use coadjoint::{Phase, StepError};
-use coadjoint_codegen::integrator::Kick;
 use coadjoint_codegen::poly::Numeric;
-use coadjoint_codegen::problem::Problem;
-use coadjoint_codegen::smooth::Smooth;
+use coadjoint_codegen::step::Origin;
 use nalgebra::DVector;
 
 use super::collocation::{Group, Interpreted};
@@ -31,31 +29,23 @@ pub(crate) struct Damper {
     pub group: Arc<Group>,
 }
 
-/// The Hamiltonian of the steps.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Source<'a> {
-    /// A polynomial.
-    Polynomial(&'a Problem),
-    /// Another smooth function.
-    Smooth(&'a Smooth),
-}
-
-/// The same for values of the parameters that are kept.
+/// The Hamiltonian of the steps for values of the parameters that are kept.
 enum Given<'a> {
     Polynomial(Numeric, Vec<Numeric>),
     Smooth(Interpreted<'a>),
 }
 
-impl<'a> Source<'a> {
-    fn given(self, parameters: &[f64]) -> Given<'a> {
-        match self {
-            Self::Polynomial(problem) => {
+impl<'a> Given<'a> {
+    fn new(origin: &'a Origin, parameters: &[f64]) -> Self {
+        match origin {
+            Origin::Series(integrator) => {
+                let problem = &integrator.problem;
                 let (dim, symbols) = (problem.algebra.dim(), symbols(problem, parameters));
                 let value = Numeric::new(&problem.hamiltonian, dim, &symbols);
                 let gradient = value.gradient(dim);
-                Given::Polynomial(value, gradient)
+                Self::Polynomial(value, gradient)
             }
-            Self::Smooth(smooth) => Given::Smooth(Interpreted::new(smooth, parameters)),
+            Origin::Collocation(smooth) => Self::Smooth(Interpreted::new(smooth, parameters)),
         }
     }
 }
@@ -89,21 +79,20 @@ impl Energy<DVector<f64>> for Given<'_> {
 pub(crate) struct Damped<'a> {
     motion: Box<dyn Varied + 'a>,
     damper: &'a Damper,
-    energy: Source<'a>,
-    kick: Option<&'a Kick>,
+    origin: &'a Origin,
     damp: Result<Damp<'a>, StepError>,
 }
 
 impl<'a> Damped<'a> {
-    /// Of these steps, with these kicks if there are any, for these values of the parameters that are kept.
+    /// These steps of this system between halves of damping, for these values of the parameters that are kept.
     pub(crate) fn new(
         motion: Box<dyn Varied + 'a>,
         damper: &'a Damper,
-        (energy, kick): (Source<'a>, Option<&'a Kick>),
+        origin: &'a Origin,
         parameters: &[f64],
     ) -> Self {
-        let damp = damp(damper, (energy, kick), parameters);
-        Self { motion, damper, energy, kick, damp }
+        let damp = damp(damper, origin, parameters);
+        Self { motion, damper, origin, damp }
     }
 
     /// `step` from this time, of this size, between halves of damping.
@@ -138,15 +127,16 @@ impl<'a> Damped<'a> {
 /// The damping of this Hamiltonian and of the potential of kicks: the mean slope of H is that in the middle where it is quadratic.
 fn damp<'a>(
     damper: &Damper,
-    (energy, kick): (Source<'a>, Option<&'a Kick>),
+    origin: &'a Origin,
     parameters: &[f64],
 ) -> Result<Damp<'a>, StepError> {
-    let (group, given) = ((*damper.group).clone(), energy.given(parameters));
+    let (group, given) = ((*damper.group).clone(), Given::new(origin, parameters));
     let rates = DVector::from_column_slice(&damper.rates);
     // A torque without potential has no energy that could fall.
+    let kick = origin.kicks().map(|kicks| &kicks.kick);
     let kick = kick.filter(|kick| kick.potential.alone().is_none());
     let torque = kick.map(|kick| Torque::new(kick, group.clone(), parameters)).transpose()?;
-    if matches!(energy, Source::Polynomial(problem) if problem.is_quadratic()) {
+    if origin.series().is_some_and(|series| series.problem.is_quadratic()) {
         return Ok(damp_by(Damping::<_, _, 1>::new(group, given, rates)?, torque));
     }
     Ok(damp_by(Damping::<_, _, 8>::new(group, given, rates)?, torque))
@@ -215,6 +205,6 @@ impl Motion for Damped<'_> {
 impl Varied for Damped<'_> {
     fn vary(&mut self, parameters: &[f64], folded: Option<Folded>) {
         self.motion.vary(parameters, folded);
-        self.damp = damp(self.damper, (self.energy, self.kick), parameters);
+        self.damp = damp(self.damper, self.origin, parameters);
     }
 }

@@ -14,6 +14,7 @@ use coadjoint_codegen::step::Origin;
 use coadjoint_codegen::{in_other_frame, lie};
 use nalgebra::DVector;
 
+use super::collocation::collocated;
 use super::compiled::{Compiled, Folded, Numbers, Solved, Solves};
 use super::interpreter::Interpreter;
 use super::kick::{Map, Torque, longest_flow, map};
@@ -141,13 +142,13 @@ impl Equations<'_> {
     }
 }
 
-/// A group known at run time, with its chart.
-#[derive(Debug)]
-pub(crate) enum Charted {
-    /// With the exponential.
-    Exponential(Arc<DirectProduct<MatrixGroup>>),
-    /// With the Cayley map.
-    Cayley(Arc<DirectProduct<CayleyMatrixGroup>>),
+/// A group known at run time.
+#[derive(Clone, Debug)]
+pub(crate) struct Charted {
+    /// The group with the exponential.
+    pub exponential: Arc<DirectProduct<MatrixGroup>>,
+    /// The group with the Cayley map, if steps are made in that chart.
+    pub cayley: Option<Arc<DirectProduct<CayleyMatrixGroup>>>,
 }
 
 impl Charted {
@@ -160,48 +161,43 @@ impl Charted {
         group: DirectProduct<MatrixGroup>,
         chart: lie::Chart,
     ) -> Result<Self, RunError> {
-        Ok(match chart {
-            lie::Chart::Exponential => Self::Exponential(Arc::new(group)),
-            lie::Chart::Cayley => Self::Cayley(Arc::new(cayley_group(file, &group)?)),
-        })
+        let cayley = match chart {
+            lie::Chart::Exponential => None,
+            lie::Chart::Cayley => Some(Arc::new(cayley_group(file, &group)?)),
+        };
+        Ok(Self { exponential: Arc::new(group), cayley })
     }
 
-    /// The same for another size of steps or other values of the parameters, by the same programs.
+    /// The steps of this grid for these values of the parameters that a system keeps: by programs where there are any.
     ///
     /// # Errors
-    /// Where a coefficient is not finite.
-    pub(crate) fn anew<'a>(
-        &self,
-        equations: Equations<'a>,
-        grid: Grid,
-        compiled: Option<&Arc<Compiled>>,
-    ) -> Result<Box<dyn Varied + 'a>, StepError> {
-        let Equations { integrator, parameters, .. } = &equations;
-        let origin = Origin::Series(integrator);
-        let folded = compiled.map(|compiled| compiled.fold(origin, grid.step, parameters));
-        let (folded, parameters) = (folded.transpose()?, parameters.clone());
-        let mut steps = self.steps(equations, grid, compiled.cloned());
-        steps.vary(&parameters, folded);
-        Ok(steps)
-    }
-
-    /// The steps of this grid: by programs where there are any.
+    /// Where the size makes no sense, or a coefficient is not finite.
     pub(crate) fn steps<'a>(
         &self,
-        equations: Equations<'a>,
+        origin: &'a Origin,
         grid: Grid,
-        compiled: Option<Arc<Compiled>>,
-    ) -> Box<dyn Varied + 'a> {
-        match self {
-            Self::Exponential(group) => {
-                let elements = Elements { group: group.clone(), compiled };
-                Box::new(Steps::<_, Exponential>::new(elements, equations, grid))
+        parameters: &[f64],
+        compiled: Option<&Arc<Compiled>>,
+    ) -> Result<Box<dyn Varied + 'a>, StepError> {
+        let compiled = compiled.map(|own| own.anew(grid.step, parameters)).transpose()?;
+        let (group, parameters) = (self.exponential.clone(), parameters.to_vec());
+        let integrator = match origin {
+            Origin::Series(integrator) => integrator,
+            Origin::Collocation(smooth) => {
+                return collocated(smooth, Elements { group, compiled }, grid, &parameters);
             }
-            Self::Cayley(group) => {
-                let elements = Elements { group: group.clone(), compiled };
-                Box::new(Steps::<_, Cayley>::new(elements, equations, grid))
+        };
+        let equations = Equations { integrator, parameters };
+        Ok(match self.cayley.clone() {
+            None => Box::new(Steps::<_, Exponential>::new(
+                Elements { group, compiled },
+                equations,
+                grid,
+            )),
+            Some(group) => {
+                Box::new(Steps::<_, Cayley>::new(Elements { group, compiled }, equations, grid))
             }
-        }
+        })
     }
 }
 

@@ -527,7 +527,7 @@ impl<'a> Engine<'a> {
         course: &Course,
         watch: &Watch<'_>,
     ) -> Vec<Way> {
-        let (origin, places) = (self.system.origin(), self.places(layout));
+        let places = self.places(layout);
         let part = |stop: &Stop| Grid { start: self.grid.time(stop.step), step: stop.part };
         let grids: Vec<Grid> =
             [self.grid].into_iter().chain(course.stops.iter().map(part)).collect();
@@ -543,8 +543,7 @@ impl<'a> Engine<'a> {
             let parameters: Vec<Vec<f64>> = parameters.collect();
             let fold = |&Grid { step, .. }: &Grid| {
                 let compiled = self.compiled.as_ref().filter(|_| step != 0.0);
-                let rows = compiled.zip(origin);
-                let rows = rows.map(|(own, origin)| own.fold_rows(origin, step, &parameters));
+                let rows = compiled.map(|own| own.fold_rows(step, &parameters));
                 rows.unwrap_or_default().into_iter()
             };
             let mut folded: Vec<_> = grids.iter().map(fold).collect();

@@ -126,9 +126,9 @@ pub fn run_model(
     let chart = if model.chart == "cayley" { lie::Chart::Cayley } else { lie::Chart::Exponential };
     let group = Charted::new(file, product_group(file, algebra)?, chart)?;
     let grid = setup.schedule.grid();
-    let motion: Box<dyn Motion + '_> = match &group {
-        Charted::Exponential(group) => Box::new(Learned::<_, Exponential>::new(group, model, grid)),
-        Charted::Cayley(group) => Box::new(Learned::<_, Cayley>::new(group, model, grid)),
+    let motion: Box<dyn Motion + '_> = match &group.cayley {
+        None => Box::new(Learned::<_, Exponential>::new(&group.exponential, model, grid)),
+        Some(group) => Box::new(Learned::<_, Cayley>::new(group, model, grid)),
     };
     let start = setup.start(file, motion.space())?;
     let (mut outcome, ..) =

@@ -10,6 +10,7 @@ mod closed;
 mod collocation;
 mod drift;
 mod error;
+mod origin;
 mod product;
 mod programs;
 mod solving;
@@ -27,9 +28,8 @@ use crate::expr::ParameterExpr;
 use crate::graph::{Graph, Id, Program};
 use crate::integrator::{FoldTable, Integrator, Kicks};
 use crate::lie::{Chart, LieAlgebra, catalogue};
-use crate::problem::Symbol;
 use crate::signal::Signal;
-use crate::smooth::{Facts, Smooth};
+use crate::smooth::Smooth;
 use crate::step::solving::Scheme;
 use crate::step::tables::Tables;
 use closed::closed;
@@ -41,6 +41,7 @@ pub use drift::{
 pub use drift::{MEASURABLE, NUDGE, rounding};
 pub(crate) use error::MOST_OF_TABLES;
 pub use error::StepError;
+pub use origin::Origin;
 #[cfg(feature = "spatial")]
 pub use spatial::Spatial;
 
@@ -57,58 +58,6 @@ pub struct Step {
     /// The times among the coefficients, where a step depends on them.
     moving: Option<Moving>,
     memory: usize,
-}
-
-/// A system that the programs of a step are made from.
-#[derive(Clone, Copy, Debug)]
-pub enum Origin<'a> {
-    /// A polynomial, by its series.
-    Series(&'a Integrator),
-    /// A smooth Hamiltonian, by collocation.
-    Collocation(&'a Smooth),
-}
-
-impl<'a> Origin<'a> {
-    /// The programs of a step in numbers of this precision.
-    ///
-    /// # Errors
-    /// [`StepError`] where it has none.
-    pub fn step(self, precision: Precision) -> Result<Step, StepError> {
-        match self {
-            Self::Series(integrator) => {
-                if precision == Precision::Single && !integrator.frame.is_empty() {
-                    return Err(StepError::SingleFrame);
-                }
-                let step = Step::build(integrator)?;
-                Ok(Step { kernel: step.kernel.in_precision(precision), ..step })
-            }
-            Self::Collocation(smooth) => Step::by_collocation(smooth, precision),
-        }
-    }
-
-    /// The facts of the system.
-    pub fn facts(self) -> Facts<'a> {
-        match self {
-            Self::Series(integrator) => integrator.problem.facts(),
-            Self::Collocation(smooth) => smooth.facts(),
-        }
-    }
-
-    /// The expressions in parameters that coefficients are made of.
-    pub fn symbols(self) -> &'a [Symbol] {
-        match self {
-            Self::Series(integrator) => &integrator.problem.symbols,
-            Self::Collocation(smooth) => &smooth.symbols,
-        }
-    }
-
-    /// The kicks between flows, where there are any.
-    pub fn kicks(self) -> Option<&'a Kicks> {
-        match self {
-            Self::Series(integrator) => integrator.kicks.as_ref(),
-            Self::Collocation(smooth) => smooth.kicks.as_ref(),
-        }
-    }
 }
 
 /// The times at which the programs of a step read the time and the signals then.
@@ -213,14 +162,18 @@ impl Step {
         &self.kernel
     }
 
+    /// The values of the expressions that coefficients are made of, for these of the parameters that are kept.
+    pub fn symbols(&self, parameters: &[f64]) -> Vec<f64> {
+        self.symbols.iter().map(|symbol| symbol.evaluate(parameters)).collect()
+    }
+
     /// All numbers that the programs read as coefficients, for a step size and the parameters' scalars. With kicks there is
     /// a list for each flow and one for the last kick, one after the other.
     ///
     /// # Errors
     /// [`FoldError`] where the step size is zero, or a number is not finite.
     pub fn fold(&self, step: f64, parameters: &[f64]) -> Result<Vec<f64>, FoldError> {
-        let symbols: Vec<f64> =
-            self.symbols.iter().map(|symbol| symbol.evaluate(parameters)).collect();
+        let symbols = self.symbols(parameters);
         let Some(splitting) = self.splitting else {
             let mut slots = self.fold.fold(step, &symbols)?;
             slots.resize(slots.len().max(self.kernel.slots()), f64::NAN);
@@ -275,6 +228,11 @@ impl Step {
     pub fn forget(&self, g: &mut [f64]) {
         let own = g.len().saturating_sub(self.memory);
         g[own..].fill(0.0);
+    }
+
+    /// The values of the same expressions for rows of parameters side by side.
+    pub fn symbols_of_rows<T: Values>(&self, parameters: &[T]) -> Vec<T> {
+        self.symbols.iter().map(|symbol| symbol.evaluate_rows(parameters)).collect()
     }
 
     /// The coefficients of a flow, of rows side by side, for the values of the symbols; and the |μ| up to which the last two

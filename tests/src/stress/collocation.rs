@@ -147,7 +147,7 @@ fn programs(group: &'static str, nodes: usize) -> Arc<Programs> {
         else {
             panic!("a root is no polynomial")
         };
-        let step = Origin::Collocation(&smooth).step(Precision::Double).expect("a kernel");
+        let step = Origin::Collocation(smooth).step(Precision::Double).expect("a kernel");
         Arc::new(Programs { spatial: Spatial::new(&step), step })
     };
     Arc::clone(known.entry((group, nodes)).or_insert_with(build))

@@ -62,7 +62,7 @@ impl Subject {
             ("SE3", "ln(2 + a^2 + b^2/2) + cos(c)/3 + (3 + d^2)^(2/3) + atan(e)*f"),
         ]) {
             let smooth = smooth(group, hamiltonian, TRUNCATION);
-            let step = Origin::Collocation(&smooth).step(Precision::Double).unwrap();
+            let step = Origin::from(smooth.clone()).step(Precision::Double).unwrap();
             let group = matrix_group(&smooth.algebra).unwrap();
             let name = format!("{hamiltonian} on {}, collocation", smooth.algebra.name());
             all.push(Self { name, step, group });

@@ -14,7 +14,7 @@ use coadjoint_tests::stress::Random;
 
 /// The momenta after steps from the time 0.3, and the most sweeps of one.
 fn by_kernel(smooth: &Smooth, h: f64, steps: u64, mu: &[f64]) -> (Vec<f64>, Vec<f64>, u32) {
-    let step = Origin::Collocation(smooth).step(Precision::Double).unwrap();
+    let step = Origin::from(smooth.clone()).step(Precision::Double).unwrap();
     let kernel = step.kernel();
     let mut slots = step.fold(h, &[]).unwrap();
     let size = (kernel.programs.matrix.outputs().len() as f64).sqrt() as usize;
@@ -116,7 +116,7 @@ fn kernels_make_the_steps_of_the_runtime() {
 /// Of steps of all lengths from random momenta, those that a kernel accepts are the runtime's, which accepts them too.
 fn accepted<G: LieGroup<Scalar = f64>, const M: usize>(group: &G, name: &str, hamiltonian: &str) {
     let smooth = smooth(name, hamiltonian, 2 * M - 1);
-    let step = Origin::Collocation(&smooth).step(Precision::Double).unwrap();
+    let step = Origin::from(smooth.clone()).step(Precision::Double).unwrap();
     let symbols = smooth.symbols_at(&[]);
     let energy = AtSymbols(&smooth, &symbols);
     let mut random = Random::new(17);

@@ -65,7 +65,7 @@ impl Ready {
 /// Steps of a Hamiltonian that moves in time.
 fn driven() -> Ready {
     let smooth = smooth("SO3", "sqrt(1 + a^2/3 + b^2/4) + c^2/5 + cos(2*t)*a/4", 5);
-    let step = Origin::Collocation(&smooth).step(Precision::Double).unwrap();
+    let step = Origin::from(smooth).step(Precision::Double).unwrap();
     let slots = step.fold(0.1, &[]).unwrap();
     Ready { name: "driven".to_owned(), step, slots }
 }
@@ -76,9 +76,10 @@ fn momentum(n: usize, size: f64, seed: usize) -> Vec<f64> {
 
 fn ready(text: &str, truncation: usize, h: f64, precision: Precision) -> Ready {
     let integrator = integrator(text, truncation);
-    let step = Origin::Series(&integrator).step(precision).unwrap();
+    let name = format!("{}, {precision}", integrator.problem.name);
+    let step = Origin::from(integrator).step(precision).unwrap();
     let slots = unlimited(&step, h);
-    Ready { name: format!("{}, {precision}", integrator.problem.name), step, slots }
+    Ready { name, step, slots }
 }
 
 fn integrator(text: &str, truncation: usize) -> Integrator {
@@ -410,10 +411,10 @@ fn single_precision_keeps_the_laws_to_its_rounding() {
 #[test]
 fn frames_and_times_in_single_precision_are_refused() {
     let integrator = integrator(FRAMED, 7);
-    let refused = Origin::Series(&integrator).step(Precision::Single).unwrap_err();
+    let refused = Origin::from(integrator).step(Precision::Single).unwrap_err();
     assert_eq!(refused, StepError::SingleFrame);
     let moving = smooth("SO3", "a^2/3 + b^2*cos(t)", 5);
-    let refused = Origin::Collocation(&moving).step(Precision::Single).unwrap_err();
+    let refused = Origin::from(moving).step(Precision::Single).unwrap_err();
     assert_eq!(refused, StepError::SingleTime);
 }
 

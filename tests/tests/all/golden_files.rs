@@ -18,7 +18,10 @@ fn the_module_of_a_learned_model_is_the_committed_one() {
     let model = ModelFile::load(Path::new("reference/learned_body.json")).unwrap();
     let problem = problem(&model, "learned").unwrap();
     let integrator = Integrator::build(problem, TermLimit::default()).unwrap();
-    golden("learned.rs", &emit::file(&integrator, &emit::Options::for_problem("learned")));
+    golden(
+        "learned.rs",
+        &emit::file(emit::items(&integrator, &emit::Options::for_problem("learned"))),
+    );
 }
 
 /// The build script emitted the same, byte for byte: another process, and another profile.
@@ -28,7 +31,7 @@ fn emission_is_deterministic() {
     for source in emitted::SYSTEMS {
         let integrator = emitted::from_function(source).unwrap();
         let name = &integrator.problem.name;
-        let text = emit::file(&integrator, &emit::Options::for_problem(name));
+        let text = emit::file(emit::items(&integrator, &emit::Options::for_problem(name)));
         assert!(earlier(&format!("emitted/{name}")).unwrap() == text, "{name}");
     }
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("weighted_body.rs");

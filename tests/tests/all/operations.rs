@@ -7,8 +7,6 @@
 use std::fmt::Write as _;
 
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
-use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::smooth::Hamiltonian;
 use coadjoint_codegen::step::{Origin, Step};
 use coadjoint_codegen::system::{Options, read_either};
 use coadjoint_program::{Node, Precision, Program};
@@ -21,13 +19,8 @@ fn example(name: &str, chart: Option<&str>) -> Step {
     if let Some(chart) = chart {
         text = text.replace("[integrator]", &format!("[integrator]\nchart = {chart:?}"));
     }
-    match read_either(&text, Options::default(), &[]).unwrap().problem {
-        Hamiltonian::Smooth(smooth) => Origin::Collocation(&smooth).step(Precision::Double),
-        Hamiltonian::Polynomial(problem, _) => {
-            Step::build(&Integrator::build(*problem, TermLimit::default()).unwrap())
-        }
-    }
-    .unwrap()
+    let problem = read_either(&text, Options::default(), &[]).unwrap().problem;
+    Origin::derive(problem, TermLimit::default()).unwrap().step(Precision::Double).unwrap()
 }
 
 /// The kernel of a product of groups with closed forms and one by tables.

@@ -27,7 +27,7 @@ fn integrator() -> Integrator {
 #[test]
 fn parts_compute_as_the_interpreter() {
     let integrator = integrator();
-    let code = emit::file(&integrator, &emit::Options::for_problem("ring"));
+    let code = emit::file(emit::items(&integrator, &emit::Options::for_problem("ring")));
     assert!(code.contains("fn part3<"), "the ring is too short to be cut");
 
     let h = 0.05;

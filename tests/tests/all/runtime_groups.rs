@@ -112,7 +112,7 @@ brackets = ["[a, b] = 2*c", "[b, c] = a", "[c, a] = 3*b"]
     let constants: Vec<_> = constants.map(|s| (s.i, s.j, s.k, s.value.clone())).collect();
     system.problem.algebra = LieAlgebra::from_structure_constants("SO3", 3, constants)?;
     let integrator = Integrator::build(system.problem, TermLimit::default())?;
-    let code = emit::file(&integrator, &emit::Options::for_problem("own"));
+    let code = emit::file(emit::items(&integrator, &emit::Options::for_problem("own")));
     assert!(code.contains("pub struct OwnAlgebra;"), "{code}");
     assert!(!code.contains("::coadjoint::SO3"), "{code}");
     Ok(())

@@ -13,7 +13,6 @@ use crate::emit::c::names::Names;
 use crate::emit::c::parameter;
 use crate::emit::c::{HeaderError, HeaderOptions};
 use crate::integrator::{FoldTable, Kicks};
-use crate::smooth::Smooth;
 use crate::step::{Origin, Step};
 
 /// The coefficients that the programs of a step read, and where the header has them: the slots that are read, in the
@@ -42,7 +41,7 @@ fn read(programs: &[&Program]) -> BTreeSet<usize> {
 
 impl Folding {
     /// The coefficients that the programs of `step` read.
-    pub(super) fn new(origin: Origin<'_>, step: &Step) -> Result<Self, HeaderError> {
+    pub(super) fn new(origin: &Origin, step: &Step) -> Result<Self, HeaderError> {
         let programs = &step.kernel().programs;
         let mut list = vec![&programs.guess, &programs.correct, &programs.accept];
         list.extend([&programs.transport, &programs.sound, &programs.watch]);
@@ -70,11 +69,11 @@ impl Folding {
                 (places, table)
             }
             // The last of these are the times.
-            Origin::Collocation(Smooth { symbols, kicks, .. }) => {
+            Origin::Collocation(_) => {
                 let all = (0..radius_at).chain(last).chain(radius_at + 1..radius_at + 1 + times);
                 let places: BTreeMap<usize, usize> = all.zip(0..).collect();
                 let place = |at| places.get(&at).copied();
-                let table = FoldTable::of_symbols(symbols.len(), kicks.as_ref(), place);
+                let table = FoldTable::of_symbols(origin.symbols().len(), origin.kicks(), place);
                 (places, table)
             }
         };
@@ -91,12 +90,7 @@ impl Folding {
         self.places.len() - self.times
     }
 
-    pub(super) fn init(
-        &self,
-        origin: Origin<'_>,
-        names: &Names,
-        options: &HeaderOptions,
-    ) -> String {
+    pub(super) fn init(&self, origin: &Origin, names: &Names, options: &HeaderOptions) -> String {
         let fold = self.table.lists();
         let (given, own) = (origin.facts().parameters, origin.symbols());
         let scalars = parameter::scalars(given, names);

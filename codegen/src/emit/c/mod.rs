@@ -23,7 +23,7 @@ pub use names::{HeaderError, HeaderOptions, Language, prefix};
 ///
 /// # Errors
 /// [`HeaderError`] where there is no such header.
-pub fn header(origin: Origin<'_>, options: &HeaderOptions) -> Result<String, HeaderError> {
+pub fn header(origin: &Origin, options: &HeaderOptions) -> Result<String, HeaderError> {
     let step = origin.step(Precision::Double)?;
     if step.moves() && step.kernel().clock().is_none() {
         return Err(HeaderError::Moves);

@@ -12,7 +12,7 @@ use crate::emit::c::names::Names;
 use crate::emit::c::programs::casimirs;
 use crate::emit::c::template::{CASIMIRS, STATE, TEXT, timed};
 use crate::emit::c::{HeaderOptions, Language, parameter};
-use crate::emit::header;
+use crate::emit::header::{self, Method};
 use crate::step::{Origin, Step};
 
 fn rows(step: &Step) -> usize {
@@ -21,7 +21,7 @@ fn rows(step: &Step) -> usize {
 
 /// Sizes, the status, and the structures.
 pub(crate) fn types(
-    origin: Origin<'_>,
+    origin: &Origin,
     step: &Step,
     fold: &Folding,
     names: &Names,
@@ -58,9 +58,9 @@ pub(crate) fn types(
         Some(_) => ", or not the one step that was learned",
         None => "",
     };
-    let unresolved = match origin {
-        Origin::Series(_) => "",
-        Origin::Collocation(_) => ", or its nodes do not resolve it",
+    let unresolved = match origin.series() {
+        Some(_) => "",
+        None => ", or its nodes do not resolve it",
     };
     text.push_str(
         &timed(STATUS, step).replace("/*ONLY*/", only).replace("/*UNRESOLVED*/", unresolved),
@@ -99,7 +99,7 @@ pub(crate) fn types(
 }
 
 /// Functions of a state, and the status in words.
-pub(crate) fn functions(origin: Origin<'_>, step: &Step, names: &Names) -> String {
+pub(crate) fn functions(origin: &Origin, step: &Step, names: &Names) -> String {
     let rows = rows(step);
     let identity: Vec<f64> =
         (0..rows * rows).map(|at| f64::from(u8::from(at / rows == at % rows))).collect();
@@ -145,7 +145,7 @@ pub(crate) fn functions(origin: Origin<'_>, step: &Step, names: &Names) -> Strin
 }
 
 /// The values that the system file gives to its parameters.
-fn defaults(origin: Origin<'_>, names: &Names) -> String {
+fn defaults(origin: &Origin, names: &Names) -> String {
     let facts = origin.facts();
     let scalars = parameter::scalars(facts.parameters, names);
     let values = facts.parameters.iter().flat_map(|parameter| {
@@ -205,7 +205,7 @@ typedef struct @p@_map {
 ";
 
 /// The class, for compilers of C++ alone.
-pub(crate) fn class(origin: Origin<'_>, step: &Step, names: &Names) -> String {
+pub(crate) fn class(origin: &Origin, step: &Step, names: &Names) -> String {
     let with = !origin.facts().parameters.is_empty();
     let text = timed(CLASS, step)
         .replace("/*PARAMETERS*/", if with { PARAMETERS } else { "" })
@@ -286,7 +286,7 @@ const WIDTH: usize = 112;
 
 /// The opening comment, the guard, what is included, and macros.
 pub(super) fn opening(
-    origin: Origin<'_>,
+    origin: &Origin,
     step: &Step,
     fold: &Folding,
     names: &Names,
@@ -311,7 +311,7 @@ pub(super) fn opening(
 }
 
 fn paragraphs(
-    origin: Origin<'_>,
+    origin: &Origin,
     step: &Step,
     fold: &Folding,
     names: &Names,
@@ -337,7 +337,7 @@ fn paragraphs(
         ),
         String::new(),
     ];
-    list.extend(header::system(origin, c_comment));
+    list.extend(header::system(facts, origin.kicks(), &Method::of(origin), c_comment));
     list.extend([
         "How to use it:".to_owned(),
         format!("     {lower}_map map;"),
@@ -399,13 +399,13 @@ fn paragraphs(
 }
 
 /// How to go on after a refused step.
-fn rescue(origin: Origin<'_>, step: &Step) -> String {
-    match origin {
-        Origin::Series(_) => "The library in Rust then follows the solution from the identity; this header does not: take a \
+fn rescue(origin: &Origin, step: &Step) -> String {
+    match origin.series() {
+        Some(_) => "The library in Rust then follows the solution from the identity; this header does not: take a \
             smaller step."
             .to_owned(),
-        Origin::Collocation(_) if step.memory() == 0 => "Then take a smaller step.".to_owned(),
-        Origin::Collocation(_) => format!(
+        None if step.memory() == 0 => "Then take a smaller step.".to_owned(),
+        None => format!(
             "A step begins with a guess from those before it, by the last {} numbers of g: where a state was changed, or \
              a step is refused, set them to 0, which forgets them; then take a smaller step.",
             step.memory()

@@ -8,7 +8,6 @@ use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::{Integrator, Kick};
 use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::problem::Parameter;
-use coadjoint_codegen::smooth::Hamiltonian;
 use coadjoint_codegen::step::{Origin, Step};
 use coadjoint_codegen::system::{self, Options, Parameters};
 
@@ -184,29 +183,10 @@ impl Built {
         };
         let read = system::read_either(&text(system.text), options, &[]).unwrap();
         let (units, run) = (read.units, read.run);
-        let (integrator, kicked);
-        let origin = match &read.problem {
-            Hamiltonian::Polynomial(problem, _) => {
-                let flow = Integrator::build((**problem).clone(), TermLimit::default()).unwrap();
-                integrator = match read.potential {
-                    Some((potential, splitting)) => {
-                        flow.with_kicks(Kick::build(potential), splitting).unwrap()
-                    }
-                    None => flow,
-                };
-                Origin::Series(&integrator)
-            }
-            Hamiltonian::Smooth(smooth) => {
-                let flow = (**smooth).clone();
-                kicked = match read.potential {
-                    Some((potential, splitting)) => {
-                        flow.with_kicks(Kick::build(potential), splitting).unwrap()
-                    }
-                    None => flow,
-                };
-                Origin::Collocation(&kicked)
-            }
-        };
+        let mut origin = Origin::derive(read.problem, TermLimit::default()).unwrap();
+        if let Some((potential, splitting)) = read.potential {
+            origin = origin.with_kicks(Kick::build(potential), splitting).unwrap();
+        }
         let facts = origin.facts();
         let style = HeaderOptions {
             language: system.language,
@@ -217,7 +197,7 @@ impl Built {
                 .collect(),
             only_step: None,
         };
-        let header = header(origin, &style).unwrap();
+        let header = header(&origin, &style).unwrap();
         let prefix = coadjoint_codegen::emit::c::prefix(facts.name);
         let ending = if system.language == Language::Cpp { "hpp" } else { "h" };
         let programs = origin.step(Precision::Double).unwrap();
@@ -329,5 +309,5 @@ pub fn toutatis() -> Built {
 pub fn attempt(text: &str) -> Result<String, HeaderError> {
     let problem = system::read(text, Options::default()).unwrap().problem;
     let integrator = Integrator::build(problem, TermLimit::default()).unwrap();
-    header(Origin::Series(&integrator), &HeaderOptions::default())
+    header(&Origin::from(integrator), &HeaderOptions::default())
 }

@@ -1,0 +1,152 @@
+//! A system with the method by which its steps are made.
+
+use coadjoint_program::Precision;
+use coadjoint_program::splitting::Splitting;
+
+use super::{Step, StepError};
+use crate::hamilton_jacobi::{DeriveError, TermLimit};
+use crate::integrator::{Integrator, Kick, Kicks};
+use crate::problem::Symbol;
+use crate::signal::Signal;
+use crate::smooth::{Facts, Hamiltonian, Smooth};
+
+/// A system that the programs of a step are made from.
+#[derive(Clone, Debug)]
+pub enum Origin {
+    /// A polynomial, by its series.
+    Series(Box<Integrator>),
+    /// A smooth Hamiltonian, by collocation.
+    Collocation(Box<Smooth>),
+}
+
+impl From<Integrator> for Origin {
+    fn from(integrator: Integrator) -> Self {
+        Self::Series(Box::new(integrator))
+    }
+}
+
+impl From<Smooth> for Origin {
+    fn from(smooth: Smooth) -> Self {
+        Self::Collocation(Box::new(smooth))
+    }
+}
+
+impl Origin {
+    /// Derives the series of a polynomial; another Hamiltonian needs none.
+    ///
+    /// # Errors
+    /// [`DeriveError`] where the series cannot be derived or exceeds the limit.
+    pub fn derive(hamiltonian: Hamiltonian, limit: TermLimit) -> Result<Self, DeriveError> {
+        match hamiltonian {
+            Hamiltonian::Polynomial(problem, _) => {
+                Integrator::build(*problem, limit).map(Self::from)
+            }
+            Hamiltonian::Smooth(smooth) => Ok(Self::Collocation(smooth)),
+        }
+    }
+
+    /// This system with kicks between flows; `None` where the potential has other parameters than the Hamiltonian.
+    pub fn with_kicks(self, kick: Kick, splitting: Splitting) -> Option<Self> {
+        match self {
+            Self::Series(integrator) => integrator.with_kicks(kick, splitting).map(Self::from),
+            Self::Collocation(smooth) => smooth.with_kicks(kick, splitting).map(Self::from),
+        }
+    }
+
+    /// The programs of a step in numbers of this precision.
+    ///
+    /// # Errors
+    /// [`StepError`] where it has none.
+    pub fn step(&self, precision: Precision) -> Result<Step, StepError> {
+        match self {
+            Self::Series(integrator) => {
+                if precision == Precision::Single && !integrator.frame.is_empty() {
+                    return Err(StepError::SingleFrame);
+                }
+                let step = Step::build(integrator)?;
+                Ok(Step { kernel: step.kernel.in_precision(precision), ..step })
+            }
+            Self::Collocation(smooth) => Step::by_collocation(smooth, precision),
+        }
+    }
+
+    /// The facts of the system.
+    pub fn facts(&self) -> Facts<'_> {
+        match self {
+            Self::Series(integrator) => integrator.problem.facts(),
+            Self::Collocation(smooth) => smooth.facts(),
+        }
+    }
+
+    /// The series, if steps are made by one.
+    pub fn series(&self) -> Option<&Integrator> {
+        match self {
+            Self::Series(integrator) => Some(integrator),
+            Self::Collocation(_) => None,
+        }
+    }
+
+    /// The expressions in parameters that coefficients are made of.
+    pub fn symbols(&self) -> &[Symbol] {
+        match self {
+            Self::Series(integrator) => &integrator.problem.symbols,
+            Self::Collocation(smooth) => &smooth.symbols,
+        }
+    }
+
+    /// The kicks between flows, where there are any.
+    pub fn kicks(&self) -> Option<&Kicks> {
+        match self {
+            Self::Series(integrator) => integrator.kicks.as_ref(),
+            Self::Collocation(smooth) => smooth.kicks.as_ref(),
+        }
+    }
+
+    /// The inputs u(t).
+    pub fn signals(&self) -> &[Signal] {
+        match self {
+            Self::Series(_) => {
+                let torque = self.kicks().and_then(Kicks::torque);
+                torque.map_or(&[], |torque| &torque.signals)
+            }
+            Self::Collocation(smooth) => &smooth.signals,
+        }
+    }
+
+    /// True if the equations depend on the time other than through the state.
+    pub fn depends_on_time(&self) -> bool {
+        let flow = match self {
+            Self::Series(_) => false,
+            Self::Collocation(smooth) => smooth.depends_on_time(),
+        };
+        flow || self.kicks().is_some_and(Kicks::moves)
+    }
+
+    /// True if the Hamiltonian is a function of the user's, of which there are no programs.
+    pub fn is_function(&self) -> bool {
+        matches!(self, Self::Collocation(smooth) if smooth.given.is_some())
+    }
+
+    /// The order of accuracy: K + 1, or that of the splitting where it is lower.
+    pub fn order(&self) -> u32 {
+        let order = self.facts().truncation as u32 + 1;
+        self.kicks().map_or(order, |kicks| order.min(kicks.splitting.order()))
+    }
+
+    /// A description of the method in a few words.
+    pub fn label(&self) -> String {
+        let mut label = match self {
+            Self::Series(integrator) => {
+                let problem = &integrator.problem;
+                let frame = if problem.comoving.is_some() { ", comoving" } else { "" };
+                format!("K = {}, {}{frame}", problem.truncation, problem.chart)
+            }
+            Self::Collocation(smooth) => format!("collocation, {} nodes", smooth.nodes()),
+        };
+        if let Some(kicks) = self.kicks() {
+            label.push_str(", ");
+            label.push_str(kicks.splitting.name());
+        }
+        label
+    }
+}
