@@ -56,7 +56,7 @@ pub struct Row {
 }
 
 impl Row {
-    /// How many cells it has: in CSV a row may have too few or too many.
+    /// The number of cells; a row of CSV may have too few or too many.
     #[allow(clippy::len_without_is_empty)]
     pub fn len(&self) -> usize {
         self.record.len().max(self.numbers.len())
@@ -99,10 +99,9 @@ fn csv_reader(path: &Path) -> Result<Reader<Remarks<File>>, LearnError> {
 }
 
 impl Table {
-    /// Opens a file by the ending of its name; `.partial` behind it is not looked at.
+    /// Opens a file in the format that the ending of its name gives; a further ending `.partial` is ignored.
     ///
-    /// # Errors
-    /// Where it cannot be read, or is not in the format of its name.
+    /// Fails if the file cannot be read or is not in that format.
     pub fn open(path: &Path) -> Result<Self, LearnError> {
         let name = path.to_string_lossy().to_ascii_lowercase();
         match name.trim_end_matches(".partial").rsplit_once('.').map_or("", |(_, ending)| ending) {
@@ -144,7 +143,7 @@ impl Table {
         Ok(Self::of_rows(path, columns.into_iter().map(|(name, _)| name).collect(), width, rows))
     }
 
-    /// The same rows, of which this is said.
+    /// Sets what the table says about itself.
     pub fn saying(self, head: BTreeMap<String, String>) -> Self {
         Self { head, ..self }
     }
@@ -233,7 +232,7 @@ impl Table {
         &self.others
     }
 
-    /// Whether rows are text, whose cells can be kept as they are.
+    /// True if rows are text, whose cells can be kept as they are.
     pub fn is_text(&self) -> bool {
         matches!(self.source, Source::Csv(_))
     }
@@ -254,8 +253,7 @@ impl Table {
 
     /// The number of rows; those of CSV are counted.
     ///
-    /// # Errors
-    /// Where the file cannot be read.
+    /// Fails if the file cannot be read.
     pub fn count(&self) -> Result<u64, LearnError> {
         Ok(match &self.source {
             Source::Npy(_, header) => header.shape[0] as u64,
@@ -273,7 +271,7 @@ impl Table {
         })
     }
 
-    /// Where the next row begins, for [`Table::seek`].
+    /// The position of the next row in the file, for [`Table::seek`].
     pub fn position(&self) -> u64 {
         match &self.source {
             Source::Csv(reader) => reader.position().byte(),
@@ -281,10 +279,9 @@ impl Table {
         }
     }
 
-    /// Goes to a row, counted from 0; `position` is what [`Table::position`] said there, if that is known.
+    /// Goes to a row, counted from 0; `position` is what [`Table::position`] returned there, if that is known.
     ///
-    /// # Errors
-    /// Where the file cannot be read.
+    /// Fails if the file cannot be read.
     pub fn seek(&mut self, row: u64, position: Option<u64>) -> Result<(), LearnError> {
         match &mut self.source {
             Source::Csv(reader) => {
@@ -317,10 +314,9 @@ impl Table {
         Ok(())
     }
 
-    /// Reads the next row, if there is one.
+    /// Reads the next row; returns false at the end.
     ///
-    /// # Errors
-    /// Where the file cannot be read.
+    /// Fails if the file cannot be read.
     pub fn read(&mut self, row: &mut Row) -> Result<bool, LearnError> {
         let Self { path, source, width, next, .. } = self;
         row.numbers.clear();
@@ -386,7 +382,7 @@ struct Remarks<R> {
     head: BTreeMap<String, String>,
     /// The part of the current line that has been read, where it begins with `#`.
     line: Option<Vec<u8>>,
-    /// Whether the next byte begins a line.
+    /// True if the next byte begins a line.
     fresh: bool,
 }
 
