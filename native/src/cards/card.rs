@@ -12,7 +12,7 @@ pub struct Card {
     pub device: Device,
     /// Its name.
     pub name: String,
-    /// Whether the device is this machine's processor.
+    /// True if the device is this machine's processor.
     pub is_processor: bool,
     /// The numbers it computes with.
     pub precision: Precision,
