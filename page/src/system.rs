@@ -38,7 +38,7 @@ pub enum Kind {
 pub struct Factor {
     /// Rotations, vectors or other.
     pub kind: Kind,
-    /// Where its coordinates begin, and how many there are.
+    /// The index of its first coordinate, and the number of coordinates.
     pub coordinate: usize,
     pub dim: usize,
     /// The first row of its block in the matrix of the group.
@@ -46,7 +46,7 @@ pub struct Factor {
     pub size: usize,
 }
 
-/// What steps are made from, with numbers for the parameters.
+/// The definition of a step, with numbers for the parameters.
 #[derive(Debug)]
 pub enum Source {
     Series(Box<Integrator>),
