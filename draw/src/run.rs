@@ -134,7 +134,7 @@ pub fn motion_panels(
 
 /// The time of the panels.
 struct Time<'a> {
-    /// That of the whole picture.
+    /// The first and the last time of the picture.
     across: (f64, f64),
     unit: Option<&'a str>,
     part: Window,
