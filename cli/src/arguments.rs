@@ -158,7 +158,7 @@ pub(crate) struct SimulateOptions {
     /// The backend that evaluates the steps
     #[arg(long, value_parser = named(BACKENDS), default_value = "auto", conflicts_with = "model")]
     pub backend: Backend,
-    /// How to print
+    /// The output format
     #[arg(long, value_parser = named(FORMATS), default_value = "text")]
     pub format: Format,
 }
@@ -210,13 +210,13 @@ pub(crate) struct EnsembleOptions {
     /// The numbers that the device computes with
     #[arg(long, value_parser = named(PRECISIONS), default_value = "double", requires = "device")]
     pub precision: Precision,
-    /// How many threads; all processors if not given. The result is the same
+    /// The number of threads; all processors if not given. It does not change the result
     #[arg(long, value_name = "n")]
     pub threads: Option<usize>,
     /// Begin anew, whatever an earlier run that was stopped has written
     #[arg(long)]
     pub restart: bool,
-    /// How to print
+    /// The output format
     #[arg(long, value_parser = named(FORMATS), default_value = "text")]
     pub format: Format,
 }
@@ -231,7 +231,7 @@ pub(crate) struct VerifyOptions {
     /// The states that an ensemble started from
     #[arg(long, value_name = "STATES", requires = "steps")]
     pub input: Option<PathBuf>,
-    /// How many steps the ensemble made
+    /// The number of steps that the ensemble made
     #[arg(long, value_name = "n", requires = "input")]
     pub steps: Option<u64>,
     /// Judge n rows, evenly spread over the file, and say so; all rows if not given
@@ -249,7 +249,7 @@ pub(crate) struct VerifyOptions {
     /// The chart, where the output does not say
     #[arg(long, value_parser = named(CHARTS))]
     pub chart: Option<Chart>,
-    /// How to print
+    /// The output format
     #[arg(long, value_parser = named(FORMATS), default_value = "text")]
     pub format: Format,
 }
@@ -266,13 +266,13 @@ pub(crate) struct CheckOptions {
     /// The time at the start; the file's, or else 0, if not given
     #[arg(long, value_name = "t0", allow_negative_numbers = true)]
     pub t0: Option<f64>,
-    /// How many random momenta
+    /// The number of random momenta
     #[arg(long, value_name = "n", default_value_t = 3)]
     pub points: usize,
     /// The seed of the random momenta
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// How to print
+    /// The output format
     #[arg(long, value_parser = named(FORMATS), default_value = "text")]
     pub format: Format,
 }
@@ -286,7 +286,7 @@ pub(crate) struct CasimirOptions {
     /// The highest degree looked for
     #[arg(long, value_name = "d", default_value_t = 3)]
     pub degree: u32,
-    /// How to print
+    /// The output format
     #[arg(long, value_parser = named(FORMATS), default_value = "text")]
     pub format: Format,
 }
@@ -300,7 +300,7 @@ pub(crate) struct GroupOptions {
     /// The highest degree of Casimirs looked for; as high as is quick, 4 at most, if not given
     #[arg(long, value_name = "d", default_value_t = 0, hide_default_value = true)]
     pub degree: u32,
-    /// How to print
+    /// The output format
     #[arg(long, value_parser = named(FORMATS), default_value = "text")]
     pub format: Format,
 }

@@ -38,7 +38,7 @@ pub(crate) struct Source {
 }
 
 impl Source {
-    /// How the file is to be read.
+    /// The options of reading the file.
     pub(crate) fn options(&self, parameters: Parameters) -> Options {
         let Instead { chart, solver, method } = self.instead;
         let truncation = self.truncation;

@@ -29,7 +29,7 @@ pub(crate) struct Samples {
     records: Vec<Sample>,
     most: usize,
     stride: u64,
-    /// How many moments were offered after the head.
+    /// The number of moments offered after the head.
     offered: u64,
     /// The largest drift since the last moment kept.
     pending: Option<Sample>,
@@ -88,7 +88,7 @@ impl Samples {
         self.records
     }
 
-    /// Whether all momenta have this dimension, as those of a file need not.
+    /// True if all momenta have this dimension; those of a file may not.
     pub(crate) fn fits(&self, dim: usize) -> bool {
         self.stride > 0 && self.records.iter().chain(&self.pending).all(|r| r.momentum.len() == dim)
     }

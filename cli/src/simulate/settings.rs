@@ -30,11 +30,11 @@ pub(crate) struct Settings<'a> {
     /// Everything the run reads.
     pub inputs: Vec<PathBuf>,
     pub setup: Setup,
-    /// Where records go.
+    /// The target of records.
     pub out: Option<Target>,
-    /// Whether a picture is asked for.
+    /// True if a picture is requested.
     pub sampled: bool,
-    /// Where the state is kept, and how often.
+    /// The file of checkpoints, and the time between two.
     pub checkpoint: Option<(PathBuf, Duration)>,
 }
 

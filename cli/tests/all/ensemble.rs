@@ -255,7 +255,7 @@ fn records_of_runs_are_states() {
         for records in ["records.csv", "records.npy"] {
             folder.run(&format!("simulate {file} --time 2 --out {records}")).ok();
         }
-        // The same states, whether time, energy and drifts are carried through or have no names that would let them be.
+        // States are equal: time, energy and drifts of the table are carried through; the array has no names for them.
         let (of_matrix, after) = (advance("records.npy"), advance("records.csv"));
         let before = folder.text("records.csv");
         let rows: Vec<&str> = before.lines().filter(|line| !line.starts_with('#')).collect();
@@ -508,7 +508,7 @@ fn a_field_varies_from_row_to_row() {
     }
 }
 
-/// What cannot vary is refused by its name, at its place.
+/// A parameter that cannot vary is refused by its name, at its place.
 #[test]
 fn parameters_that_cannot_vary_are_refused() {
     let folder = Folder::with(&body("3"));
