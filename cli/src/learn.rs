@@ -75,8 +75,7 @@ pub(crate) struct LearnOptions {
     #[arg(long, value_name = "N", default_value_t = 1000)]
     evaluations: usize,
     /// The largest error of attitudes (distance from the group) and of momenta (change of J_L); `inf` for noisy data, and
-    /// for
-    /// steps of a method that conserves nothing
+    /// for steps of a method that conserves nothing
     #[arg(long, default_value_t = 1e-6)]
     tolerance: f64,
 }
