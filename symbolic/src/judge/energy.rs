@@ -69,7 +69,7 @@ impl Energy {
             };
             tape.push(entry);
         }
-        // How much H changes with each node, from the last to the first.
+        // ∂H/∂node for each node, from the last to the first.
         let mut change = vec![T::zero(); nodes.len()];
         for output in self.smooth.value.outputs() {
             change[output.index()] += T::one();

@@ -94,7 +94,7 @@ impl Collocation {
 }
 
 impl Stage<'_> {
-    /// Whether ∂H/∂μ is finite at μ in the middle of the step.
+    /// True if ∂H/∂μ is finite at μ in the middle of the step.
     pub(super) fn is_defined(&self, mu: &DMatrix<DoubleDouble>) -> bool {
         self.velocity(self.middle, mu).is_ok()
     }

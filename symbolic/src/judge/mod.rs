@@ -79,7 +79,7 @@ pub struct Judge {
     law: Law,
 }
 
-/// How steps are made.
+/// The equation of the steps.
 #[derive(Clone, Debug)]
 enum Law {
     /// By a series, and the motion of a comoving frame, which follows each step.

@@ -191,7 +191,7 @@ impl LieAlgebra {
         Self { name, generators, structure, basis }
     }
 
-    /// The same algebra under another name.
+    /// Changes the name.
     #[must_use]
     pub fn renamed(mut self, name: impl Into<String>) -> Self {
         self.name = name.into();
@@ -341,7 +341,7 @@ fn check_jacobi(generators: &[String], table: &Table) -> Result<(), LieAlgebraEr
     }
 }
 
-/// Why data does not define a Lie algebra. Every message is one line and names generators.
+/// Reasons for which data do not define a Lie algebra. Every message is one line and names generators.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LieAlgebraError {
@@ -422,7 +422,7 @@ pub enum LieAlgebraError {
         /// The dimension.
         dimension: usize,
     },
-    /// The same bracket or structure constant is given twice with different values.
+    /// A bracket or structure constant is given twice with different values.
     #[error("the bracket [{first}, {second}] is given twice with different values; keep one")]
     Inconsistent {
         /// The name of the first generator.
