@@ -22,6 +22,7 @@ fn refused(what: String) -> Error {
 
 /// Opens a file that is read piece by piece.
 ///
+/// # Errors
 /// Fails if there is no such file, or it is a folder, a device or a pipe; the standard input is allowed.
 pub fn open(path: &Path) -> io::Result<File> {
     let data = fs::metadata(path)?;
@@ -207,6 +208,7 @@ pub struct Extent {
 
 /// The extent of a whole file.
 ///
+/// # Errors
 /// Fails if the file cannot be read.
 pub fn extent(path: &Path) -> io::Result<Extent> {
     let file = open(path)?;
@@ -294,6 +296,7 @@ impl Output {
 
     /// Begins anew with `head`, bytes that may be written again by [`Output::set_head`].
     ///
+    /// # Errors
     /// Fails if the file cannot be written.
     pub fn begin(&mut self, head: &[u8]) -> io::Result<()> {
         self.begun = true;
@@ -332,6 +335,7 @@ impl Output {
 
     /// Writes at the end: all of the bytes, or none of them.
     ///
+    /// # Errors
     /// Fails if the file cannot be written.
     pub fn append(&mut self, bytes: &[u8]) -> io::Result<()> {
         let written = self.file.write_all(bytes);
@@ -348,6 +352,7 @@ impl Output {
 
     /// Writes the head again.
     ///
+    /// # Errors
     /// Fails if the file cannot be written, or if the length of the head changes.
     pub fn set_head(&mut self, head: &[u8]) -> io::Result<()> {
         if head.len() as u64 != self.head {
@@ -366,6 +371,7 @@ impl Output {
 
     /// Waits until everything is on the disk.
     ///
+    /// # Errors
     /// Fails if the file cannot be written.
     pub fn sync(&self) -> io::Result<()> {
         if self.special { Ok(()) } else { self.file.sync_data() }
@@ -374,6 +380,7 @@ impl Output {
     /// Gives the file its name, in one moment, with the permissions of the one that it replaces. The lock is held until this
     /// is dropped.
     ///
+    /// # Errors
     /// Fails if the file cannot be written or renamed.
     pub fn publish(&mut self) -> io::Result<()> {
         if self.special {

@@ -192,6 +192,7 @@ impl ModelFile {
 
     /// The model as JSON, as [`ModelFile::save`] writes it.
     ///
+    /// # Errors
     /// Fails if the model cannot be serialized.
     pub fn text(&self) -> Result<String, std::io::Error> {
         Ok(serde_json::to_string(self)? + "\n")

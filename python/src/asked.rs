@@ -7,6 +7,7 @@ use crate::error::refused;
 
 /// Finds a backend by its name.
 ///
+/// # Errors
 /// Refuses an unknown name.
 pub fn backend_of(py: Python<'_>, name: &str) -> PyResult<Backend> {
     match name {
@@ -37,6 +38,7 @@ pub struct Asked {
 impl Asked {
     /// Checks the options and converts them for a run.
     ///
+    /// # Errors
     /// Refuses an even truncation or one above 63, and a step beside a tolerance.
     pub fn accuracy(&self, py: Python<'_>) -> PyResult<Accuracy> {
         let Self { step, tolerance, region, truncation, t0, time, .. } = *self;

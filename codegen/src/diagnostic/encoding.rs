@@ -7,6 +7,7 @@ use crate::file;
 
 /// The text of a file.
 ///
+/// # Errors
 /// Fails if the file cannot be read or is not UTF-8; the message gives the place of the first byte that is not.
 pub fn read_text(path: &Path) -> Result<String> {
     let bytes = file::read(path)?;
@@ -18,6 +19,7 @@ pub fn read_text(path: &Path) -> Result<String> {
 
 /// Checks the first line of a table of text, after lines that begin with `#`.
 ///
+/// # Errors
 /// Fails if the file cannot be read, is not UTF-8, or has semicolons or tabs in place of commas.
 pub fn check_table(path: &Path) -> Result<()> {
     let file = file::open(path)?;

@@ -144,6 +144,7 @@ fn literals(terms: Option<usize>) -> String {
 /// Checks that an integrator is small enough for [`file`](file()) and [`items`]; larger ones are written, but take the
 /// compiler very long.
 ///
+/// # Errors
 /// Returns [`TooManyTerms`] above the limit.
 pub fn check_size(integrator: &Integrator) -> Result<(), TooManyTerms> {
     let terms = integrator.terms();

@@ -121,6 +121,7 @@ impl System<Hamiltonian> {
 
     /// Checks that it can be written as code.
     ///
+    /// # Errors
     /// Refuses torques, damping and inputs; the text says so.
     pub fn writable(&self) -> Result<(), String> {
         if self.potential.as_ref().is_some_and(|(potential, _)| potential.alone().is_some()) {
@@ -195,6 +196,7 @@ pub fn read_either(
 
 /// Reads a text in which these functions stand for `hamiltonian` or for entries of `[inputs]`.
 ///
+/// # Errors
 /// As [`read`], and where other numbers of the file follow from a parameter that stays one.
 pub fn read_given(
     text: &str,

@@ -101,6 +101,7 @@ fn csv_reader(path: &Path) -> Result<Reader<Remarks<File>>, LearnError> {
 impl Table {
     /// Opens a file in the format that the ending of its name gives; a further ending `.partial` is ignored.
     ///
+    /// # Errors
     /// Fails if the file cannot be read or is not in that format.
     pub fn open(path: &Path) -> Result<Self, LearnError> {
         let name = path.to_string_lossy().to_ascii_lowercase();
@@ -253,6 +254,7 @@ impl Table {
 
     /// The number of rows; those of CSV are counted.
     ///
+    /// # Errors
     /// Fails if the file cannot be read.
     pub fn count(&self) -> Result<u64, LearnError> {
         Ok(match &self.source {
@@ -281,6 +283,7 @@ impl Table {
 
     /// Goes to a row, counted from 0; `position` is what [`Table::position`] returned there, if that is known.
     ///
+    /// # Errors
     /// Fails if the file cannot be read.
     pub fn seek(&mut self, row: u64, position: Option<u64>) -> Result<(), LearnError> {
         match &mut self.source {
@@ -316,6 +319,7 @@ impl Table {
 
     /// Reads the next row; returns false at the end.
     ///
+    /// # Errors
     /// Fails if the file cannot be read.
     pub fn read(&mut self, row: &mut Row) -> Result<bool, LearnError> {
         let Self { path, source, width, next, .. } = self;

@@ -208,6 +208,7 @@ impl FoldTable {
     /// Folds for rows of symbols side by side. Also returns the |p| up to which the last two terms of the series have at
     /// most this ratio.
     ///
+    /// # Errors
     /// As [`FoldTable::fold`].
     pub(crate) fn fold_rows<T: Values>(
         &self,

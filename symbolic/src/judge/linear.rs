@@ -147,6 +147,7 @@ pub(super) fn norm<'a, T: Real>(values: impl IntoIterator<Item = &'a T> + Copy) 
 
 /// A function's derivative at x by differences over this spacing, where it has the value `here`.
 ///
+/// # Errors
 /// Returns the errors of the function.
 pub(super) fn derivative<E>(
     x: &DMatrix<f64>,

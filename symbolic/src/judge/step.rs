@@ -169,6 +169,7 @@ impl Step<'_> {
 
     /// The state after the right solution, motions of the frame included.
     ///
+    /// # Errors
     /// Returns [`JudgeError::OutOfRange`] if numbers leave their range.
     pub fn end(&self, right: &RightSolution, unit: f64) -> Result<End, JudgeError> {
         let (geometry, chart) = (self.geometry, self.geometry.chart);

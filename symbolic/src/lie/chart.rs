@@ -57,6 +57,7 @@ pub(crate) struct CubicEntry {
 impl Chart {
     /// Checks that this algebra has the chart.
     ///
+    /// # Errors
     /// Returns the reason if it does not.
     pub fn check(self, algebra: &LieAlgebra) -> Result<(), ChartError> {
         match self {

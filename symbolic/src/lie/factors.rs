@@ -244,6 +244,7 @@ impl LieAlgebra {
     /// If ρ is given by the matrices of 𝔤 themselves, the result consists of affine matrices ((ξ, v), (0, 0)), v having one
     /// column for each copy; otherwise ((ρ(ξ), v), (0, 0)) stands beside ξ as a block of its own.
     ///
+    /// # Errors
     /// Fails if a matrix is missing or not square, or ρ is no representation (the Jacobi identity fails).
     pub fn semidirect_product(
         name: impl Into<String>,

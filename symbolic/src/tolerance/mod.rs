@@ -292,6 +292,7 @@ pub fn choose(
 impl Target {
     /// Checks the target for momenta of this dimension.
     ///
+    /// # Errors
     /// Refuses a target that makes no sense, with the reason.
     pub fn check(&self, dim: usize) -> Result<(), ToleranceError> {
         if !(1e-14..=1e-1).contains(&self.tolerance) {
