@@ -43,7 +43,7 @@ const ATAN_STEPS: [(f64, f64, f64, f64); 3] = [
     (11.0 / 16.0, 1.0, core::f64::consts::FRAC_PI_4, 3.061_616_997_868_383e-17),
     (19.0 / 16.0, 1.5, 9.827_937_232_473_29e-1, 1.390_331_103_123_099_8e-17),
 ];
-/// The same for the right angle.
+/// The entry of the right angle.
 const ATAN_LAST: (f64, f64, f64) =
     (39.0 / 16.0, core::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17);
 

@@ -4,7 +4,7 @@ use crate::bits::{exponent, power_of_two};
 
 /// A number, or several in lanes, with the operations of [`Node`](crate::Node), each rounded once.
 pub(crate) trait Number: Copy {
-    /// The same number in all lanes.
+    /// A number, in all lanes.
     fn of(value: f64) -> Self;
     /// a + b
     fn add(self, b: Self) -> Self;
