@@ -16,7 +16,7 @@
 //!     if sound(g, μ) is not 1: back to the start of the block, stop
 //! ```
 //!
-//! Where a potential breaks the symmetry a step is a sequence of kicks and flows that begins and ends with a kick. Each flow
+//! If a potential breaks the symmetry, a step is a sequence of kicks and flows that begins and ends with a kick. Each flow
 //! has folded coefficients of its own, those of its length, and so has the last kick:
 //!
 //! ```text
