@@ -27,7 +27,7 @@ pub(crate) struct DeriveOptions {
     /// The system or the model.
     #[command(flatten)]
     pub input: Input,
-    /// Keep S₁ … S_K, K odd; instead of the file's
+    /// The truncation K, odd, instead of the file's
     #[arg(long, value_name = "K")]
     pub truncation: Option<usize>,
     /// The output format; S of a model is always printed as text
