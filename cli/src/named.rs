@@ -92,11 +92,11 @@ pub(crate) const LANGUAGES: &Names<Target> = &[
 pub(crate) const FORMATS: &Names<Format> =
     &[("text", "For people", Format::Text), ("json", "For programs", Format::Json)];
 
-/// For people or for programs.
+/// The format of a report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Format {
-    /// For people.
+    /// Text for people.
     Text,
-    /// For programs.
+    /// JSON for programs.
     Json,
 }

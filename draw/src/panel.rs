@@ -100,7 +100,7 @@ pub(crate) struct Place {
 }
 
 impl Place {
-    /// In a picture with panels one below the other.
+    /// The place in a picture with panels one below the other.
     pub(crate) fn below(top: f64, left: f64) -> Self {
         Self { top, edge: left, left, right: WIDTH - RIGHT, height: HEIGHT }
     }

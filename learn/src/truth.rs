@@ -24,7 +24,7 @@ pub struct Separable {
 }
 
 impl Separable {
-    /// With these w, and b = v = 0.
+    /// The quadratic function with these w; b = v = 0.
     pub fn quadratic(weights: Vec<f64>) -> Self {
         let zero = vec![0.0; weights.len()];
         Self { weights, linear: zero.clone(), quartic: zero }

@@ -1,4 +1,4 @@
-//! From fields to the text of a system file, which the library reads, and mistakes back from its places to theirs.
+//! Writes fields as the text of a system file, which the library reads, and maps places of mistakes back to the fields.
 
 use std::ops::Range;
 

@@ -82,7 +82,7 @@ impl Surface {
         Some(surface).filter(|surface| !surface.triangles.is_empty())
     }
 
-    /// By marching tetrahedra, six in a cell.
+    /// Finds a level surface by marching tetrahedra, six in a cell.
     fn level(casimir: &Numeric, level: f64, extent: f64) -> Self {
         let side = CELLS + 1;
         // Off the symmetric places, where values are exactly the level's.

@@ -178,7 +178,7 @@ impl Run {
         self.history.push(Sample { time: self.time(), drifts: [ours, rival] });
     }
 
-    /// Of energy, spatial momentum and Casimirs; NaN where there is none.
+    /// The drifts of energy, spatial momentum and Casimirs; NaN if there is none.
     fn drift(&self, system: &System, mu: &[f64], spatial: &[f64]) -> [f64; 3] {
         let conserved = system.invariants.conserved(self.time(), mu, spatial, Vec::new);
         let [momentum, casimirs, energy] = self.start.drift(&conserved).numbers();

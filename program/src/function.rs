@@ -37,7 +37,7 @@ const ATAN: [f64; 11] = [
     1.628_582_011_536_578_2e-2,
 ];
 
-/// From where on an angle is taken as its difference to the one of tangent c, as (from, c, its angle, the angle's rest).
+/// The least argument from which an angle is taken as its difference to that of tangent c: (least, c, angle, its rest).
 const ATAN_STEPS: [(f64, f64, f64, f64); 3] = [
     (7.0 / 16.0, 0.5, 4.636_476_090_008_061e-1, 2.269_877_745_296_168_7e-17),
     (11.0 / 16.0, 1.0, core::f64::consts::FRAC_PI_4, 3.061_616_997_868_383e-17),

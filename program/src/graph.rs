@@ -8,7 +8,7 @@ use core::cell::RefCell;
 /// The index of nodes.
 #[cfg(feature = "std")]
 type Known = std::collections::HashMap<Node, Id>;
-/// Without the standard library there are no numbers at random to hash with.
+/// The index without the standard library, which has no random numbers to hash with.
 #[cfg(not(feature = "std"))]
 type Known = BTreeMap<Node, Id>;
 

@@ -187,7 +187,7 @@ pub(crate) trait Packed<const L: usize>: Number {
     fn load(list: &[f64], i: usize) -> Self;
     fn store(self, list: &mut [f64], i: usize);
     fn lane(self, lane: usize) -> f64;
-    /// In live lanes `new`, in others self.
+    /// Replaces the live lanes by those of `new`.
     fn update(self, live: [bool; L], new: Self) -> Self;
 }
 

@@ -26,7 +26,7 @@ pub struct Functions {
 
 /// A failed call of a function.
 pub struct Failure {
-    /// In words.
+    /// The message.
     pub text: String,
     /// The exception that it raised, if it did.
     pub cause: Option<PyErr>,

@@ -246,7 +246,7 @@ fn multiples(hamiltonian: &Polynomial, function: &Polynomial, dim: usize) -> Vec
     shares.map(|share| &share * function).collect()
 }
 
-/// For each monomial of a function the factor by which it cancels that of H.
+/// The factors by which each monomial of a function cancels that of H.
 fn cancelling(
     hamiltonian: &Polynomial,
     function: &Polynomial,
@@ -258,7 +258,7 @@ fn cancelling(
     })
 }
 
-/// Without zeros and repetitions.
+/// Drops zeros and repetitions.
 fn distinct(candidates: impl Iterator<Item = Polynomial>) -> Vec<Polynomial> {
     let mut result: Vec<Polynomial> = Vec::new();
     for candidate in candidates {

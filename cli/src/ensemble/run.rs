@@ -71,7 +71,7 @@ pub(crate) struct Files {
 }
 
 impl Files {
-    /// Of this output.
+    /// Names the files of this output.
     pub(crate) fn of(out: &Path) -> Self {
         Self {
             out: out.into(),

@@ -53,7 +53,7 @@ impl Facts {
         })
     }
 
-    /// With the Casimirs up to this degree; 0 stands for as high as is quick, 4 at most.
+    /// Finds the Casimirs up to this degree; 0 stands for as high as is quick, 4 at most.
     pub(crate) fn with_casimirs(mut self, degree: u32) -> Result<Self, CliError> {
         let quick = |factor: &LieAlgebra| {
             (1..=4).rev().find(|&d| monomials(factor.dim(), d) <= MONOMIALS).unwrap_or(1)

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// The number of first moments that are all kept.
 const HEAD: usize = 512;
-/// Of the rest, between half of this number and all of it are kept, unless they are large.
+/// The largest number kept of the rest. At least half of it is kept, unless moments are large.
 const MOST: usize = 4096;
 /// The fewest that are kept however large they are, an even number.
 const FEWEST: usize = 256;
@@ -36,7 +36,7 @@ pub(crate) struct Samples {
 }
 
 impl Samples {
-    /// For momenta of this dimension.
+    /// Keeps moments of this dimension.
     pub(crate) fn new(dim: usize) -> Self {
         let most = (NUMBERS / (dim + 5)).clamp(FEWEST, MOST) & !1;
         Self { records: Vec::new(), most, stride: 1, offered: 0, pending: None }

@@ -34,7 +34,7 @@ impl Name {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Names {
     known: BTreeMap<String, Name>,
-    /// In the order given, for messages.
+    /// Names in the order given, for messages.
     order: Vec<String>,
     /// Names whose definitions are mistakes already.
     wrong: BTreeSet<String>,

@@ -336,7 +336,7 @@ mod tests {
         (sum, gradient)
     }
 
-    /// From −½ by at most `budget` evaluations of `scale` times the function; also their number.
+    /// Descends from −½ by at most `budget` evaluations of `scale` times the function; also returns their number.
     fn descend(scale: f64, budget: usize) -> (Descent, usize) {
         let mut count = 0;
         let mut evaluate = |x: &[f64]| {

@@ -391,7 +391,7 @@ struct Remarks<R> {
 }
 
 impl<R> Remarks<R> {
-    /// From the beginning of a line on.
+    /// Reads on from the beginning of a line.
     fn new(inner: R) -> Self {
         Self { inner, head: BTreeMap::new(), line: None, fresh: true }
     }
@@ -429,7 +429,7 @@ impl<R: Read> Read for Remarks<R> {
 }
 
 impl<R: Seek> Seek for Remarks<R> {
-    /// To the beginning of a line.
+    /// Seeks the beginning of a line.
     fn seek(&mut self, position: SeekFrom) -> std::io::Result<u64> {
         (self.line, self.fresh) = (None, true);
         self.inner.seek(position)

@@ -28,7 +28,7 @@ impl std::fmt::Debug for Card {
     }
 }
 
-/// By the device's library, where the crate was built for it.
+/// Opens a device by its library, if the crate was built for it.
 fn open(device: Device, kernel: &Kernel, slots: &[f64]) -> Result<Opened, DeviceError> {
     match device.api {
         #[cfg(feature = "opencl")]

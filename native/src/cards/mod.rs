@@ -113,7 +113,7 @@ pub enum DeviceError {
         /// Its name.
         name: String,
     },
-    /// Not even a small piece of the rows fits.
+    /// The device has no memory even for a small piece of the rows.
     #[error("{device} ({name}) is out of memory: it has no room for {rows} trajectories")]
     Memory {
         /// The device.

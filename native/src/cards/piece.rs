@@ -281,7 +281,7 @@ type Redo<'a> = dyn FnMut(&mut [Refused<'_>], u64) + 'a;
 pub struct Advanced {
     /// Refused steps that the caller was given to make.
     pub refused: u64,
-    /// In how many pieces the rows were moved.
+    /// The number of pieces in which the rows were moved.
     pub pieces: u64,
     /// Launches of the kernel.
     pub launches: u64,

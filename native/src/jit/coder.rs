@@ -25,9 +25,9 @@ const LARGE: f64 = 6_755_399_441_055_744.0;
 /// The representation of a number of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Form {
-    /// By itself.
+    /// A single number.
     Number,
-    /// With the same number of the next trajectory.
+    /// A number together with that of the next trajectory.
     Pair,
 }
 

@@ -125,7 +125,7 @@ fn reference(function: Function, x: f64) -> (Wide, i32) {
     (value, 0)
 }
 
-/// By how many units in the last place a value is off.
+/// The error of a value in units of the last place.
 fn off(found: f64, (expected, k): (Wide, i32)) -> f64 {
     // Compared where the reference is near 1, so that results near the ends of the range count as well.
     let back = |value: f64| value * 2_f64.powi(-k / 2) * 2_f64.powi(-k - -k / 2);

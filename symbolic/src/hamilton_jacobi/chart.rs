@@ -96,7 +96,7 @@ pub(super) struct Inverse<'a> {
 }
 
 enum Form<'a> {
-    /// With the weights (−1)^k B_k/k!.
+    /// The weights (−1)^k B_k/k!.
     Exponential(BernoulliWeights, Powers<'a>),
     /// v + ½ A v − ¼ xvx.
     Cayley(Vec<CubicEntry>),

@@ -178,7 +178,7 @@ impl Plan {
     }
 }
 
-/// In up to this number of dimensions explicit predictors have few monomials.
+/// The largest dimension in which explicit predictors have few monomials.
 const SMALL: usize = 3;
 /// Products of coefficients at most in looking for an explicit predictor beside one along the flow in more dimensions: where
 /// it takes more, it has too many monomials to be worth it.

@@ -19,7 +19,7 @@ use crate::smooth::Smooth;
 #[derive(Clone, Debug)]
 pub(super) struct Energy {
     smooth: Box<Smooth>,
-    /// Of each node whether H needs it, functions being single operations.
+    /// Marks the nodes that H needs, functions being single operations.
     needed: Vec<bool>,
     /// The functions and arguments of nodes that are functions' values.
     calls: BTreeMap<usize, (Function, usize)>,

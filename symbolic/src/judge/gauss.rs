@@ -72,7 +72,7 @@ fn beta(degree: usize) -> Vec<DoubleDouble> {
 }
 
 impl Collocation {
-    /// With this many nodes, and J_R up to the power `degree` of x.
+    /// Collocation with this many nodes, and J_R up to the power `degree` of x.
     pub(super) fn new(energy: Energy, nodes: usize, degree: usize) -> Option<Self> {
         let (times, half) = (half_roots(nodes), DoubleDouble::from(0.5));
         let power = |x: DoubleDouble, k: usize| (0..k).fold(DoubleDouble::one(), |p, _| p * x);

@@ -93,7 +93,7 @@ impl Real for DoubleDouble {
         Self::scaled(self, exponent)
     }
 
-    /// By factors in double precision, whose solution is refined as far as its residual in doubled precision tells.
+    /// Solves by factors in double precision; the solution is refined as far as its residual in doubled precision tells.
     fn solve(matrix: &DMatrix<Self>, right: &DMatrix<Self>) -> Option<DMatrix<Self>> {
         const ROUNDING: f64 = 1e-29;
         const ENOUGH: f64 = 1e-20;

@@ -27,7 +27,7 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// From a momentum.
+    /// A motion that starts from a momentum.
     pub fn new(mu: &[f64]) -> Self {
         let momentum = column(mu.iter().map(|&m| DoubleDouble::from(m)));
         Self { momentum, scale: 0, element: None, momentum_bound: 0.0, element_bound: 0.0 }

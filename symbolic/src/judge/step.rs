@@ -62,7 +62,7 @@ pub struct End {
     pub momentum_bound: f64,
     /// The bound on the change of the group element, relative to ‖g‖.
     pub element_bound: f64,
-    /// By how much an error of the momentum before the step grows at most, to first order.
+    /// The factor by which an error of the momentum before the step grows at most, to first order.
     pub growth: f64,
 }
 

@@ -1,4 +1,4 @@
-//! From a tolerance to a truncation and a step size.
+//! Chooses a truncation and a step size for a tolerance.
 //!
 //! The error of the method of truncation K is, to leading order, what the missing terms S_{K+2},
 //! S_{K+4}, … of the exact series do. They are derived, so their size is known exactly where
@@ -45,7 +45,7 @@ pub struct Target {
     pub start: Option<Vec<f64>>,
     /// The region in which the momentum stays; if there is none, that of the run from `start`.
     pub region: Option<Region>,
-    /// Only this truncation.
+    /// The truncation, if it is fixed.
     pub truncation: Option<usize>,
 }
 
