@@ -1,5 +1,5 @@
-//! The same steps by the command, from an example file: the difference of a long run and a short one, so that starting,
-//! deriving and compiling do not count.
+//! Times steps made by the command from an example file. The time of a short run is subtracted from that of a long one, so
+//! that starting, deriving and compiling do not count.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};

@@ -29,7 +29,7 @@ struct Arguments {
 enum Table {
     /// Nanoseconds a step of six systems by the attribute: `advance`, `advance_by`, and lanes
     Step(Common),
-    /// The same systems by the command, `simulate --backend …`, beside `advance`
+    /// The systems by the command, `simulate --backend …`, beside `advance`
     Backends(FromFile),
     /// 100 000 trajectories on one core, by the attribute in lanes and by the command's `ensemble`
     Ensembles(FromFile),

@@ -8,7 +8,7 @@ type Run<'a> = dyn FnMut(u64) -> Result<Duration, Failure> + 'a;
 
 pub struct Way<'a> {
     pub name: String,
-    /// How many trajectories make each step.
+    /// The number of trajectories that make each step.
     bodies: u64,
     /// The number of steps tried first.
     first: u64,

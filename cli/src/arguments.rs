@@ -18,7 +18,7 @@ use crate::source::{Accuracy, Input, Source};
 
 /// Momentum-preserving integrators from a Hamiltonian.
 ///
-/// FILE is a system file in TOML: a Hamiltonian, a group, and what to run. Exit codes: 0 fine,
+/// FILE is a system file in TOML: a Hamiltonian, a group, and a run. Exit codes: 0 success,
 /// 1 a failure while running, 2 bad input, 3 not verified, 130 interrupted.
 #[derive(Debug, Parser)]
 #[command(name = "coadjoint", version)]
@@ -55,16 +55,16 @@ pub(crate) enum Verb {
     Derive(DeriveOptions),
     /// Write the integrator as code: Rust, C, C++, OpenCL or CUDA
     Emit(EmitOptions),
-    /// Run the system and report how well momentum, Casimirs and energy are kept
+    /// Run the system and report the drifts of momentum, Casimirs and energy
     #[command(
         after_help = "The format of FILE is described in docs/book/src/file-format.md; `coadjoint groups` lists groups."
     )]
     Simulate(SimulateOptions),
     /// Advance many states at once, from a file to a file
     Ensemble(EnsembleOptions),
-    /// Test on this system, at random momenta, that steps keep what they must and have their order
+    /// Test the conservation laws and the order of the steps on this system, at random momenta
     Check(CheckOptions),
-    /// Judge the output of simulate or ensemble afterwards, step by step in doubled precision
+    /// Verify the output of simulate or ensemble, step by step in doubled precision
     Verify(VerifyOptions),
     /// Find the polynomial Casimirs of the system's algebra
     Casimirs(CasimirOptions),
@@ -82,7 +82,7 @@ pub(crate) struct EmitOptions {
     /// The system or the model.
     #[command(flatten)]
     pub input: Input,
-    /// Keep S₁ … S_K, K odd; instead of the file's
+    /// The truncation K, odd, instead of the file's
     #[arg(long, value_name = "K")]
     pub truncation: Option<usize>,
     /// Write to this file instead of the standard output
@@ -97,11 +97,11 @@ pub(crate) struct EmitOptions {
     /// The prefix of all names in C and C++; from the system's name if not given
     #[arg(long, value_name = "NAME")]
     pub prefix: Option<String>,
-    /// The step size h of a kernel in OpenCL or CUDA, which is fixed in it; instead of the file's. Other languages take h
-    /// when the integrator is made
+    /// The step size h of a kernel in OpenCL or CUDA, instead of the file's. Other languages take h when the integrator is
+    /// constructed
     #[arg(long, value_name = "h", allow_negative_numbers = true)]
     pub step: Option<f64>,
-    /// The numbers of a kernel in OpenCL or CUDA
+    /// The precision of a kernel in OpenCL or CUDA
     #[arg(long, value_parser = named(PRECISIONS), default_value = "double")]
     pub precision: Precision,
 }
@@ -112,7 +112,7 @@ pub(crate) struct SimulateOptions {
     /// The system or the model.
     #[command(flatten)]
     pub input: Input,
-    /// Keep S₁ … S_K, K odd; several, such as 3,5,7, are run one after the other
+    /// The truncation K, odd; several, such as 3,5,7, run one after the other
     #[arg(long, value_name = "K", value_delimiter = ',')]
     pub truncation: Vec<usize>,
     /// The step, or the tolerance.
@@ -121,29 +121,28 @@ pub(crate) struct SimulateOptions {
     /// The duration T
     #[arg(long, value_name = "T")]
     pub time: Option<f64>,
-    /// The time at the start; the file's, or else 0, if not given
+    /// The initial time; by default the file's, or 0
     #[arg(long, value_name = "t0", allow_negative_numbers = true, conflicts_with = "model")]
     pub t0: Option<f64>,
-    /// The momentum at the start of a learned model, with commas
+    /// The initial momentum of a learned model, separated by commas
     #[arg(long, value_name = "mu", value_delimiter = ',', allow_hyphen_values = true)]
     #[arg(requires = "model")]
     pub start: Vec<f64>,
     /// Record every n-th step, and the last
     #[arg(long, value_name = "n")]
     pub every: Option<usize>,
-    /// Record these times, from the start to the end of the run, with commas between them or in a file: alone, or besides
-    /// every n-th step
+    /// Record these times within the run, separated by commas or in a file; with --every, also every n-th step
     #[arg(long, value_name = "TIMES", allow_hyphen_values = true)]
     #[arg(requires = "out", conflicts_with = "model")]
     pub at: Option<String>,
-    /// End where this function of the coordinates, `g[i][j]` and t changes its sign
+    /// End the run where this function of the coordinates, `g[i][j]` and t changes sign
     #[arg(long, value_name = "FUNCTION", allow_hyphen_values = true, conflicts_with = "model")]
     pub until: Option<String>,
-    /// Write the records as they are made, as .csv or .npy by the name (- for the standard output).
-    /// Until the run is complete the name is FILE.partial
+    /// Write the records to this .csv or .npy file as they are made (- for the standard output).
+    /// Until the run is complete the file is named FILE.partial
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Keep the state in this file, so that the same command goes on where it was stopped
+    /// Keep the state in this file, so that the same command resumes a run that was stopped
     #[arg(long, value_name = "FILE")]
     pub checkpoint: Option<PathBuf>,
     /// Seconds between two checkpoints
@@ -152,13 +151,13 @@ pub(crate) struct SimulateOptions {
     /// Draw the drift of energy, momentum and Casimirs
     #[arg(long, value_name = "SVG", conflicts_with = "model")]
     pub plot: Option<PathBuf>,
-    /// Leave out the estimate of the error at the end, which takes about half as long as the run
+    /// Skip the estimate of the error at the end, which takes about half as long as the run
     #[arg(long)]
     pub no_estimate: bool,
     /// The backend that evaluates the steps
     #[arg(long, value_parser = named(BACKENDS), default_value = "auto", conflicts_with = "model")]
     pub backend: Backend,
-    /// How to print
+    /// The output format
     #[arg(long, value_parser = named(FORMATS), default_value = "text")]
     pub format: Format,
 }
@@ -169,15 +168,15 @@ pub(crate) struct EnsembleOptions {
     /// The system or the model.
     #[command(flatten)]
     pub input: Input,
-    /// Keep S₁ … S_K, K odd; instead of the file's
+    /// The truncation K, odd, instead of the file's
     #[arg(long, value_name = "K")]
     pub truncation: Option<usize>,
-    /// The states at the start, .csv, .npy or .parquet: columns mu_1 … mu_n, and if you like the
-    /// attitude, g_11 … g_dd or q_w, q_x, q_y, q_z
+    /// The initial states, .csv, .npy or .parquet: columns mu_1 … mu_n, and optionally the attitude,
+    /// g_11 … g_dd or q_w, q_x, q_y, q_z
     #[arg(long, value_name = "FILE")]
     pub initial: PathBuf,
-    /// Write the states at the end, in the same columns, as .csv, .npy or .parquet. A row that
-    /// fails is NaN there and listed in FILE.rejected.csv
+    /// Write the final states, in the same columns, to this .csv, .npy or .parquet file. A row that
+    /// fails is NaN and is listed in FILE.rejected.csv
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
     /// The step, or the tolerance.
@@ -186,11 +185,11 @@ pub(crate) struct EnsembleOptions {
     /// The duration T
     #[arg(long, value_name = "T")]
     pub time: Option<f64>,
-    /// The time at the start; the file's, or else 0, if not given
+    /// The initial time; by default the file's, or 0
     #[arg(long, value_name = "t0", allow_negative_numbers = true, conflicts_with = "model")]
     pub t0: Option<f64>,
-    /// Write the states at these times, as simulate's --at has them, in place of those at the end: in .npy an array of rows,
-    /// times and columns, in .parquet a line for each row and time
+    /// Write the states at these times (given as in simulate's --at) instead of the final ones: to .npy as an array of rows,
+    /// times and columns, to .parquet as a line for each row and time
     #[arg(long, value_name = "TIMES", allow_hyphen_values = true)]
     #[arg(conflicts_with_all = ["device", "model"])]
     pub at: Option<String>,
@@ -198,25 +197,25 @@ pub(crate) struct EnsembleOptions {
     #[arg(long, value_name = "n", value_parser = clap::value_parser!(u64).range(1..))]
     #[arg(conflicts_with = "model")]
     pub estimate: Option<u64>,
-    /// Only share i of n of the rows, i from 1 to n: for job arrays
+    /// Advance only share i of n of the rows, i from 1 to n: for job arrays
     #[arg(long, value_name = "i/n", default_value_t = Shard::WHOLE)]
     pub shard: Shard,
     /// The backend that evaluates the steps
     #[arg(long, value_parser = named(BACKENDS), default_value = "auto")]
     pub backend: Backend,
-    /// Make the steps on a device, opencl, opencl:N, cuda or cuda:N. What it refuses --backend makes
+    /// Make the steps on a device: opencl, opencl:N, cuda or cuda:N. Steps that it refuses are made by --backend
     #[arg(long, value_name = "DEVICE")]
     pub device: Option<Device>,
-    /// The numbers that the device computes with
+    /// The precision of the device's numbers
     #[arg(long, value_parser = named(PRECISIONS), default_value = "double", requires = "device")]
     pub precision: Precision,
-    /// How many threads; all processors if not given. The result is the same
+    /// The number of threads; all processors if not given. It does not change the result
     #[arg(long, value_name = "n")]
     pub threads: Option<usize>,
-    /// Begin anew, whatever an earlier run that was stopped has written
+    /// Start over instead of resuming an earlier run that was stopped
     #[arg(long)]
     pub restart: bool,
-    /// How to print
+    /// The output format
     #[arg(long, value_parser = named(FORMATS), default_value = "text")]
     pub format: Format,
 }
@@ -224,32 +223,32 @@ pub(crate) struct EnsembleOptions {
 /// Options of `verify`.
 #[derive(Args, Debug)]
 pub(crate) struct VerifyOptions {
-    /// The system file and the output, .csv, .npy, .parquet or the .json of simulate's report; the output
-    /// alone, where it names its system. Exit code 1: a row is wrong; 3: a row could not be judged
+    /// The system file and the output, .csv, .npy, .parquet or the .json report of simulate; the output
+    /// alone if it names its system. Exit code 1: a row is wrong; 3: a row could not be judged
     #[arg(value_name = "FILE", num_args = 1..=2, required = true)]
     pub files: Vec<PathBuf>,
-    /// The states that an ensemble started from
+    /// The initial states of the ensemble
     #[arg(long, value_name = "STATES", requires = "steps")]
     pub input: Option<PathBuf>,
-    /// How many steps the ensemble made
+    /// The number of steps that the ensemble made
     #[arg(long, value_name = "n", requires = "input")]
     pub steps: Option<u64>,
-    /// Judge n rows, evenly spread over the file, and say so; all rows if not given
+    /// Judge only n rows, evenly spread over the file; the report says so
     #[arg(long, value_name = "n", value_parser = clap::value_parser!(u64).range(1..))]
     pub sample: Option<u64>,
-    /// The time at which an ensemble started; the file's, or else 0, if not given
+    /// The initial time of the ensemble; by default the file's, or 0
     #[arg(long, value_name = "t0", allow_negative_numbers = true, requires = "input")]
     pub t0: Option<f64>,
-    /// The step size h, where the output does not say
+    /// The step size h, if the output does not give it
     #[arg(long, value_name = "h", allow_negative_numbers = true)]
     pub step: Option<f64>,
-    /// S₁ … S_K were kept, where the output does not say
+    /// The truncation K, if the output does not give it
     #[arg(long, value_name = "K")]
     pub truncation: Option<usize>,
-    /// The chart, where the output does not say
+    /// The chart, if the output does not give it
     #[arg(long, value_parser = named(CHARTS))]
     pub chart: Option<Chart>,
-    /// How to print
+    /// The output format
     #[arg(long, value_parser = named(FORMATS), default_value = "text")]
     pub format: Format,
 }
@@ -260,19 +259,19 @@ pub(crate) struct CheckOptions {
     /// The system.
     #[command(flatten)]
     pub source: Source,
-    /// The step size h; the file's, or else 0.1, if not given
+    /// The step size h; by default the file's, or 0.1
     #[arg(long, value_name = "h", allow_negative_numbers = true)]
     pub step: Option<f64>,
-    /// The time at the start; the file's, or else 0, if not given
+    /// The initial time; by default the file's, or 0
     #[arg(long, value_name = "t0", allow_negative_numbers = true)]
     pub t0: Option<f64>,
-    /// How many random momenta
+    /// The number of random momenta
     #[arg(long, value_name = "n", default_value_t = 3)]
     pub points: usize,
     /// The seed of the random momenta
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// How to print
+    /// The output format
     #[arg(long, value_parser = named(FORMATS), default_value = "text")]
     pub format: Format,
 }
@@ -283,10 +282,10 @@ pub(crate) struct CasimirOptions {
     /// The system file
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
-    /// The highest degree looked for
+    /// The highest degree to search
     #[arg(long, value_name = "d", default_value_t = 3)]
     pub degree: u32,
-    /// How to print
+    /// The output format
     #[arg(long, value_parser = named(FORMATS), default_value = "text")]
     pub format: Format,
 }
@@ -297,10 +296,10 @@ pub(crate) struct GroupOptions {
     /// A group or a product of groups, such as SO3, "SO3^4" or "SO3 |x R3"; all names if not given
     #[arg(value_name = "NAME")]
     pub name: Option<String>,
-    /// The highest degree of Casimirs looked for; as high as is quick, 4 at most, if not given
+    /// The highest degree of Casimirs to search; by default as high as is quick, 4 at most
     #[arg(long, value_name = "d", default_value_t = 0, hide_default_value = true)]
     pub degree: u32,
-    /// How to print
+    /// The output format
     #[arg(long, value_parser = named(FORMATS), default_value = "text")]
     pub format: Format,
 }

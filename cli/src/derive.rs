@@ -27,10 +27,10 @@ pub(crate) struct DeriveOptions {
     /// The system or the model.
     #[command(flatten)]
     pub input: Input,
-    /// Keep S₁ … S_K, K odd; instead of the file's
+    /// The truncation K, odd, instead of the file's
     #[arg(long, value_name = "K")]
     pub truncation: Option<usize>,
-    /// How to print; S of a model is a text
+    /// The output format; S of a model is always printed as text
     #[arg(long, value_parser = named(FORMS), default_value = "text", conflicts_with = "model")]
     pub format: Form,
 }

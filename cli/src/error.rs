@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use coadjoint_learn::LearnError;
 use coadjoint_run::RunError;
 
-/// Why a command failed.
+/// Errors of a command.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum CliError {
     /// A run that failed, or what was given for it.

@@ -24,7 +24,7 @@ pub(crate) enum Form {
 }
 
 impl Form {
-    /// By the ending of the name that `option` gives.
+    /// Chooses the form by the ending of the name that `option` gives.
     pub(crate) fn of(path: &Path, option: &str) -> Result<Self, CliError> {
         let ending = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
         match ending.as_deref() {

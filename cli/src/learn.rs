@@ -38,10 +38,10 @@ pub(crate) struct LearnOptions {
     /// The total degree of a polynomial; chosen by cross-validation if not given
     #[arg(long, value_name = "d")]
     degree: Option<usize>,
-    /// Write the model here
+    /// Write the model to this file
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Leave rows out that cannot be used, instead of refusing the data
+    /// Leave out rows that cannot be used, instead of refusing the data
     #[arg(long)]
     drop_bad_rows: bool,
     /// The seed of folds and weights
@@ -50,10 +50,10 @@ pub(crate) struct LearnOptions {
     /// Steps over which the drifts are measured
     #[arg(long, value_name = "N", default_value_t = 1000)]
     steps: usize,
-    /// The momentum the drifts are measured from, with commas; the first sample if not given
+    /// The initial momentum of the run that measures drifts, separated by commas; by default the first sample
     #[arg(long, value_delimiter = ',', allow_hyphen_values = true)]
     start: Option<Vec<f64>>,
-    /// How to print
+    /// The output format
     #[arg(long, value_parser = named(FORMATS), default_value = "text")]
     format: Format,
     /// Pairs to test the model on
@@ -74,8 +74,8 @@ pub(crate) struct LearnOptions {
     /// Evaluations of the loss of a network
     #[arg(long, value_name = "N", default_value_t = 1000)]
     evaluations: usize,
-    /// How far attitudes may be off the group and momenta off conservation; `inf` for noisy data, and for steps of a method
-    /// that conserves nothing
+    /// The largest error of attitudes (distance from the group) and of momenta (change of J_L); `inf` for noisy data, and
+    /// for steps of a method that conserves nothing
     #[arg(long, default_value_t = 1e-6)]
     tolerance: f64,
 }

@@ -44,7 +44,7 @@ pub(crate) const METHODS: &Names<Method> = &[
 /// Backends.
 pub(crate) const BACKENDS: &Names<Backend> = &[
     ("auto", "The cheapest for this run: a short one never waits for a compiler", Backend::Auto),
-    ("interpreter", "The interpreter of the programs, which is always there", Backend::Interpreter),
+    ("interpreter", "The interpreter, which is always available", Backend::Interpreter),
     ("c", "The system's C compiler, for this processor", Backend::C),
     #[cfg(feature = "jit")]
     ("jit", "Cranelift, for this processor", Backend::Jit),
@@ -52,7 +52,7 @@ pub(crate) const BACKENDS: &Names<Backend> = &[
 
 /// Precisions.
 pub(crate) const PRECISIONS: &Names<Precision> = &[
-    ("double", "64 bits: the bits of every other way", Precision::Double),
+    ("double", "64 bits: the same bits as every back end", Precision::Double),
     (
         "single",
         "32 bits: faster on most cards; what is conserved drifts by 1e-7 and above",
@@ -75,24 +75,28 @@ pub(crate) enum Target {
 pub(crate) const LANGUAGES: &Names<Target> = &[
     ("rust", "A Rust module", Target::Rust),
     ("c", "One header of C99, for embedded and flight software", Target::Header(Language::C)),
-    ("cpp", "The same with a class of C++11", Target::Header(Language::Cpp)),
+    ("cpp", "The header of C99 with a class of C++11", Target::Header(Language::Cpp)),
     (
         "opencl",
-        "A kernel in OpenCL C, a thread a trajectory",
+        "A kernel in OpenCL C, one thread per trajectory",
         Target::Kernel(DeviceLanguage::OpenCl),
     ),
-    ("cuda", "A kernel in CUDA C++, a thread a trajectory", Target::Kernel(DeviceLanguage::Cuda)),
+    (
+        "cuda",
+        "A kernel in CUDA C++, one thread per trajectory",
+        Target::Kernel(DeviceLanguage::Cuda),
+    ),
 ];
 
 /// Formats for people, and for programs.
 pub(crate) const FORMATS: &Names<Format> =
     &[("text", "For people", Format::Text), ("json", "For programs", Format::Json)];
 
-/// For people or for programs.
+/// The format of a report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Format {
-    /// For people.
+    /// Text for people.
     Text,
-    /// For programs.
+    /// JSON for programs.
     Json,
 }

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
 
-/// How often a bar is worth telling its position.
+/// The time between two updates of a bar.
 pub(crate) const INTERVAL: Duration = Duration::from_millis(100);
 
 /// A bar of `length` steps; hidden where the error stream is no terminal.
@@ -21,7 +21,7 @@ pub(crate) fn bar(length: u64, what: &str) -> ProgressBar {
     bar
 }
 
-/// Whether anybody sees a bar.
+/// True if bars are shown.
 pub(crate) fn visible() -> bool {
     std::io::stderr().is_terminal()
 }

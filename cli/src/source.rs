@@ -12,18 +12,18 @@ use crate::named::{CHARTS, METHODS, SOLVERS, named};
 /// Settings that replace those of a system file.
 #[derive(Args, Clone, Copy, Debug)]
 pub(crate) struct Instead {
-    /// Use this chart instead of the file's
+    /// The chart, instead of the file's
     #[arg(long, value_parser = named(CHARTS))]
     pub chart: Option<Chart>,
-    /// Solve each step this way instead of the file's
+    /// The solver of each step, instead of the file's
     #[arg(long, value_parser = named(SOLVERS))]
     pub solver: Option<Solver>,
-    /// Make steps by this method instead of the file's
+    /// The method of the steps, instead of the file's
     #[arg(long, value_parser = named(METHODS))]
     pub method: Option<Method>,
 }
 
-/// A system file and what replaces its settings.
+/// A system file, with settings that replace its own.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct Source {
     /// The system file
@@ -32,13 +32,13 @@ pub(crate) struct Source {
     /// Settings that replace the file's.
     #[command(flatten)]
     pub instead: Instead,
-    /// Keep S₁ … S_K, K odd; instead of the file's
+    /// The truncation K, odd, instead of the file's
     #[arg(long, value_name = "K")]
     pub truncation: Option<usize>,
 }
 
 impl Source {
-    /// How the file is to be read.
+    /// The options of reading the file.
     pub(crate) fn options(&self, parameters: Parameters) -> Options {
         let Instead { chart, solver, method } = self.instead;
         let truncation = self.truncation;
@@ -68,16 +68,16 @@ impl Input {
     }
 }
 
-/// A step size, or what it is picked by.
+/// A step size, or the tolerance by which one is chosen.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct Accuracy {
     /// The step size h
     #[arg(long, value_name = "h", allow_negative_numbers = true)]
     pub step: Option<f64>,
-    /// Pick the step, and the truncation if none is given, for this error at the end of the run
+    /// Choose the step, and the truncation if none is given, for this error at the end of the run
     #[arg(long, value_name = "error", conflicts_with = "step")]
     pub tolerance: Option<f64>,
-    /// The norm of momentum up to which the tolerance is to hold; along the run if not given
+    /// Meet the tolerance for all momenta up to this norm; by default along the run
     #[arg(long, value_name = "radius")]
     pub region: Option<f64>,
 }

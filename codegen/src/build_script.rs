@@ -47,7 +47,7 @@ pub struct Build {
     limit: TermLimit,
 }
 
-/// Why a module was not written. Printed by a build script that returns it.
+/// Errors of writing a module. A build script that returns one prints it.
 #[derive(thiserror::Error)]
 #[non_exhaustive]
 pub enum BuildError {
@@ -70,7 +70,7 @@ pub enum BuildError {
     Derive {
         /// The system file.
         path: PathBuf,
-        /// Why.
+        /// The reason.
         source: DeriveError,
     },
     /// The series is too large to compile.
@@ -78,7 +78,7 @@ pub enum BuildError {
     Size {
         /// The system file.
         path: PathBuf,
-        /// Why.
+        /// The number of terms and the limit.
         source: emit::TooManyTerms,
     },
 }

@@ -89,7 +89,7 @@ impl Arena {
         self.nodes[id.index()].1
     }
 
-    /// How often each node is used by what these are made of; 0 where not at all.
+    /// For each node, the number of its uses in these expressions.
     pub(crate) fn uses(&self, roots: &[ExprId]) -> Vec<u32> {
         let mut uses = vec![0_u32; self.len()];
         roots.iter().for_each(|root| uses[root.index()] += 1);

@@ -23,7 +23,7 @@ fn refused(what: String) -> Error {
 /// Opens a file that is read piece by piece.
 ///
 /// # Errors
-/// Where there is none, or it is a folder, a device or a pipe; the standard input is allowed.
+/// Fails if there is no such file, or it is a folder, a device or a pipe; the standard input is allowed.
 pub fn open(path: &Path) -> io::Result<File> {
     let data = fs::metadata(path)?;
     let standard = ["/dev/stdin", "/dev/fd/0", "/proc/self/fd/0"].map(Path::new);
@@ -90,7 +90,7 @@ pub fn seal(json: &str) -> String {
     format!("{{\"crc32\":\"{:08x}\",{rest}", crc32(rest.as_bytes()))
 }
 
-/// Whether a text is what [`seal`] has made.
+/// True for a text made by [`seal`] and not changed since.
 #[must_use]
 pub fn is_sealed(text: &str) -> bool {
     let parts = text.strip_prefix("{\"crc32\":\"").and_then(|text| text.split_once("\","));
@@ -197,7 +197,7 @@ pub fn write(path: &Path, inputs: &[&Path], bytes: &[u8]) -> io::Result<()> {
     written
 }
 
-/// How much of a file is known, and the checksum of it; bytes at the beginning that change are not part of that.
+/// The length of the known part of a file, and its checksum without a head that may change.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Extent {
     /// Bytes.
@@ -206,10 +206,10 @@ pub struct Extent {
     pub crc32: u32,
 }
 
-/// The extent of a file that is whole.
+/// The extent of a whole file.
 ///
 /// # Errors
-/// Where it cannot be read.
+/// Fails if the file cannot be read.
 pub fn extent(path: &Path) -> io::Result<Extent> {
     let file = open(path)?;
     let bytes = file.metadata()?.len();
@@ -242,7 +242,7 @@ pub struct Output {
     head: u64,
     bytes: u64,
     hasher: Hasher,
-    /// Whether anything was asked of the file yet.
+    /// True once [`Output::begin`] or [`Output::resume`] was called.
     begun: bool,
 }
 
@@ -255,7 +255,7 @@ impl Output {
         Self::open_as(path, &passing(path), inputs)
     }
 
-    /// The same with another passing name, on the same file system.
+    /// As [`Output::open`], with another passing name on the same file system.
     pub fn open_as(path: &Path, passing: &Path, inputs: &[&Path]) -> io::Result<Self> {
         check(path, inputs)?;
         let special = is_special(path);
@@ -288,7 +288,7 @@ impl Output {
         Ok(Self { path, passing, file, special, head, bytes, hasher, begun })
     }
 
-    /// Whether there was no passing file, or an empty one.
+    /// True if there was no passing file, or an empty one.
     #[must_use]
     pub fn is_fresh(&self) -> bool {
         !self.begun && self.file.metadata().is_ok_and(|data| data.len() == 0)
@@ -297,7 +297,7 @@ impl Output {
     /// Begins anew with `head`, bytes that may be written again by [`Output::set_head`].
     ///
     /// # Errors
-    /// Where it cannot be written.
+    /// Fails if the file cannot be written.
     pub fn begin(&mut self, head: &[u8]) -> io::Result<()> {
         self.begun = true;
         if !self.special {
@@ -336,7 +336,7 @@ impl Output {
     /// Writes at the end: all of the bytes, or none of them.
     ///
     /// # Errors
-    /// Where it cannot be written.
+    /// Fails if the file cannot be written.
     pub fn append(&mut self, bytes: &[u8]) -> io::Result<()> {
         let written = self.file.write_all(bytes);
         if written.is_ok() {
@@ -353,7 +353,7 @@ impl Output {
     /// Writes the head again.
     ///
     /// # Errors
-    /// Where it cannot be written, or the length is another.
+    /// Fails if the file cannot be written, or if the length of the head changes.
     pub fn set_head(&mut self, head: &[u8]) -> io::Result<()> {
         if head.len() as u64 != self.head {
             return Err(refused(format!("a head of {} bytes", head.len())));
@@ -363,7 +363,7 @@ impl Output {
         self.file.seek(SeekFrom::End(0)).map(|_| ())
     }
 
-    /// How much there is.
+    /// The extent written so far.
     #[must_use]
     pub fn extent(&self) -> Extent {
         Extent { bytes: self.bytes, crc32: self.hasher.clone().finalize() }
@@ -372,16 +372,16 @@ impl Output {
     /// Waits until everything is on the disk.
     ///
     /// # Errors
-    /// Where it cannot be written.
+    /// Fails if the file cannot be written.
     pub fn sync(&self) -> io::Result<()> {
         if self.special { Ok(()) } else { self.file.sync_data() }
     }
 
-    /// Gives the file its name, in one moment, with the permissions of the one that it replaces. The lock is held until
-    /// this is dropped.
+    /// Gives the file its name, in one moment, with the permissions of the one that it replaces. The lock is held until this
+    /// is dropped.
     ///
     /// # Errors
-    /// Where it cannot be written or renamed.
+    /// Fails if the file cannot be written or renamed.
     pub fn publish(&mut self) -> io::Result<()> {
         if self.special {
             return Ok(());

@@ -14,7 +14,7 @@ pub(crate) struct Tick {
 pub struct Axis {
     low: f64,
     high: f64,
-    /// Whether places are those of logarithms.
+    /// True for a logarithmic axis.
     logarithmic: bool,
     /// Ticks, ascending.
     pub(crate) ticks: Vec<Tick>,
@@ -113,7 +113,7 @@ impl Axis {
         Self::decades(floor, top.max(least_top), count)
     }
 
-    /// Where a value is between the ends, from 0 to 1.
+    /// The place of a value between the ends, from 0 to 1.
     pub(crate) fn share(&self, value: f64) -> f64 {
         if self.logarithmic {
             if value <= self.low {

@@ -17,7 +17,7 @@ pub struct Series {
 const NAMED: usize = 8;
 /// A line with more turning points than this would be drawn as a solid block.
 const MOST_TURNS: usize = 80;
-/// How many turning points are shown then.
+/// The number of turning points shown then.
 const SHOWN_TURNS: usize = 40;
 /// The number of turning points that show how fast a motion is.
 const FEW_TURNS: usize = 4;
@@ -47,12 +47,12 @@ pub(crate) fn largest<'a>(series: &[&'a Series]) -> (Vec<&'a Series>, Vec<&'a Se
     (pick(true), pick(false))
 }
 
-/// How many records are shown, and whether they are dense enough to follow the motion.
+/// The records that are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Window {
     /// This number of records from the start on.
     pub(crate) records: usize,
-    /// Whether there are at least some records from one turning point to the next.
+    /// True if the records are dense enough to follow the motion from one turning point to the next.
     pub(crate) resolved: bool,
 }
 
@@ -92,7 +92,7 @@ fn pace(turns: &[usize], times: &[f64]) -> Option<f64> {
 fn turning_points(values: &[f64], wiggle: f64) -> Vec<usize> {
     let mut turns = Vec::new();
     let (mut low, mut high) = ((0, f64::INFINITY), (0, f64::NEG_INFINITY));
-    // Whether the curve rises; unknown at first.
+    // `Some(true)` while the curve rises; unknown at first.
     let mut rising = None;
     for (at, &value) in values.iter().enumerate().filter(|(_, value)| value.is_finite()) {
         if value > high.1 {
@@ -197,7 +197,7 @@ mod tests {
         assert!(part.resolved && part.records.abs_diff(255) < 5, "{part:?}");
         // Fewer than two records from one turn to the next follow no motion.
         assert!(!window(&[&wave("too fast", 2.5, 1000)], &times).resolved);
-        // Where only the beginning is dense, only the beginning is shown.
+        // If only the beginning is dense, only the beginning is shown.
         let thin: Vec<f64> =
             times.iter().map(|&n| if n < 200.0 { n } else { 200.0 + 64.0 * (n - 199.0) }).collect();
         let values = thin.iter().map(|time| (0.3 * time).sin()).collect();

@@ -37,11 +37,11 @@ pub enum Sample {
 pub struct Curve {
     /// Its name.
     pub name: String,
-    /// How it looks.
+    /// Its colour, dashes and marker.
     pub style: Style,
-    /// Whether its points are joined.
+    /// Joins its points.
     pub joined: bool,
-    /// Whether its points are marked.
+    /// Marks its points.
     pub marked: bool,
     /// Its points; one that is not finite breaks the line.
     pub points: Vec<(f64, f64)>,
@@ -84,12 +84,12 @@ pub struct Panel {
     pub curves: Vec<Curve>,
 }
 
-/// Where a panel is drawn.
+/// The place of a panel in the picture.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place {
     /// The upper edge.
     pub(crate) top: f64,
-    /// Where texts begin.
+    /// The left edge of texts.
     pub(crate) edge: f64,
     /// The vertical axis.
     pub(crate) left: f64,
@@ -100,14 +100,14 @@ pub(crate) struct Place {
 }
 
 impl Place {
-    /// In a picture with panels one below the other.
+    /// The place in a picture with panels one below the other.
     pub(crate) fn below(top: f64, left: f64) -> Self {
         Self { top, edge: left, left, right: WIDTH - RIGHT, height: HEIGHT }
     }
 }
 
 impl Panel {
-    /// The same panel with a legend of all its curves of different names.
+    /// Adds a legend with one entry for each name of a curve.
     pub fn with_legend(mut self) -> Self {
         for curve in &self.curves {
             if !self.legend.iter().any(|(_, name)| *name == curve.name) {

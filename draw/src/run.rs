@@ -96,7 +96,7 @@ fn description(picture: &Picture) -> String {
     text
 }
 
-/// With more units than this all coordinates share a panel, their units beside their names.
+/// The largest number of panels; with more units than this all coordinates share one, and their names carry the units.
 const MOST_PANELS: usize = 3;
 
 /// The coordinates of the momentum over the time of `across`, a panel for each unit among them. Where
@@ -134,7 +134,7 @@ pub fn motion_panels(
 
 /// The time of the panels.
 struct Time<'a> {
-    /// That of the whole picture.
+    /// The first and the last time of the picture.
     across: (f64, f64),
     unit: Option<&'a str>,
     part: Window,

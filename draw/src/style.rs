@@ -38,7 +38,7 @@ svg.plot{fill:var(--ink);max-width:100%;height:auto}
 .plot .m4{fill:var(--s4)}.plot .m5{fill:var(--s5)}.plot .m6{fill:var(--s6)}.plot .m7{fill:var(--s7)}
 ";
 
-/// How a curve looks: a number for its colour, dashes and marker; after eight they come again, with thicker lines.
+/// The look of a curve: a number that selects colour, dashes and marker; after eight they repeat with thicker lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Style(usize);
 

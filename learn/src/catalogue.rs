@@ -71,7 +71,7 @@ pub fn matrix_group(algebra: &LieAlgebra) -> Result<MatrixGroup, TableError> {
     MatrixGroup::from_structure_and_basis(&structure, &basis)
 }
 
-/// The same with its Casimirs up to degree 3.
+/// Builds the group with the Casimirs of its algebra up to degree 3.
 fn with_casimirs(algebra: &LieAlgebra) -> Result<MatrixGroup, TableError> {
     let terms = watched_casimirs(algebra).into_iter().map(|polynomial| {
         let terms = polynomial.terms().map(|(exponents, value)| {

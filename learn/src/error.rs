@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// Why data could not be read, reduced, fitted, saved or loaded.
+/// Errors of reading, reducing and fitting data, and of saving and loading models.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 #[allow(missing_docs, reason = "the messages name the fields")]
@@ -100,7 +100,7 @@ impl LearnError {
         Self::Format { path: path.into(), format, reason: reason.to_string() }
     }
 
-    /// Whether the cause is the input (a file, an option), not a computation.
+    /// True if the input (a file, an option) is at fault, not a computation.
     pub fn is_input(&self) -> bool {
         !matches!(self, Self::NotConverged(_) | Self::OutOfChart(_))
     }

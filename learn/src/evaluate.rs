@@ -1,4 +1,4 @@
-//! How good a map is: errors of x, μ″ and g″ on pairs, and drifts over many steps.
+//! Measures a map: errors of x, μ″ and g″ on pairs, and drifts over many steps.
 
 use coadjoint::groups::Chart;
 use coadjoint::steps::{Monitor, advance, poisson_map};
@@ -139,7 +139,7 @@ where
     }
 }
 
-/// How far conserved quantities drift along a trajectory: largest values over all steps.
+/// Drifts of conserved quantities along a trajectory: the largest over all steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Drifts {
     /// The number of steps made.

@@ -171,7 +171,7 @@ impl MomentumFunction for GaussianProcess {
         });
     }
 
-    /// Of a sum over all weights, which cancel: it grows with the root of their number.
+    /// The rounding of a sum over all weights, which cancel, grows with the root of their number.
     fn rounding(&self) -> f64 {
         (self.stored.weights.len() as f64).sqrt().max(1.0)
     }

@@ -49,8 +49,8 @@ pub trait DataGroup: LieGroup<Scalar = f64> + Sized {
         (found, nearest.map_or(f64::INFINITY, |nearest| (nearest - given).amax()))
     }
 
-    /// How far the increment with coordinate `x` is on the way to the fold of the chart's
-    /// canonical momentum: 1 at the fold, `None` where no fold is known.
+    /// A measure of the increment with coordinate `x`: below 1 before the fold of the chart's canonical momentum, 1 at the
+    /// fold; `None` if no fold is known.
     fn fold_measure(&self, _chart: &str, _x: &Self::Vector) -> Option<f64> {
         None
     }

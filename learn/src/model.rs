@@ -129,7 +129,7 @@ const FORMAT: &str = "coadjoint-model";
 /// The version this build writes, and the only one it reads.
 const VERSION: u32 = 1;
 
-/// How a model came to be.
+/// The record of a model's training.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TrainingRecord {
     /// The number of samples of the fit.
@@ -157,10 +157,10 @@ pub struct ModelFile {
     pub chart: String,
     /// Δt, the time one application of the map stands for.
     pub step: f64,
-    /// Whether the data held attitudes. If not, the map of momenta is all that was learned, and
-    /// the attitude must not be reconstructed from it.
+    /// True if the data held attitudes. If not, only the map of momenta was learned, and attitudes must not be reconstructed
+    /// from it.
     pub attitude: bool,
-    /// How the model came to be.
+    /// The record of its training.
     pub training: TrainingRecord,
     /// The function S.
     pub model: Model,
@@ -193,7 +193,7 @@ impl ModelFile {
     /// The model as JSON, as [`ModelFile::save`] writes it.
     ///
     /// # Errors
-    /// Where it cannot be written.
+    /// Fails if the model cannot be serialized.
     pub fn text(&self) -> Result<String, std::io::Error> {
         Ok(serde_json::to_string(self)? + "\n")
     }

@@ -69,15 +69,15 @@ pub struct Request {
     pub degree: Option<usize>,
     /// The ridge of a polynomial of given degree.
     pub ridge: f64,
-    /// How far attitudes may be off the group, and momenta from being conserved; [`TOLERANCE`] if not given.
+    /// Bounds the distance of attitudes from the group and the change of conserved momenta; [`TOLERANCE`] if not given.
     pub tolerance: Option<f64>,
-    /// Whether rows that cannot be used are an error or left out.
+    /// Treatment of rows that cannot be used: an error, or left out.
     pub policy: RowPolicy,
     /// The momentum drifts are measured from; `None`: the first sample.
     pub start: Option<Vec<f64>>,
     /// The seed of folds and weights.
     pub seed: u64,
-    /// How networks are trained. Their seed is that of the request, and the names of their checkpoints begin with the one
+    /// Options of training networks. The seed is that of the request, and the names of checkpoints begin with the name given
     /// here.
     pub network: TrainingOptions,
     /// Steps over which drifts are measured.
@@ -416,7 +416,7 @@ fn learn_momenta<G: DataGroup, C: Chart<G>>(
         }
         let best = match candidates.iter().min_by(|a, b| a.mse.total_cmp(&b.mse)) {
             Some(best) => best,
-            // Why the lowest could not.
+            // Report why the lowest degree could not be fitted.
             None => {
                 fit(2, &pairs)?;
                 fit(2, &outside)?;

@@ -24,7 +24,7 @@ pub struct Separable {
 }
 
 impl Separable {
-    /// With these w, and b = v = 0.
+    /// The quadratic function with these w; b = v = 0.
     pub fn quadratic(weights: Vec<f64>) -> Self {
         let zero = vec![0.0; weights.len()];
         Self { weights, linear: zero.clone(), quartic: zero }
@@ -186,7 +186,7 @@ impl MomentumFunction for Bump {
 /// The largest coordinate of h ∂H/∂μ in a step of order 12: its error is then below rounding.
 const STEP_ANGLE: f64 = 0.4;
 
-/// How often steps are halved where one is refused.
+/// The largest number of times a refused step is halved.
 const HALVINGS: u32 = 10;
 
 /// Advances (g, μ) by the exact flow of H∘J_R for the time `time`: ġ = g·ξ, μ̇ = ad\*_ξ μ with
@@ -214,7 +214,7 @@ where
     Phase::new(phase.group_element.clone(), nothing)
 }
 
-/// The same interval for every coordinate of the momentum.
+/// A box with one interval for all coordinates of the momentum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MomentumBox {
     /// The lower end.

@@ -1,9 +1,9 @@
 //! Stand-ins for the generated items when the function could not be read, so that the compiler
 //! reports the mistakes themselves and not the absence of what is used elsewhere.
 //!
-//! Where the signature and the group can be read, it is the expansion for the first coordinate alone, which
-//! offers all that the real one does. Otherwise it is a struct whose methods take whatever they are given.
-//! Neither ever runs: the crate does not compile.
+//! If the signature and the group can be read, the stand-in is the expansion for the first coordinate alone, which offers
+//! all that the real one does. Otherwise it is a struct whose methods take any arguments. Neither ever runs: the crate does
+//! not compile.
 
 use coadjoint_codegen::diagnostic::nearest;
 use coadjoint_codegen::emit::{Items, Options};
@@ -56,7 +56,7 @@ fn attempts(arguments: TokenStream) -> impl Iterator<Item = TokenStream> {
     [arguments, group_and_chart, group].into_iter().chain(meant)
 }
 
-/// Those of the arguments `key = value, …` with one of these keys.
+/// Keeps of the arguments `key = value, …` those with one of these keys.
 fn only(arguments: &TokenStream, keys: &[&str]) -> TokenStream {
     let tokens: Vec<TokenTree> = arguments.clone().into_iter().collect();
     let comma = |token: &TokenTree| matches!(token, TokenTree::Punct(p) if p.as_char() == ',');

@@ -1,4 +1,4 @@
-//! From a function and the arguments of its attribute to items: read, build, emit.
+//! Turns a function and the arguments of its attribute into items: read, build, emit.
 
 use proc_macro2::TokenStream;
 use syn::{Error, ItemFn, Result};

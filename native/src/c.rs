@@ -187,7 +187,7 @@ impl Compiler {
         Err(NativeError::Failed { compiler: self.name(), status, message })
     }
 
-    /// How a command ended; where it passes the time limit or is to stop, it is ended with the processes it started.
+    /// Waits for a command. Past the time limit, or on request, it is killed with the processes it started.
     fn wait(&self, child: &mut Child, limit: Duration) -> Result<ExitStatus, NativeError> {
         let compiler = self.name();
         let start = Instant::now();
@@ -263,7 +263,7 @@ fn end(child: &mut Child) {
 /// The name of the library that a compiler writes.
 const LIBRARY: &str = if cfg!(windows) { "step.dll" } else { "step.so" };
 
-/// How a step is compiled by a C compiler.
+/// Options of compiling a step with a C compiler.
 #[derive(Clone, Debug)]
 pub struct COptions {
     /// The compiler's command; without one that of the environment variable CC, else the first of `cc`, `gcc` and

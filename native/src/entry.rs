@@ -14,8 +14,8 @@ use coadjoint_program::{Kernel, Outcome, Stepper, WIDTH};
 pub(crate) type AdvanceFunction =
     unsafe extern "C" fn(*const f64, *mut f64, *mut f64, u64, *mut f64) -> u64;
 
-/// The same for [`WIDTH`] trajectories side by side: (slots, g, μ, steps, live, steps made). Number i of trajectory r is
-/// at `i * WIDTH + r`; `live` holds a byte for each lane, 0 for those that stay.
+/// Advances [`WIDTH`] trajectories side by side: (slots, g, μ, steps, live, steps made). Number i of trajectory r is at `i *
+/// WIDTH + r`; `live` holds a byte for each lane, 0 for those that are not advanced.
 pub(crate) type LanesFunction =
     unsafe extern "C" fn(*const f64, *mut f64, *mut f64, u64, *const u8, *mut u64);
 

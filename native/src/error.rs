@@ -1,8 +1,8 @@
-//! Why there is no compiled step.
+//! Errors of compiling and loading steps.
 
 use std::path::PathBuf;
 
-/// Why a step could not be compiled or loaded. Each is one line; the interpreter is always there instead.
+/// Errors of compiling and loading a step. Each is one line; the interpreter works without either.
 #[derive(Debug, thiserror::Error)]
 pub enum NativeError {
     /// No C compiler answers.
@@ -40,7 +40,7 @@ pub enum NativeError {
     Failed {
         /// The command.
         compiler: String,
-        /// How it ended.
+        /// Its exit status.
         status: String,
         /// The first line of what it said that tells of an error.
         message: String,

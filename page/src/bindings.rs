@@ -142,7 +142,7 @@ impl Session {
         self.run.advance(&self.system, steps)
     }
 
-    /// Why there is no next step, as JSON `{reason, text, usable}`; nothing where there may be one.
+    /// The refusal of the next step as JSON `{reason, text, usable}`; nothing if the step was not refused.
     pub fn refusal(&self) -> Option<String> {
         #[derive(Serialize)]
         struct Shown {
@@ -182,7 +182,7 @@ impl Session {
         self.run.between(part)
     }
 
-    /// Where three coordinates of μ have been, of late: points (x, y, z); 0 for those that there are none of.
+    /// The recent trail of three coordinates of μ, as points (x, y, z); coordinates that do not exist are 0.
     pub fn trail(&self, of_rival: bool, a: usize, b: usize, c: usize, part: f64) -> Vec<f32> {
         self.run.trail(of_rival, [a, b, c], part)
     }
@@ -207,7 +207,7 @@ impl Session {
         let energy = &self.system.energy;
         // An energy that moves in time has no curves.
         let conserved = self.system.invariants.hamiltonian.is_some();
-        // Where the momentum is dragged over its sphere only its own curve is another.
+        // A momentum dragged over its sphere changes only its own curve.
         if !self.orbit.as_ref().is_some_and(|orbit| orbit.holds(momentum)) {
             self.orbit =
                 match (&self.system.invariants.casimirs[..], self.system.dim(), momentum.len()) {

@@ -1,4 +1,4 @@
-//! From fields to the text of a system file, which the library reads, and mistakes back from its places to theirs.
+//! Writes fields as the text of a system file, which the library reads, and maps places of mistakes back to the fields.
 
 use std::ops::Range;
 
@@ -31,7 +31,7 @@ impl Mistake {
     pub fn of(field: &'static str, message: impl ToString, help: &str) -> Self {
         Self { field: Some(field), ..Self::of_all(message, Some(help)) }
     }
-    /// The same at these bytes of its field.
+    /// Moves the mistake to these bytes of its field.
     pub fn at(self, range: Range<usize>) -> Self {
         Self { start: range.start, end: range.end, ..self }
     }
@@ -54,7 +54,7 @@ struct Piece {
     offset: usize,
 }
 
-/// How a part of a field is written: from byte `offset` of it on.
+/// Writes a part of a field, which begins at its byte `offset`.
 type Write = fn(&mut File, field: &'static str, offset: usize, content: &str);
 
 impl File {
@@ -254,7 +254,7 @@ fn parts(content: &str, separates: impl Fn(char) -> bool) -> Vec<(usize, &str)> 
     result
 }
 
-/// Whether TOML reads it as a number with digits.
+/// True if TOML reads it as a number with digits.
 fn is_number(text: &str) -> bool {
     let number = DeValue::parse(text)
         .is_ok_and(|value| matches!(value.get_ref(), DeValue::Integer(_) | DeValue::Float(_)));

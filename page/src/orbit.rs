@@ -58,7 +58,7 @@ impl Orbit {
         self.surface.level_curves(&self.values, energy, &self.slopes)
     }
 
-    /// Whether this is a sphere, and μ on it to a hundred-thousandth.
+    /// True if this is a sphere with μ on it, to a relative error of 1e-5.
     pub fn holds(&self, mu: &[f64]) -> bool {
         let size = mu.iter().map(|entry| entry * entry).sum::<f64>().sqrt();
         self.surface.radius.is_some_and(|radius| (size - radius).abs() < 1e-5 * radius)
@@ -82,7 +82,7 @@ impl Surface {
         Some(surface).filter(|surface| !surface.triangles.is_empty())
     }
 
-    /// By marching tetrahedra, six in a cell.
+    /// Finds a level surface by marching tetrahedra, six in a cell.
     fn level(casimir: &Numeric, level: f64, extent: f64) -> Self {
         let side = CELLS + 1;
         // Off the symmetric places, where values are exactly the level's.
@@ -201,7 +201,7 @@ fn unit(p: [f64; 3]) -> [f64; 3] {
     p.map(|x| x / size)
 }
 
-/// Whether it is a multiple of μ₁² + μ₂² + μ₃².
+/// True for multiples of μ₁² + μ₂² + μ₃².
 fn is_sphere(casimir: &Numeric) -> bool {
     let terms: Vec<_> = casimir.terms().collect();
     terms.len() == 3

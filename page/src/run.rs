@@ -35,7 +35,7 @@ pub struct Run {
     start: Start,
     spatial: Spatial,
     pub history: History,
-    /// Why there is no next step.
+    /// The refusal of the next step.
     pub refusal: Option<Refusal>,
 }
 
@@ -131,7 +131,7 @@ impl Run {
         [&self.before, &self.now].into_iter().flat_map(|state| program.run(&state.g, &[])).collect()
     }
 
-    /// Where three coordinates of μ have been, of late: points (x, y, z), smoothed between steps.
+    /// The recent trail of three coordinates of μ, as points (x, y, z), smoothed between steps.
     pub fn trail(&self, of_rival: bool, axes: [usize; 3], part: f64) -> Vec<f32> {
         let n = self.now.mu.len();
         let trail = &self.trail[usize::from(of_rival)];
@@ -178,7 +178,7 @@ impl Run {
         self.history.push(Sample { time: self.time(), drifts: [ours, rival] });
     }
 
-    /// Of energy, spatial momentum and Casimirs; NaN where there is none.
+    /// The drifts of energy, spatial momentum and Casimirs; NaN if there is none.
     fn drift(&self, system: &System, mu: &[f64], spatial: &[f64]) -> [f64; 3] {
         let conserved = system.invariants.conserved(self.time(), mu, spatial, Vec::new);
         let [momentum, casimirs, energy] = self.start.drift(&conserved).numbers();
@@ -191,7 +191,7 @@ impl Run {
     }
 }
 
-/// How many of the rival's steps cost as much as one of ours, or a little more.
+/// The number of the rival's steps that cost as much as one of ours, rounded up.
 fn substeps(system: &System, start: &State) -> usize {
     let kernel = system.step.kernel();
     let programs = &kernel.programs;
@@ -225,7 +225,7 @@ const AHEAD: u32 = 16;
 /// Halves of a refused step that are tried.
 const MOST_HALVINGS: u32 = 20;
 
-/// Why the kernel refuses the next step from (g, μ), as `emit --language c` tells them apart.
+/// Reasons for which the kernel refuses the next step from (g, μ), as `emit --language c` tells them apart.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Reason {
     NotFinite,

@@ -37,7 +37,7 @@ pub enum Kind {
 pub struct Factor {
     /// Rotations, vectors or other.
     pub kind: Kind,
-    /// Where its coordinates begin, and how many there are.
+    /// The index of its first coordinate, and the number of coordinates.
     pub coordinate: usize,
     pub dim: usize,
     /// The first row of its block in the matrix of the group.

@@ -52,7 +52,7 @@ pub struct Options {
     /// Fewer samples and steps, smaller networks.
     pub quick: bool,
     pub seed: u64,
-    /// Where outcomes and the state of training are kept.
+    /// The folder of outcomes and of the state of training.
     pub out: Option<PathBuf>,
 }
 
@@ -161,7 +161,7 @@ pub struct Judgement {
 }
 
 impl Judgement {
-    /// Whether there is a number, within its bounds.
+    /// True if there is a number within its bounds.
     pub fn holds(&self) -> bool {
         let within = |value: f64| {
             self.at_most.is_none_or(|most| value <= most)

@@ -14,7 +14,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::outcome::{Curve, Fallible};
 
-/// Where most runs of the paper's rigid body begin, at the identity.
+/// The initial momentum of most runs of the paper's rigid body; they begin at the identity.
 pub const START: [f64; 3] = [2.0, 0.5, 1.0];
 
 /// A momentum, and the matrix of a group element row by row.

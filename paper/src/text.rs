@@ -14,7 +14,7 @@ pub struct Figure {
     pub id: String,
     pub experiment: String,
     pub title: String,
-    /// Whether it is ours and not the paper's.
+    /// True for figures of ours that the paper does not have.
     pub ours: bool,
     pub settings: Vec<String>,
     pub shows: String,

@@ -19,7 +19,7 @@ pub enum Argument {
 }
 
 impl Graph {
-    /// Whether each node depends on one of these.
+    /// Marks the nodes that depend on one of these.
     fn dependent(&self, on: impl Iterator<Item = Id>) -> Vec<bool> {
         let mut dependent = vec![false; self.mark()];
         on.for_each(|id| dependent[id.index()] = true);

@@ -10,7 +10,7 @@ pub trait Values: Copy {
     fn each(of: impl Fn(usize) -> f64) -> Self;
     /// The number of a lane.
     fn lane(&self, lane: usize) -> f64;
-    /// Whether this holds for the number of each lane.
+    /// True if `holds` is true for the number of each lane.
     fn all(&self, holds: impl Fn(f64) -> bool) -> bool;
 }
 
@@ -55,13 +55,13 @@ impl<const L: usize> Values for [f64; L] {
 /// pass over the data folds all.
 #[derive(Clone, Copy, Debug)]
 pub struct Fold<'a> {
-    /// How product n + 1 is made: of which one, product 0 being 1, and by which symbol.
+    /// Product n + 1 is this product, with product 0 = 1, times this symbol.
     pub products: &'a [(u32, u32)],
     /// Factor and product.
     pub terms: &'a [(f64, u32)],
     /// For each part the power of h, and where its terms end.
     pub parts: &'a [(u32, u32)],
-    /// Where the parts of each base end.
+    /// For each base the end of its parts.
     pub bases: &'a [u32],
     /// Base, integer, and the place of their product among the coefficients.
     pub slots: &'a [(u32, u32, u32)],
@@ -80,7 +80,7 @@ pub struct Fold<'a> {
 /// factor is one.
 pub type LastTerm = (u32, u32, bool, u32, f64);
 
-/// Why coefficients cannot be folded.
+/// Errors of folding coefficients.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FoldError {
     /// The step size is zero or not finite.
@@ -120,8 +120,8 @@ impl Fold<'_> {
         self.fold_by(step, symbols, |number| self.product(number, symbols), coefficients)
     }
 
-    /// The same where the products of symbols are known, for rows side by side: [`Fold::products`] says how they are made.
-    /// Which lane is not finite, only folding it alone tells.
+    /// Folds with known products of symbols ([`Fold::products`] defines them), for rows side by side. An error does not tell
+    /// which lane is not finite; folding each alone does.
     ///
     /// # Errors
     /// As [`Fold::fold`].

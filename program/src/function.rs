@@ -37,13 +37,13 @@ const ATAN: [f64; 11] = [
     1.628_582_011_536_578_2e-2,
 ];
 
-/// From where on an angle is taken as its difference to the one of tangent c, as (from, c, its angle, the angle's rest).
+/// The least argument from which an angle is taken as its difference to that of tangent c: (least, c, angle, its rest).
 const ATAN_STEPS: [(f64, f64, f64, f64); 3] = [
     (7.0 / 16.0, 0.5, 4.636_476_090_008_061e-1, 2.269_877_745_296_168_7e-17),
     (11.0 / 16.0, 1.0, core::f64::consts::FRAC_PI_4, 3.061_616_997_868_383e-17),
     (19.0 / 16.0, 1.5, 9.827_937_232_473_29e-1, 1.390_331_103_123_099_8e-17),
 ];
-/// The same for the right angle.
+/// The entry of the right angle.
 const ATAN_LAST: (f64, f64, f64) =
     (39.0 / 16.0, core::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17);
 

@@ -5,10 +5,10 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::cell::RefCell;
 
-/// Where nodes are found again.
+/// The index of nodes.
 #[cfg(feature = "std")]
 type Known = std::collections::HashMap<Node, Id>;
-/// Without the standard library there are no numbers at random to hash with.
+/// The index without the standard library, which has no random numbers to hash with.
 #[cfg(not(feature = "std"))]
 type Known = BTreeMap<Node, Id>;
 
@@ -54,7 +54,7 @@ impl Graph {
         self.nodes.borrow()[id.index()]
     }
 
-    /// Whether this is the number 0, known without any input.
+    /// True if this is the number 0, known without any input.
     pub fn is_zero(&self, id: Id) -> bool {
         self.node(id) == Node::Zero
     }
@@ -244,7 +244,7 @@ impl Graph {
         self.call_from(program, inputs, 0)
     }
 
-    /// The same where the program's first slot is this one of the graph's.
+    /// As [`Graph::call`], with the program's first slot at `first_slot` of this graph.
     pub fn call_from(&self, program: &Program, inputs: &[Id], first_slot: usize) -> Vec<Id> {
         let mut ids: Vec<Id> = Vec::with_capacity(program.nodes().len());
         for node in program.nodes() {
@@ -277,7 +277,7 @@ impl Graph {
         }
     }
 
-    /// How many nodes there are: a mark for [`Graph::rewind`] and [`Graph::cost_since`].
+    /// The number of nodes: a mark for [`Graph::rewind`] and [`Graph::cost_since`].
     pub fn mark(&self) -> usize {
         self.nodes.borrow().len()
     }
@@ -295,7 +295,7 @@ impl Graph {
         Cost::of(&self.nodes.borrow()[mark..])
     }
 
-    /// Whether each node is needed for one of these.
+    /// Marks the nodes that are needed for one of these.
     pub(crate) fn needed(&self, outputs: &[Id]) -> Vec<bool> {
         let mut needed = vec![false; self.nodes.borrow().len()];
         for output in outputs {
@@ -415,12 +415,12 @@ impl Node {
         list.into_iter().flatten()
     }
 
-    /// Whether it has operands. Inputs, coefficients and numbers are read where they are used.
+    /// True if it has operands. Inputs, coefficients and numbers are read where they are used.
     pub fn is_operation(&self) -> bool {
         self.operands().next().is_some()
     }
 
-    /// The same operation with operands renamed by `rename`.
+    /// Renames the operands by `rename`.
     pub(crate) fn map(self, rename: impl Fn(Id) -> Id) -> Self {
         match self {
             Self::Add(a, b) => Self::Add(rename(a), rename(b)),
@@ -444,7 +444,7 @@ impl Node {
     }
 }
 
-/// How many operations a program takes.
+/// The operations of a program, by kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cost {
     /// Products, those inside a product-and-sum included.
@@ -494,7 +494,7 @@ pub struct Program {
 }
 
 impl Program {
-    /// How many inputs the program reads.
+    /// The number of inputs of the program.
     pub fn inputs(&self) -> usize {
         self.inputs
     }
@@ -544,7 +544,7 @@ impl Program {
         graph.finish(count, &outputs)
     }
 
-    /// How many nodes are operations.
+    /// The number of nodes that are operations.
     pub fn operations(&self) -> usize {
         self.nodes.iter().filter(|node| node.is_operation()).count()
     }
@@ -566,7 +566,7 @@ impl Program {
         Cost::of(&self.nodes)
     }
 
-    /// How often each node is used, as an operand or as a result.
+    /// The number of uses of each node, as an operand or as a result.
     pub fn uses(&self) -> Vec<usize> {
         let mut uses = vec![0; self.nodes.len()];
         for node in &self.nodes {

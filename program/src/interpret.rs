@@ -46,7 +46,7 @@ pub struct Attempt {
     pub residual_bound: f64,
     /// The distance of the solution from the first guess, relative to the largest coordinate of μ.
     pub distance: f64,
-    /// Whether the step is right.
+    /// True if the step is accepted.
     pub accepted: bool,
 }
 
@@ -82,7 +82,7 @@ struct Walk<'k, T, const L: usize> {
     kept: [Vec<T>; 2],
     /// Which trajectories move on.
     live: [bool; L],
-    /// Whether a step was refused.
+    /// True if a step was refused.
     refused: bool,
     steps: u64,
     outcome: Outcome,
@@ -287,7 +287,7 @@ fn evaluate<T: Number>(program: &Program, inputs: &[T], slots: &[T], nodes: &mut
     program.evaluate(|i| inputs[i], |i| slots[i], nodes);
 }
 
-/// The same with fused products as instructions. Calling it needs a processor that has AVX2 and FMA.
+/// Evaluates with fused products as instructions. Only a processor with AVX2 and FMA can run it.
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 #[target_feature(enable = "avx2,fma")]
 fn evaluate_fma<T: Number>(program: &Program, inputs: &[T], slots: &[T], nodes: &mut Vec<T>) {

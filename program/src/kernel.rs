@@ -16,7 +16,7 @@
 //!     if sound(g, μ) is not 1: back to the start of the block, stop
 //! ```
 //!
-//! Where a potential breaks the symmetry a step is a sequence of kicks and flows that begins and ends with a kick. Each flow
+//! If a potential breaks the symmetry, a step is a sequence of kicks and flows that begins and ends with a kick. Each flow
 //! has folded coefficients of its own, those of its length, and so has the last kick:
 //!
 //! ```text
@@ -160,11 +160,11 @@ impl Kernel {
         Ok(Self { parts, constants, slots, precision, kicks, clock, schedule })
     }
 
-    /// The same with kicks between the flows of a step, of which there are this many: `kick` is g (m), μ (n) ↦ the
-    /// kicked μ (n). All programs then read the coefficients of a flow, or those of the last kick.
+    /// Adds kicks between the `flows` flows of a step: `kick` is g (m), μ (n) ↦ the kicked μ (n). All programs then read the
+    /// coefficients of a flow, or those of the last kick.
     ///
     /// # Errors
-    /// [`ProgramError::Shape`] where `kick` has other inputs and outputs.
+    /// [`ProgramError::Shape`] if `kick` has other inputs and outputs.
     pub fn with_kicks(self, kick: Program, flows: u32) -> Result<Self, ProgramError> {
         let (n, m) = (self.dim, self.element);
         let (expected, found) = ((m + n, n), (kick.inputs(), kick.outputs().len()));
@@ -176,7 +176,7 @@ impl Kernel {
         Ok(Self { slots, kicks: Some(Kicks { kick, flows }), schedule, ..self })
     }
 
-    /// The same where the programs read these times, and nothing else that changes from step to step.
+    /// Lets the programs read these times, the only coefficients that change from step to step.
     #[must_use]
     pub fn with_clock(self, clock: Clock) -> Self {
         Self { clock: Some(clock), ..self }
@@ -189,7 +189,7 @@ impl Kernel {
         Self { clock, ..self }
     }
 
-    /// The same step in numbers of this length, whose rounding the tolerance follows.
+    /// Changes the length of the numbers; the tolerance follows their rounding.
     #[must_use]
     pub fn in_precision(self, precision: Precision) -> Self {
         let tolerance = self.tolerance / self.precision.epsilon() * precision.epsilon();
@@ -207,17 +207,17 @@ impl Kernel {
         self.constants
     }
 
-    /// Whether a guess looks at g, where steps leave numbers to the next one, and not at μ alone.
+    /// True if a guess reads g, in which steps leave numbers for the next one, and not μ alone.
     pub fn guesses_from_element(&self) -> bool {
         self.programs.guess.inputs() != self.dim
     }
 
-    /// How many folded coefficients a step has; with kicks those of every flow and of the last kick.
+    /// The number of folded coefficients of a step; with kicks those of every flow and of the last kick.
     pub fn slots(&self) -> usize {
         self.slots * self.flows().map_or(1, |flows| flows as usize + 1)
     }
 
-    /// How many of them the programs read at a time.
+    /// The number of folded coefficients that programs read in one flow.
     pub fn slots_of_flow(&self) -> usize {
         self.slots
     }
@@ -232,7 +232,7 @@ impl Kernel {
         self.kicks.as_ref().map(|kicks| &kicks.kick)
     }
 
-    /// Whether coefficients or the state of this many trajectories have fewer numbers than steps read.
+    /// True if coefficients or the state of this many trajectories have fewer numbers than steps read.
     pub fn lacks(&self, slots: &[f64], g: &[f64], mu: &[f64], trajectories: usize) -> bool {
         slots.len() < self.slots()
             || g.len() < self.element * trajectories
@@ -251,7 +251,7 @@ impl Kernel {
     }
 }
 
-/// Why programs are no step.
+/// Errors of making a kernel from programs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ProgramError {
     /// A program of a step has other numbers of inputs and outputs than the step's dimensions ask for.
@@ -345,12 +345,12 @@ pub enum Trajectories {
 }
 
 impl Trajectories {
-    /// Whether one trajectory is going to be made by itself.
+    /// True if single trajectories are needed.
     pub fn one(self) -> bool {
         self != Self::Lanes
     }
 
-    /// Whether trajectories are going to be made side by side.
+    /// True if trajectories side by side are needed.
     pub fn lanes(self) -> bool {
         self != Self::One
     }

@@ -4,7 +4,7 @@ use crate::bits::{exponent, power_of_two};
 
 /// A number, or several in lanes, with the operations of [`Node`](crate::Node), each rounded once.
 pub(crate) trait Number: Copy {
-    /// The same number in all lanes.
+    /// A number, in all lanes.
     fn of(value: f64) -> Self;
     /// a + b
     fn add(self, b: Self) -> Self;
@@ -187,7 +187,7 @@ pub(crate) trait Packed<const L: usize>: Number {
     fn load(list: &[f64], i: usize) -> Self;
     fn store(self, list: &mut [f64], i: usize);
     fn lane(self, lane: usize) -> f64;
-    /// In live lanes `new`, in others self.
+    /// Replaces the live lanes by those of `new`.
     fn update(self, live: [bool; L], new: Self) -> Self;
 }
 

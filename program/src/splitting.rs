@@ -24,7 +24,7 @@ pub enum Splitting {
 struct Lengths {
     name: &'static str,
     order: u32,
-    /// How many flows a step has; kicks are one more.
+    /// The number of flows in a step; there is one kick more.
     stages: usize,
     kicks: &'static [f64],
     flows: &'static [f64],

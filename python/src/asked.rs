@@ -5,10 +5,10 @@ use pyo3::prelude::*;
 
 use crate::error::refused;
 
-/// A backend by its name.
+/// Finds a backend by its name.
 ///
 /// # Errors
-/// Where there is none of that name.
+/// Refuses an unknown name.
 pub fn backend_of(py: Python<'_>, name: &str) -> PyResult<Backend> {
     match name {
         "auto" => Ok(Backend::Auto),
@@ -36,10 +36,10 @@ pub struct Asked {
 }
 
 impl Asked {
-    /// The same, as the run wants it.
+    /// Checks the options and converts them for a run.
     ///
     /// # Errors
-    /// Where that cannot be.
+    /// Refuses an even truncation or one above 63, and a step beside a tolerance.
     pub fn accuracy(&self, py: Python<'_>) -> PyResult<Accuracy> {
         let Self { step, tolerance, region, truncation, t0, time, .. } = *self;
         let comoving = self.frame.as_ref().map(|frame| frame == "comoving");

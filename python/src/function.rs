@@ -19,14 +19,14 @@ const SAME: f64 = 1e-5;
 pub struct Functions {
     energy: Py<PyAny>,
     gradient: Py<PyAny>,
-    /// Whether the gradient was found to be the energy's, where it was first asked for.
+    /// True once the gradient was found to be the energy's, at its first call.
     checked: AtomicBool,
     failures: Arc<Failures>,
 }
 
-/// Why a function has no value.
+/// A failed call of a function.
 pub struct Failure {
-    /// In words.
+    /// The message.
     pub text: String,
     /// The exception that it raised, if it did.
     pub cause: Option<PyErr>,
@@ -109,8 +109,8 @@ impl Functions {
         }
     }
 
-    /// Whether the energy does not depend on the time, as far as a few times tell, and the gradient is its own, by central
-    /// differences; where not, that is noted.
+    /// Checks that the energy is independent of the time, at a few times, and that the gradient agrees with central
+    /// differences; records a failure otherwise.
     fn check(&self, time: f64, mu: &[f64]) -> bool {
         let energy = self.value(time, mu);
         if LATER.iter().any(|later| (self.value(time + later, mu) - energy).abs() > 0.0) {
@@ -132,7 +132,7 @@ impl Functions {
         let differences: Vec<f64> = (0..mu.len()).map(difference).collect();
         let both = gradient.iter().chain(&differences);
         let scale = both.fold(0.0_f64, |scale, x| scale.max(x.abs()));
-        // What rounding of the energy makes of a difference.
+        // The effect of rounding of the energy on a difference.
         let rounding = 1e-15 * energy.abs() / spacing;
         let apart = |i: &usize| (gradient[*i] - differences[*i]).abs() > SAME * scale + rounding;
         let Some(i) = (0..mu.len()).find(apart) else { return true };

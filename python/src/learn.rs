@@ -184,7 +184,7 @@ impl ModelCore {
         Ok(Core::of(self.name.clone(), "".into(), system))
     }
 
-    /// How many applications end at this time.
+    /// The number of applications of the map until this time.
     fn steps(&self, py: Python<'_>, time: f64) -> PyResult<u64> {
         let schedule = Schedule::of_model(self.model.step, time);
         Ok(schedule.map_err(|error| raised(py, &error))?.steps)

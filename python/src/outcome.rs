@@ -51,7 +51,7 @@ pub fn result_of<'py>(
     };
     let events: Vec<_> = outcome.events.iter().map(crossing).collect();
     found.set_item("events", events)?;
-    // Where rotations of space stand in the matrix: of a rigid motion the first rows are one.
+    // First rows of rotations of space in the matrix: those of a rigid motion begin with one.
     let turns = |block: &&Block| matches!(block.kind, Kind::Rotation | Kind::Motion);
     let rotations = outcome.blocks.iter().filter(turns).map(|block| block.range.start);
     found.set_item("rotations", rotations.collect::<Vec<usize>>())?;

@@ -33,7 +33,7 @@ pub struct Table {
 pub struct Keeper<'a> {
     /// The records.
     pub table: Table,
-    /// Who may stop it.
+    /// Stops the run on request.
     pub control: &'a Control,
 }
 

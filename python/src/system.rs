@@ -45,7 +45,7 @@ pub struct Core {
     name: String,
     text: Arc<str>,
     system: System,
-    /// What is given in place of parts of the text: functions, and all inputs as they were when it was first read.
+    /// Replacements for parts of the text: functions, and all inputs as they were at first reading.
     given: Functions,
     /// The failures of functions of Python.
     pub(crate) failures: Arc<Failures>,
@@ -60,10 +60,10 @@ pub struct Core {
 /// The parameters of an ensemble that vary, and the state along whose motion a tolerance is met where the text has none.
 type Ensemble = (Vec<String>, Option<Vec<f64>>);
 
-/// What was asked for, and what was chosen for it.
+/// A request, and the choice made for it.
 type Chosen = (Accuracy, Option<Ensemble>, System, Option<Choice>);
 
-/// What a system is derived for: a truncation, a frame, and, for ensembles, the parameters that vary.
+/// The purpose of a derivation: a truncation, a frame, and, for ensembles, the parameters that vary.
 pub(crate) type Purpose = (usize, &'static str, Option<Vec<String>>);
 
 /// Systems that have been derived.
@@ -94,7 +94,7 @@ fn derive(
 }
 
 impl Core {
-    /// The same text, with nothing derived yet, for another thread. Earlier failures of functions are forgotten.
+    /// A copy for another thread: the same text, with nothing derived yet. Earlier failures of functions are forgotten.
     pub(crate) fn here(&self) -> Self {
         drop(self.failures.take());
         let (name, text, system) = (self.name.clone(), self.text.clone(), self.system.clone());
@@ -111,7 +111,7 @@ impl Core {
         Self { name, text, system, given, failures, derived, chosen, differentiated }
     }
 
-    /// What functions of Python have raised, where they did.
+    /// Raises the exception of a function of Python, if there was one.
     fn raise(&self, py: Python<'_>) -> PyResult<()> {
         self.failures.take().and_then(|failure| failure.cause).map_or(Ok(()), |cause| {
             let error = RunError::Option("a function of the system failed".to_owned());

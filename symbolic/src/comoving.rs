@@ -159,7 +159,7 @@ fn axes(algebra: &LieAlgebra, hamiltonian: &Polynomial, field: &Polynomial) -> V
     integrals
 }
 
-/// How many monomials in the momenta S₁ and S₃ of a Hamiltonian have, or `None` where it has none.
+/// The number of monomials in the momenta that S₁ and S₃ of a Hamiltonian have; `None` for a Hamiltonian without momenta.
 fn length(algebra: &LieAlgebra, chart: Chart, hamiltonian: &Polynomial) -> Option<usize> {
     let dim = algebra.dim();
     if hamiltonian.factors().all(|(factors, _)| split_at(&factors, dim).0.is_empty()) {
@@ -169,7 +169,7 @@ fn length(algebra: &LieAlgebra, chart: Chart, hamiltonian: &Polynomial) -> Optio
     Some((1..=COMPARED).map(|k| monomials(series.order(k), dim)).sum())
 }
 
-/// How many monomials in the momenta a polynomial has.
+/// The number of different monomials in the momenta.
 fn monomials(polynomial: &Polynomial, dim: usize) -> usize {
     let momenta = polynomial.factors().map(|(factors, _)| split_at(&factors, dim).0.to_vec());
     momenta.collect::<BTreeSet<_>>().len()
@@ -246,7 +246,7 @@ fn multiples(hamiltonian: &Polynomial, function: &Polynomial, dim: usize) -> Vec
     shares.map(|share| &share * function).collect()
 }
 
-/// For each monomial of a function the factor by which it cancels that of H.
+/// The factors by which each monomial of a function cancels that of H.
 fn cancelling(
     hamiltonian: &Polynomial,
     function: &Polynomial,
@@ -258,7 +258,7 @@ fn cancelling(
     })
 }
 
-/// Without zeros and repetitions.
+/// Drops zeros and repetitions.
 fn distinct(candidates: impl Iterator<Item = Polynomial>) -> Vec<Polynomial> {
     let mut result: Vec<Polynomial> = Vec::new();
     for candidate in candidates {
@@ -310,7 +310,7 @@ pub(super) fn functional(variables: usize, element: &[Rational]) -> Polynomial {
     )
 }
 
-/// Whether {H, f} = 0.
+/// True if {H, f} = 0.
 pub(super) fn commute(algebra: &LieAlgebra, hamiltonian: &Polynomial, f: &Polynomial) -> bool {
     let field = algebra.hamiltonian_field(hamiltonian);
     let slopes = f.gradient(algebra.dim());

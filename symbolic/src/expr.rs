@@ -125,7 +125,7 @@ impl ParameterExpr {
         self.evaluate_rows(parameters)
     }
 
-    /// The same for rows of values side by side.
+    /// The values for rows of parameters side by side.
     pub fn evaluate_rows<T: Values>(&self, parameters: &[T]) -> T {
         let all = |x: f64| T::each(|_| x);
         let one = |a: &Self, of: &dyn Fn(f64) -> f64| {
@@ -149,7 +149,7 @@ impl ParameterExpr {
         }
     }
 
-    /// The same with these exact values put in for parameters that have one, and numbers computed where they are exact.
+    /// Puts exact values in for the parameters that have one, and computes with numbers as far as that is exact.
     pub(crate) fn with_values(&self, values: &[Option<Rational>]) -> Self {
         type Exact<'a> = &'a dyn Fn(&Rational, &Rational) -> Option<Rational>;
         let within = |a: &Self| Box::new(a.with_values(values));

@@ -141,7 +141,7 @@ fn content(terms: &[SlotTerm]) -> Vec<(u32, u32)> {
     content
 }
 
-/// In how many terms a variable is, and its lowest exponent there.
+/// The number of terms that contain a variable, and its lowest exponent there.
 struct Occurrence {
     variable: u32,
     count: usize,

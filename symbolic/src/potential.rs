@@ -15,10 +15,10 @@ use crate::signal::{self, Signal};
 /// A force, as its kicks are made.
 #[derive(Clone, Debug)]
 pub enum Force {
-    /// That of a potential V, a polynomial over ℚ in the entries of the group element's matrix, row by row (the first `size`²
-    /// variables), and the [`Symbol`]s (the variables after them).
+    /// The torque of a potential V, a polynomial over ℚ in the entries of the group element's matrix, row by row (the first
+    /// `size`² variables), and the [`Symbol`]s (the variables after them).
     Polynomial(Polynomial),
-    /// That of another smooth function, or a torque without potential.
+    /// The torque of another smooth potential, or one without potential.
     Smooth(Box<Programs>),
 }
 
@@ -37,9 +37,9 @@ pub struct Programs {
     pub watched: Program,
     /// The texts of the expressions watched.
     pub expressions: Vec<String>,
-    /// Whether the torque depends on the momentum.
+    /// True if the torque depends on the momentum.
     pub of_momentum: bool,
-    /// Whether it depends on the time.
+    /// True if the torque depends on the time.
     pub moves: bool,
     /// Its inputs u(t).
     pub signals: Vec<Signal>,
@@ -252,8 +252,8 @@ impl Potential {
         null_space(rows.into_values(), slopes.len())
     }
 
-    /// Whether kicks conserve this function C of the momentum: Σ_k ∂C/∂μ_k τ_k = 0 for all μ and g, τ the body torque; where
-    /// that is no polynomial, by its formula.
+    /// True if kicks conserve this function C of the momentum: Σ_k ∂C/∂μ_k τ_k = 0 for all μ and g, with the body torque τ.
+    /// A torque that is no polynomial is judged by its formula.
     pub fn keeps(&self, casimir: &Polynomial) -> bool {
         let torque = match &self.force {
             Force::Polynomial(energy) => self.torque(energy),

@@ -198,7 +198,7 @@ pub struct Problem {
     pub frame: FrameChoice,
     /// The comoving frame, if S is to generate the motion in it.
     pub comoving: Option<Frame>,
-    /// Whether h·H_red is the generating function of a learned map, and not the first term of a series.
+    /// True if h·H_red is the generating function of a learned map, not the first term of a series.
     pub learned: bool,
 }
 
@@ -208,8 +208,7 @@ impl Problem {
         self.comoving.as_ref().map_or(&self.hamiltonian, |frame| &frame.rest)
     }
 
-    /// The same problem, in the same frame, with the values put in that its parameters have by default; exactly, where
-    /// the coefficients are rational then.
+    /// Puts the default values of the parameters in, in the same frame; exactly, if the coefficients are then rational.
     pub fn with_defaults(&self) -> Self {
         let dim = self.algebra.dim();
         let values = |parameter: &Parameter| match &parameter.default {
@@ -258,7 +257,7 @@ impl Problem {
 }
 
 impl Problem {
-    /// Whether H_red is of degree two or less in the momenta.
+    /// True if H_red is of degree two or less in the momenta.
     pub fn is_quadratic(&self) -> bool {
         let dim = self.algebra.dim();
         let degree = |factors: &[(u32, u32)]| {

@@ -41,7 +41,7 @@ pub struct Columns {
     pub values: String,
 }
 
-/// Why a table gives no input. Entries are counted from 0.
+/// Errors of making an input from a table. Entries are counted from 0.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SignalError {
     /// Two lists of different lengths.

@@ -24,7 +24,7 @@ pub struct Smooth {
     pub algebra: LieAlgebra,
     /// The names of the momentum's coordinates, dual to the basis of 𝔤.
     pub coordinates: Vec<String>,
-    /// Whether H depends on the time.
+    /// True if H depends on the time.
     pub moves: bool,
     /// The inputs u(t) in H.
     pub signals: Vec<Signal>,
@@ -72,7 +72,7 @@ impl std::fmt::Debug for Given {
     }
 }
 
-/// What the program that reads a text puts in place of parts of it.
+/// Functions that a caller gives in place of parts of a text.
 #[derive(Clone, Debug, Default)]
 pub struct Functions {
     /// The Hamiltonian, and its name; the text then has none.
@@ -120,7 +120,7 @@ impl Smooth {
         Facts { name, algebra, coordinates, parameters, truncation: *truncation }
     }
 
-    /// The same with kicks between flows; `None` where the potential has other parameters than the Hamiltonian.
+    /// Adds kicks between flows; `None` if the parameters of the potential are not those of the Hamiltonian.
     pub fn with_kicks(mut self, kick: Kick, splitting: Splitting) -> Option<Self> {
         if kick.potential.parameters != self.parameters {
             return None;
@@ -132,7 +132,7 @@ impl Smooth {
         Some(self)
     }
 
-    /// Whether H is known to be of degree at most two in the momentum.
+    /// True if H is known to be of degree at most two in the momentum.
     pub fn is_quadratic(&self) -> bool {
         if self.given.is_some() {
             return false;
@@ -147,7 +147,7 @@ impl Smooth {
         self.truncation.div_ceil(2)
     }
 
-    /// Whether the programs read the time or signals.
+    /// True if the programs read the time or signals.
     pub fn depends_on_time(&self) -> bool {
         self.moves || !self.signals.is_empty()
     }
@@ -210,7 +210,7 @@ impl Hamiltonian {
         }
     }
 
-    /// Whether it is known to be of degree at most two in the momentum.
+    /// True if it is known to be of degree at most two in the momentum.
     pub fn is_quadratic(&self) -> bool {
         match self {
             Self::Polynomial(problem, _) => problem.is_quadratic(),

@@ -36,7 +36,7 @@ pub fn unlimited(step: &Step, h: f64) -> Vec<f64> {
     limited(step, h, f64::MAX)
 }
 
-/// The same for momenta up to this size.
+/// The coefficients of a step of size `h` for momenta up to `radius`.
 pub fn limited(step: &Step, h: f64, radius: f64) -> Vec<f64> {
     let mut coefficients = step.fold(h, &[]).unwrap();
     coefficients[step.radius_at()] = radius * radius;

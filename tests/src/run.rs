@@ -15,7 +15,7 @@ use crate::reference::{EndState, numbers};
 pub struct Outcome {
     /// max |μ − μ_reference| / max |μ_reference| at the end.
     pub momentum: f64,
-    /// The same for the entries of the group element.
+    /// max |g − g_reference| / max |g_reference| at the end, over the entries.
     pub group_element: f64,
     /// The largest drift of J_L over the run, against its largest coordinate.
     pub spatial_momentum: f64,

@@ -121,8 +121,8 @@ impl ClosedForm {
     }
 }
 
-/// Where the observer and the Sun stand, as unit vectors in a frame with the angular momentum
-/// along z. The real geometry of 1992/93 changed quickly; this is one of its size, held fixed.
+/// Unit vectors to the observer and the Sun, in a frame with the angular momentum along z. The real geometry of 1992/93
+/// changed quickly; this is one of its size, held fixed.
 #[derive(Clone, Copy, Debug)]
 pub struct Geometry {
     pub observer: Vector3<f64>,

@@ -166,7 +166,7 @@ impl Translation for Mass {
     }
 }
 
-/// The same with Γ × V added to the torque, Γ̇ = Γ × Ω and ẋ = R V; the components are (Π, q, Γ, x).
+/// Adds Γ × V to the torque, Γ̇ = Γ × Ω and ẋ = R V; the components are (Π, q, Γ, x).
 struct Moving<T>(Vector, T);
 
 impl<T: Translation> System<f64, SVector<f64, 13>> for Moving<T> {

@@ -181,7 +181,7 @@ struct Theta {
     odd: [f64; TERMS],
     /// 2 q^(k²), k ≥ 1.
     even: [f64; TERMS],
-    /// The same times cosh 2ky and sinh 2ky.
+    /// The coefficients times cosh 2ky and sinh 2ky.
     shifted: [[f64; 2]; TERMS],
     terms: usize,
 }

@@ -18,7 +18,7 @@ pub fn dot(u: &Vector, v: &Vector) -> f64 {
     u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 }
 
-/// Where a run has come to: body momentum, and group element from the body to space.
+/// The state of a run: body momentum, and group element from the body to space.
 #[derive(Clone, Debug)]
 pub struct State {
     /// Angular momentum in the body.

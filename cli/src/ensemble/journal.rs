@@ -25,7 +25,7 @@ pub(crate) struct Journal {
     pub files: [(u64, u32); 2],
     /// Rejected rows so far.
     pub rejected: u64,
-    /// Where the next row begins in the input.
+    /// The position of the next row in the input.
     pub position: u64,
     /// The largest drift of J_L so far, as bits, if one is known.
     pub spatial_momentum: Option<u64>,

@@ -32,7 +32,7 @@ pub(crate) struct Job<'a> {
     pub options: &'a EnsembleOptions,
     /// Advances rows.
     pub engine: &'a Engine<'a>,
-    /// Where rows come from.
+    /// The source of rows.
     pub states: States,
     /// Everything the run reads.
     pub inputs: &'a [&'a Path],
@@ -40,7 +40,7 @@ pub(crate) struct Job<'a> {
     pub form: Form,
     /// Rows of the input, counted from 0.
     pub range: Range<u64>,
-    /// How far rows go, and where their states are kept.
+    /// The steps of each row, and the times at which its states are kept.
     pub course: Course,
     /// The identity of the run.
     pub identity: Identity,
@@ -71,7 +71,7 @@ pub(crate) struct Files {
 }
 
 impl Files {
-    /// Of this output.
+    /// Names the files of this output.
     pub(crate) fn of(out: &Path) -> Self {
         Self {
             out: out.into(),
@@ -225,7 +225,7 @@ impl Run<'_> {
             list.publish().map_err(unwritten(&files.list))?;
         } else {
             list.discard();
-            // That of an earlier run.
+            // An earlier run may have left a list.
             if fs::read(&files.list).is_ok_and(|list| list.starts_with(LIST)) {
                 remove(&files.list)?;
             }

@@ -79,7 +79,7 @@ impl States {
         Ok(self.table.seek(row, position)?)
     }
 
-    /// Where the next row begins.
+    /// The position of the next row.
     pub(crate) fn position(&self) -> u64 {
         self.table.position()
     }

@@ -21,11 +21,11 @@ pub(crate) struct Facts {
     pub algebra: LieAlgebra,
     /// A description in a few words.
     pub summary: Option<String>,
-    /// Whether the basis is written as complex matrices.
+    /// True if the basis is written as complex matrices.
     pub complex: bool,
-    /// Whether the algebra is nilpotent: exp is then regular at every x.
+    /// True if the algebra is nilpotent: exp is then regular at every x.
     pub nilpotent: bool,
-    /// Why there is no Cayley chart.
+    /// The reason for which there is no Cayley chart.
     pub no_cayley: Option<String>,
     /// The degree up to which Casimirs were looked for.
     pub degree: u32,
@@ -53,7 +53,7 @@ impl Facts {
         })
     }
 
-    /// With the Casimirs up to this degree; 0 stands for as high as is quick, 4 at most.
+    /// Finds the Casimirs up to this degree; 0 stands for as high as is quick, 4 at most.
     pub(crate) fn with_casimirs(mut self, degree: u32) -> Result<Self, CliError> {
         let quick = |factor: &LieAlgebra| {
             (1..=4).rev().find(|&d| monomials(factor.dim(), d) <= MONOMIALS).unwrap_or(1)
@@ -112,7 +112,7 @@ impl Facts {
         letters.iter().flat_map(|name| indices.clone().map(move |i| format!("{name}{i}"))).collect()
     }
 
-    /// Whether the algebra has the constants of this group.
+    /// True if the algebra has the structure constants of this group.
     fn is_like(&self, name: &str) -> bool {
         catalogue::lookup(name).is_ok_and(|it| it.structure() == self.algebra.structure())
     }
@@ -124,7 +124,7 @@ impl Facts {
         known.into_iter().find(|(name, _)| self.is_like(name)).map(|(_, formula)| formula)
     }
 
-    /// Whether tr ad_x is zero for every x.
+    /// True if tr ad_x is zero for every x.
     fn is_unimodular(&self) -> bool {
         let mut traces: BTreeMap<usize, Rational> = BTreeMap::new();
         for c in self.algebra.structure().iter().filter(|c| c.j == c.k) {
@@ -133,7 +133,7 @@ impl Facts {
         traces.values().all(Zero::is_zero)
     }
 
-    /// Where exp is a chart, as the runtime has it.
+    /// The domain of exp as a chart of the runtime.
     pub(crate) fn exp_domain(&self) -> String {
         const GENERAL: &str = "|Im λ| < π for every eigenvalue λ of ad_x";
         if self.nilpotent {
@@ -155,7 +155,7 @@ impl Facts {
         GENERAL.to_owned()
     }
 
-    /// Where Cayley's map is a chart, or why it is none.
+    /// The domain of Cayley's map as a chart, or the reason for which it is none.
     pub(crate) fn cayley_domain(&self) -> Result<&'static str, &str> {
         let turns = ["SO3", "SE3"].contains(&self.algebra.name());
         match &self.no_cayley {
@@ -187,7 +187,7 @@ fn refused(reason: &dyn std::fmt::Display) -> CliError {
     CliError::Option(format!("groups: {reason}"))
 }
 
-/// How many monomials of this degree there are in `n` variables.
+/// The number of monomials of this degree in `n` variables.
 fn monomials(n: usize, degree: u32) -> u128 {
     (1..=u128::from(degree)).fold(1, |product, k| product.saturating_mul(n as u128 + k - 1) / k)
 }

@@ -13,7 +13,7 @@ const CASIMIRS: usize = 8;
 /// A formula longer than this is cut.
 const LONGEST: usize = 400;
 
-/// How groups are put together; said below the list.
+/// The syntax of products, printed below the list.
 const PRODUCTS: &str = "\
 SO4, SO5, ..., SU3, SU4, ..., U1, U2, ... go up to n = 16, R1, R2, ... to n = 4096. Parentheses are allowed: SO(3).
 

@@ -22,7 +22,7 @@ fn flags() -> &'static Flags {
             immediate: Arc::new(AtomicBool::new(true)),
         };
         for signal in [SIGINT, SIGTERM] {
-            // Where a signal cannot be watched it ends the program as ever. A second one does, too.
+            // A signal that cannot be watched ends the program as usual; so does a second one.
             let _ = flag::register_conditional_default(signal, flags.immediate.clone());
             let _ = flag::register(signal, flags.asked.clone());
             let _ = flag::register(signal, flags.immediate.clone());
@@ -42,7 +42,7 @@ impl Guard {
         Self(())
     }
 
-    /// Whether the run is to stop.
+    /// True once the run is to stop.
     pub(crate) fn asked(&self) -> bool {
         flags().asked.load(Ordering::Relaxed)
     }

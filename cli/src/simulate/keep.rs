@@ -52,7 +52,7 @@ struct Keeper<'a> {
     guard: Option<Guard>,
     bar: Option<ProgressBar>,
     shown: Instant,
-    /// Why the run was halted.
+    /// The error that halted the run.
     failure: Option<CliError>,
 }
 

@@ -188,7 +188,7 @@ pub(crate) fn schedule(
     Ok(schedule)
 }
 
-/// Where the records of each system go. Several truncations go to a file each; the names are announced.
+/// The targets of the records of each system. Several truncations go to a file each; the names are announced.
 fn outs(out: Option<&Target>, systems: &[System]) -> Result<Vec<Option<Target>>, CliError> {
     let (Some(out), true) = (out, systems.len() > 1) else {
         return Ok(vec![out.cloned(); systems.len()]);

@@ -1,4 +1,4 @@
-//! From trajectories to what is drawn.
+//! Draws trajectories.
 
 use std::path::Path;
 

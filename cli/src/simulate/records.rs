@@ -36,7 +36,7 @@ pub(crate) struct Checkpoint {
     pub rows: u64,
     /// The moments kept for pictures, if any are.
     pub samples: Option<Samples>,
-    /// Whether the run has finished.
+    /// True if the run has finished.
     pub complete: bool,
 }
 
@@ -115,12 +115,12 @@ impl Records {
         Ok(records)
     }
 
-    /// How many records there are.
+    /// The number of records.
     pub(crate) fn rows(&self) -> u64 {
         self.written + self.waiting
     }
 
-    /// Whether nobody reads any more.
+    /// True if the reader has closed its end.
     pub(crate) fn closed(&self) -> bool {
         self.closed
     }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// The number of first moments that are all kept.
 const HEAD: usize = 512;
-/// Of the rest, between half of this number and all of it are kept, unless they are large.
+/// The largest number kept of the rest. At least half of it is kept, unless moments are large.
 const MOST: usize = 4096;
 /// The fewest that are kept however large they are, an even number.
 const FEWEST: usize = 256;
@@ -29,14 +29,14 @@ pub(crate) struct Samples {
     records: Vec<Sample>,
     most: usize,
     stride: u64,
-    /// How many moments were offered after the head.
+    /// The number of moments offered after the head.
     offered: u64,
     /// The largest drift since the last moment kept.
     pending: Option<Sample>,
 }
 
 impl Samples {
-    /// For momenta of this dimension.
+    /// Keeps moments of this dimension.
     pub(crate) fn new(dim: usize) -> Self {
         let most = (NUMBERS / (dim + 5)).clamp(FEWEST, MOST) & !1;
         Self { records: Vec::new(), most, stride: 1, offered: 0, pending: None }
@@ -88,7 +88,7 @@ impl Samples {
         self.records
     }
 
-    /// Whether all momenta have this dimension, as those of a file need not.
+    /// True if all momenta have this dimension; those of a file may not.
     pub(crate) fn fits(&self, dim: usize) -> bool {
         self.stride > 0 && self.records.iter().chain(&self.pending).all(|r| r.momentum.len() == dim)
     }

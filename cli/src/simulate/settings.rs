@@ -30,11 +30,11 @@ pub(crate) struct Settings<'a> {
     /// Everything the run reads.
     pub inputs: Vec<PathBuf>,
     pub setup: Setup,
-    /// Where records go.
+    /// The target of records.
     pub out: Option<Target>,
-    /// Whether a picture is asked for.
+    /// True if a picture is requested.
     pub sampled: bool,
-    /// Where the state is kept, and how often.
+    /// The file of checkpoints, and the time between two.
     pub checkpoint: Option<(PathBuf, Duration)>,
 }
 
@@ -251,7 +251,7 @@ impl Header {
         Self(list)
     }
 
-    /// With the scales of the drifts that there are.
+    /// Adds the scales of the drifts that exist.
     pub(crate) fn with_scales(mut self, known: [bool; 3], scales: &Scales) -> Self {
         let list = [
             ("spatial_momentum_scale", json!(scales.spatial_momentum)),
@@ -281,13 +281,13 @@ impl Header {
         self.0.iter().map(|(name, value)| ((*name).to_owned(), value.clone())).collect()
     }
 
-    /// By name, to be compared with another run.
+    /// The settings by name, to compare with another run.
     pub(crate) fn identity(&self) -> Identity {
         self.0.iter().map(|(name, value)| ((*name).to_owned(), text(value))).collect()
     }
 }
 
-/// On one line, numbers as short as they can be.
+/// Writes a value on one line, numbers as short as they can be.
 fn text(value: &Value) -> String {
     match value {
         Value::String(text) => line(text),

@@ -1,4 +1,4 @@
-//! Where records go, by the name given.
+//! Targets of records, by the name given.
 
 use std::path::{Path, PathBuf};
 
@@ -18,7 +18,7 @@ pub(crate) enum Place {
     File,
 }
 
-/// Where records go.
+/// The target of records.
 #[derive(Clone, Debug)]
 pub(crate) struct Target {
     /// The name given.
@@ -101,7 +101,7 @@ impl Target {
     }
 }
 
-/// The same names, borrowed.
+/// Borrows the paths of a list.
 pub(crate) fn paths(list: &[PathBuf]) -> Vec<&Path> {
     list.iter().map(PathBuf::as_path).collect()
 }

@@ -122,7 +122,7 @@ fn judge(
     let phase = progress::phase("deriving the judge");
     let judge = judge_of(&system, &problem)?;
     drop(phase);
-    // What a file of a run does not say is 0; one of an ensemble says nothing.
+    // A run's file without an initial time means 0; an ensemble's file never has one.
     let of_run = number("initial_time").unwrap_or(0.0);
     let of_ensemble = options.t0.unwrap_or(run.initial_time);
     let start = if options.input.is_some() { of_ensemble } else { of_run };

@@ -12,7 +12,7 @@ use crate::load;
 /// A table for each run of ours in the file, which may hold one report, a list of them, or one a line.
 ///
 /// # Errors
-/// Where it cannot be read or holds no such report.
+/// Fails if the file cannot be read or holds no such report.
 pub(crate) fn tables(path: &Path) -> Result<Vec<Table>, CliError> {
     let damaged = |what: String| CliError::Option(format!("{}: {what}", path.display()));
     let text = load::text(path)?;

@@ -255,7 +255,7 @@ fn records_of_runs_are_states() {
         for records in ["records.csv", "records.npy"] {
             folder.run(&format!("simulate {file} --time 2 --out {records}")).ok();
         }
-        // The same states, whether time, energy and drifts are carried through or have no names that would let them be.
+        // States are equal: time, energy and drifts of the table are carried through; the array has no names for them.
         let (of_matrix, after) = (advance("records.npy"), advance("records.csv"));
         let before = folder.text("records.csv");
         let rows: Vec<&str> = before.lines().filter(|line| !line.starts_with('#')).collect();
@@ -348,14 +348,14 @@ fn parquet_has_the_numbers_of_arrays() {
     let folder = Folder::with(&body("3"));
     folder.write("in.csv", "I1,mu_1,mu_2,mu_3\n4,1,2,3\nnan,1,2,3\n");
     for out in ["out.npy", "out.parquet"] {
-        let ran = format!("ensemble system.toml --initial in.csv --out {out} --at 0,3.14,10");
+        let ran = format!("ensemble system.toml --initial in.csv --out {out} --at 0,3.16,10");
         folder.run(&ran).ok();
     }
     let (_, expected) = array(&folder.bytes("out.npy"));
     let (names, found) = rows(&folder, "out.parquet");
     assert_eq!(names, "row,time,mu_1,mu_2,mu_3,I1");
     let places: Vec<&[f64]> = found.iter().map(|line| &line[..2]).collect();
-    let times = [0.0, 3.14, 10.0];
+    let times = [0.0, 3.16, 10.0];
     let all = [1.0, 2.0].into_iter().flat_map(|row| times.map(|time| [row, time]));
     assert!(places.into_iter().eq(all.collect::<Vec<_>>().iter().map(|place| &place[..])));
     let states = found.iter().flat_map(|line| &line[2..]);
@@ -508,7 +508,7 @@ fn a_field_varies_from_row_to_row() {
     }
 }
 
-/// What cannot vary is refused by its name, at its place.
+/// A parameter that cannot vary is refused by its name, at its place.
 #[test]
 fn parameters_that_cannot_vary_are_refused() {
     let folder = Folder::with(&body("3"));

@@ -27,7 +27,7 @@ fn mistakes_are_reported_with_file_and_line() {
         "system.toml:7:1: error: unknown key `trucnation` in [integrator]; did you mean `truncation`?",
         "help: known here: x, y, z",
     ];
-    // That of a function of coordinates is none.
+    // A function of coordinates is no mistake here.
     for verb in ["derive", "emit", "check", "casimirs", "simulate"] {
         let ran = folder.run(&format!("{verb} system.toml")).fails(2, &others);
         assert!(ran.out.is_empty() && !ran.error.contains("polynomial"), "{verb}: {ran:?}");

@@ -253,8 +253,8 @@ momentum = [0.4, 0.7, -0.3]
 time = 20
 "#;
 
-/// Where the group is not compact a drift is measured as far as rounding allows; no run fails for it, and no right one is
-/// convicted.
+/// In a group that is not compact a drift is measured as far as rounding allows. No run fails because of it, and no right
+/// row is called wrong.
 #[test]
 fn drifts_of_long_elements_are_not_measured() {
     for hamiltonian in ["a", "a^2/2 + b^2/3 - c^2/5 + a*c/5 + a/3"] {

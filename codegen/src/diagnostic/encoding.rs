@@ -8,7 +8,7 @@ use crate::file;
 /// The text of a file.
 ///
 /// # Errors
-/// Where it cannot be read or is not UTF-8: then the place of the first byte that is not.
+/// Fails if the file cannot be read or is not UTF-8; the message gives the place of the first byte that is not.
 pub fn read_text(path: &Path) -> Result<String> {
     let bytes = file::read(path)?;
     String::from_utf8(bytes).map_err(|error| {
@@ -17,10 +17,10 @@ pub fn read_text(path: &Path) -> Result<String> {
     })
 }
 
-/// Looks at the first line of a table as text, after lines that begin with `#`.
+/// Checks the first line of a table of text, after lines that begin with `#`.
 ///
 /// # Errors
-/// Where it cannot be read, is not UTF-8, or has semicolons or tabs in place of commas.
+/// Fails if the file cannot be read, is not UTF-8, or has semicolons or tabs in place of commas.
 pub fn check_table(path: &Path) -> Result<()> {
     let file = file::open(path)?;
     // Of the standard input the line would be lost.
@@ -109,7 +109,7 @@ pub(crate) fn unclosed_quote(text: &str) -> Option<usize> {
     None
 }
 
-/// Where the text that opens at `start` ends, its closing quotes included.
+/// The end of the text that opens at `start`, after its closing quotes.
 fn end(bytes: &[u8], start: usize, quote: u8, long: bool) -> Option<usize> {
     let width = if long { 3 } else { 1 };
     let mut at = start + width;

@@ -165,8 +165,8 @@ impl Mistake {
         Self::MissingKey(key.to_owned(), owner.to_owned(), example.to_owned())
     }
 
-    /// The same mistake in a potential, which is a polynomial in the group element's matrix where a
-    /// Hamiltonian is one in the momentum.
+    /// Words the mistake for a potential, which is a polynomial in the group element's matrix as a Hamiltonian is one in the
+    /// momentum.
     pub(crate) fn in_potential(self) -> Self {
         let words = |text: &str| {
             text.replace("the momentum's coordinates", "entries of the group element's matrix")
@@ -181,7 +181,7 @@ impl Mistake {
         Self::Other(said, help.as_deref().map(words))
     }
 
-    /// Whether it is one because a series needs a polynomial in the momentum; collocation does not.
+    /// True if it is a mistake only because a series needs a polynomial in the momentum; collocation does not.
     pub(crate) fn is_of_series(&self) -> bool {
         matches!(
             self,
@@ -195,7 +195,7 @@ impl Mistake {
         )
     }
 
-    /// Whether a name is wrong wherever it stands, so that one place is enough.
+    /// True if a name is wrong in every place, so that it is reported in one place only.
     pub(super) fn is_of_a_name(&self) -> bool {
         matches!(
             self,
@@ -224,7 +224,7 @@ impl Mistake {
         self.correction()
     }
 
-    /// How the input would be right.
+    /// The corrected input, in words.
     fn correction(&self) -> Option<String> {
         let text = match self {
             Self::Unfinished => "write a number, a name or a parenthesis here",

@@ -26,7 +26,7 @@ const MOST: usize = 100;
 /// One mistake at its place.
 #[derive(Clone, Debug)]
 pub struct Diagnostic {
-    /// Where.
+    /// Its place.
     pub span: Span,
     pub(crate) mistake: Mistake,
 }
@@ -89,7 +89,7 @@ impl Diagnostics {
         result.map_err(|mistake| self.report(span, mistake)).ok()
     }
 
-    /// Whether nothing is wrong.
+    /// True if nothing is wrong.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -282,7 +282,7 @@ impl Span {
         }
     }
 
-    /// Whether both are certainly the same place; tokens cannot be compared, so never for them.
+    /// True if both are certainly the same place; tokens cannot be compared, so never for them.
     pub(super) fn same_place(self, other: Self) -> bool {
         match (self, other) {
             (Self::Whole, Self::Whole) => true,

@@ -42,7 +42,7 @@ pub(crate) fn collocation(smooth: &Smooth, options: &Options) -> Items {
     let values = smooth.symbols.iter().map(|s| parameter::expression(&s.expr, &scalars));
     let texts = smooth.symbols.iter().map(|s| &s.text);
     let allow = allow();
-    // Where H depends on the time, methods take that of the state.
+    // If H depends on the time, methods take the time of the state.
     let argument = smooth.moves.then(|| quote!(time: f64,));
     let now = if smooth.moves { quote!(time) } else { quote!(0.0) };
     let of = if smooth.moves { "(t, μ)" } else { "(μ)" };
@@ -225,7 +225,7 @@ fn programs(
     }
 }
 
-/// The same with `f64` for the numbers `T`.
+/// Replaces the numbers `T` by `f64`.
 fn over_f64(tokens: TokenStream) -> TokenStream {
     let replaced = tokens.into_iter().map(|token| match token {
         TokenTree::Ident(ident) if ident == "T" => {

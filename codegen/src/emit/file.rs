@@ -43,7 +43,7 @@ fn comment(lines: impl IntoIterator<Item = String>) -> String {
     lines.into_iter().map(comment).collect()
 }
 
-/// How long a line of a table may be.
+/// The longest line of a table, in bytes.
 const LONGEST_ROW: usize = 100;
 
 pub(crate) fn text(tokens: TokenStream) -> String {
@@ -127,7 +127,7 @@ fn filled(text: &str) -> String {
     result
 }
 
-/// Whether a line is one entry of a table: a tuple or a slice of numbers, and a comma.
+/// True for a line with one entry of a table: a tuple or a slice of numbers, and a comma.
 fn is_entry(line: &str) -> bool {
     let line = line.trim();
     (line.starts_with('(') || line.starts_with("&["))

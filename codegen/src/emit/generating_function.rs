@@ -106,7 +106,7 @@ pub(crate) fn generating_function(
     }
 }
 
-/// How steps are solved, where the dimension alone does not say it.
+/// The method that names the solver; none if the dimension implies it.
 pub(crate) fn solver(integrator: &Integrator, krate: &TokenStream) -> TokenStream {
     let solver = integrator.problem.solver();
     if solver == Solver::of_dimension(integrator.problem.algebra.dim()) {

@@ -15,7 +15,7 @@ const CLOSED_FORMS: [&str; 4] = ["SO3", "SE3", "SU2", "SE2"];
 /// Groups the runtime has tables for, under the catalogue's name.
 pub const RUNTIME_TABLES: [&str; 6] = ["Aff1", "Heisenberg", "SL2", "SO4", "SO5", "SU3"];
 
-/// How generated code names the group.
+/// The group in generated code.
 pub(crate) struct GroupType {
     /// The type, generic over the scalar `T` in scope.
     pub ty: TokenStream,
@@ -23,7 +23,7 @@ pub(crate) struct GroupType {
     pub definition: TokenStream,
     /// The tables of those items.
     pub tables: TokenStream,
-    /// Whether the group is known by tables as a whole.
+    /// True if the whole group is given by tables.
     pub by_tables: bool,
 }
 
@@ -126,7 +126,7 @@ fn own_tables(
         .check(algebra)
         .is_ok()
         .then(|| quote!(impl #krate::groups::CayleyAlgebra for #marker {}));
-    // Those of large algebras would be long tables, for reports only.
+    // For large algebras these would be long tables, which only reports need.
     let watched = if algebra.dim() > 24 { Vec::new() } else { watched_casimirs(algebra) };
     let casimirs = watched.into_iter().map(|casimir| {
         let terms = casimir.terms().map(|(exponents, value)| {
@@ -174,7 +174,7 @@ pub(crate) struct Types {
     pub dim: usize,
     /// The group, over the scalar `T`.
     pub group: TokenStream,
-    /// Whether elements are matrices in the representation of the basis, also those of a product.
+    /// True if elements are matrices in the representation of the basis, also those of a product.
     pub by_tables: bool,
     /// The chart.
     pub chart: TokenStream,

@@ -245,7 +245,7 @@ const MAP: &str = "The map. With the body momentum mu and the group element g, t
 /// The end of its sentence where the Hamiltonian does not depend on time.
 const NEAR: &str = ", and the energy stays near its first value for all times.";
 
-/// The same where kicks are between flows.
+/// The sentences for kicks between flows.
 const KICKED: &str = " This describes the flows. Between them the torque -g^-1 dV(g) of the potential kicks mu; of the spatial \
          momentum and the Casimirs, only those remain conserved that the potential leaves invariant, and the order of accuracy \
          is the lesser of both.";

@@ -281,7 +281,7 @@ pub(crate) struct Arguments {
     pub arguments: Vec<TokenStream>,
     /// The names.
     pub names: BTreeSet<String>,
-    /// How each of their scalars is reached.
+    /// An expression for each of their scalars.
     pub scalars: Vec<TokenStream>,
 }
 

@@ -42,7 +42,7 @@ fn allow() -> TokenStream {
     }
 }
 
-/// How the Rust is to look from outside.
+/// Options of the emitted Rust.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// The path of the runtime crate, `::coadjoint` unless renamed.
@@ -141,11 +141,10 @@ fn literals(terms: Option<usize>) -> String {
     })
 }
 
-/// Whether an integrator is small enough for [`items`]:
-/// larger ones are written all the same, but take the compiler very long.
+/// Checks that an integrator is small enough for [`items`]; larger ones are written, but take the compiler very long.
 ///
 /// # Errors
-/// [`TooManyTerms`].
+/// Returns [`TooManyTerms`] above the limit.
 pub fn check_size(integrator: &Integrator) -> Result<(), TooManyTerms> {
     let terms = integrator.terms();
     // Of symbols the code knows nothing: it has one term to a monomial in the momenta.

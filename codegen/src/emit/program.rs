@@ -63,7 +63,7 @@ impl Field {
     }
 }
 
-/// Where a program stands: what its names stand for.
+/// The names in scope around a program.
 pub(crate) struct Scope<'a> {
     /// The path of the runtime crate.
     pub krate: &'a TokenStream,
@@ -154,7 +154,7 @@ impl Scope<'_> {
         (generics, parameters, quote!(#c, #(#names),*))
     }
 
-    /// How input number `index` is read.
+    /// The expression that reads input number `index`.
     fn input(&self, index: usize) -> TokenStream {
         let mut left = index;
         for Field { name, len } in &self.inputs {
@@ -180,7 +180,7 @@ impl Scope<'_> {
 struct Writer<'a> {
     program: &'a Program,
     scope: &'a Scope<'a>,
-    /// How each node that is written is read.
+    /// For each node written so far, the expression that reads it.
     read: Vec<TokenStream>,
     statements: TokenStream,
 }

@@ -1,4 +1,4 @@
-//! From what users write to expressions with places.
+//! Parses the input of users into expressions with places.
 
 mod brackets;
 mod decimal;

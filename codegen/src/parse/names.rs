@@ -34,7 +34,7 @@ impl Name {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Names {
     known: BTreeMap<String, Name>,
-    /// In the order given, for messages.
+    /// Names in the order given, for messages.
     order: Vec<String>,
     /// Names whose definitions are mistakes already.
     wrong: BTreeSet<String>,
@@ -134,7 +134,7 @@ impl Names {
         self.known.get(name)
     }
 
-    /// How many entries the list of this name has; `None` where there is none.
+    /// The number of entries of the list with this name; `None` if there is no such list.
     pub(crate) fn entries(&self, list: &str) -> Option<usize> {
         let start = format!("{list}[");
         let inside = self.known.range(start.clone()..).map(|(name, _)| name.strip_prefix(&start));
@@ -175,7 +175,7 @@ pub(super) fn continues_name(c: char) -> bool {
     c.is_alphanumeric() || c == '_' || c == '\''
 }
 
-/// Whether the text is a name without indices.
+/// True if the text is a name without indices.
 pub(super) fn is_word(text: &str) -> bool {
     let mut letters = text.chars();
     letters.next().is_some_and(begins_name) && letters.all(continues_name)

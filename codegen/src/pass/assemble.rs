@@ -113,7 +113,7 @@ fn check_dimension(
     }
 }
 
-/// The same for a function in place of the Hamiltonian, of which the draft has the name alone.
+/// Assembles a system whose Hamiltonian is a given function; the draft has only its name.
 #[cfg(feature = "system")]
 pub(crate) fn assemble_given(
     draft: Draft,
@@ -134,7 +134,7 @@ pub(crate) fn assemble_given(
 /// The largest truncation of collocation: 8 nodes.
 const MOST_OF_COLLOCATION: usize = 15;
 
-/// The same for steps by collocation, of a function where one is given.
+/// Assembles steps by collocation, of the given function if there is one.
 fn assemble_smooth(
     draft: Draft,
     given: Option<Given>,
@@ -210,7 +210,7 @@ pub(crate) fn assemble(draft: Draft, diagnostics: &Diagnostics) -> Option<Proble
 struct Read {
     table: Table,
     sum: Option<Sum>,
-    /// Why it is none.
+    /// The mistakes, if it is no polynomial.
     found: Vec<Diagnostic>,
 }
 
@@ -222,7 +222,7 @@ impl Read {
     }
 }
 
-/// The same, given the Hamiltonian as a polynomial.
+/// Assembles a problem from a Hamiltonian already read as a polynomial.
 fn assemble_polynomial(draft: Draft, read: Read, diagnostics: &Diagnostics) -> Option<Problem> {
     let Read { mut table, sum, found } = read;
     let Draft { name, algebra, coordinates, hamiltonian: energy, choice, .. } = draft;

@@ -1,4 +1,4 @@
-//! How a system is integrated, as far as the input says: the keys that the attribute and system files share.
+//! The choice of integrator in the input: the keys that the attribute and system files share.
 
 use num_integer::Integer;
 

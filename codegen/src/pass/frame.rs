@@ -9,7 +9,7 @@ pub(super) fn is_taken(problem: &Problem) -> bool {
     comoving::is_uniform(&problem.algebra, &problem.hamiltonian)
 }
 
-/// The same problem in the comoving frame; none where nothing can be left to the frame.
+/// Moves a problem to the comoving frame; `None` if no part of it can be left to the frame.
 pub(super) fn comoving(problem: &Problem) -> Option<Problem> {
     let Problem { algebra, chart, hamiltonian, parameters, .. } = problem;
     let found = comoving::comoving(algebra, *chart, hamiltonian)?;
@@ -20,7 +20,7 @@ pub(super) fn comoving(problem: &Problem) -> Option<Problem> {
     Some(Problem { hamiltonian, symbols, comoving: Some(frame), ..problem.clone() })
 }
 
-/// The same problem in the other frame, where the choice is left and there is one.
+/// Moves a problem to the other frame, if the choice is open and there is another.
 #[must_use]
 pub fn in_other_frame(problem: &Problem) -> Option<Problem> {
     match (problem.frame, &problem.comoving) {

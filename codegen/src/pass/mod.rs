@@ -1,4 +1,4 @@
-//! From expressions to the problem: polynomials in the momentum or programs of it, opaque coefficients, checks.
+//! Turns expressions into the problem: polynomials in the momentum or programs of it, opaque coefficients, checks.
 
 mod assemble;
 mod choice;

@@ -1,4 +1,4 @@
-//! From an expression to a polynomial in the momentum with opaque coefficients.
+//! Expands an expression to a polynomial in the momentum with opaque coefficients.
 
 use std::collections::BTreeMap;
 
@@ -55,7 +55,7 @@ fn degree(monomial: &Monomial) -> u32 {
 
 /// Evaluates the expression `root`; `None` if something was wrong, which is then reported.
 ///
-/// Without a root, because what was read has none, everything is evaluated for its mistakes.
+/// Without a root, because the text has mistakes, everything is evaluated to report its own mistakes.
 pub(super) fn polynomial(
     arena: &Arena,
     root: Option<ExprId>,

@@ -1,4 +1,4 @@
-//! From an expression to programs, for Hamiltonians that are no polynomials: nothing is expanded.
+//! Turns an expression into programs, for Hamiltonians that are not polynomials; nothing is expanded.
 
 use std::collections::BTreeMap;
 
@@ -13,7 +13,7 @@ use crate::problem::Symbol;
 
 /// The largest numerator and denominator of a power.
 const LARGEST_POWER: u32 = 1000;
-/// From this size of its argument on tanh is constant to 3e-8, which a large factor before it may make up for.
+/// The size of its argument beyond which tanh is constant to 3e-8; a large factor before it may make up for that.
 const SATURATED: f64 = 9.0;
 /// Expressions with longer texts are told apart by their ends.
 const LONGEST_TEXT: usize = 80;
@@ -32,15 +32,15 @@ pub(super) struct Lowered {
 /// The scale on which a function of an argument varies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Scale {
-    /// By about itself when the argument changes by 1: the exponential, waves.
+    /// It varies by about itself when the argument changes by 1: the exponential, waves.
     Unit,
-    /// Not at all from an argument of this size on.
+    /// It is constant beyond an argument of this size.
     Bounded(f64),
-    /// As the argument does, from a size of about 1 on.
+    /// It varies as the argument does beyond a size of about 1.
     Beyond,
-    /// As the argument does, with a pole or an edge where that is 0.
+    /// It varies as the argument does, with a pole or an edge where that is 0.
     Ratio,
-    /// As this many products of the argument with itself.
+    /// It varies as a product of this many copies of the argument.
     Products(f64),
 }
 

@@ -98,7 +98,7 @@ fn by_brackets(table: &Table<'_>, name: String) -> Option<LieAlgebra> {
     table.diagnostics.check(whole, algebra.map_err(|error| not_exact(error, rounded)))
 }
 
-/// Whether a number is one of floating point, as roots are, and no fraction that somebody wrote.
+/// True for a number rounded to floating point, as roots are; false for a fraction that somebody wrote.
 fn rounded(value: &Rational) -> bool {
     value.denom().bits() > 40
 }

@@ -41,7 +41,7 @@ pub(super) fn hamiltonian(
     for (i, (signal, place)) in inputs.iter().enumerate() {
         names.add(&signal.name, Name::Signal(i), *place, root.diagnostics);
     }
-    // What else is called t comes first.
+    // Anything else called t comes first.
     names.known("t", Name::Time);
     if !root.has("hamiltonian") {
         root.missing("hamiltonian", HAMILTONIAN);

@@ -24,7 +24,7 @@ pub struct Event {
     pub slots: Vec<f64>,
     /// The sign of the slope at the changes that count; 0 where all do.
     pub direction: i8,
-    /// Whether the run ends there.
+    /// The run ends at the event.
     pub stop: bool,
 }
 

@@ -18,7 +18,7 @@ const VELOCITY: &str = "angular_velocity = [0.1, 0, 2]";
 const ELEMENT: &str = "group_element = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]";
 const QUATERNION: &str = "quaternion = [1, 0, 0, 0]";
 const TRANSLATION: &str = "translation = [0, 0, 0]";
-/// How far from 1 the length of a quaternion may be without `project`.
+/// The largest difference of a quaternion's length from 1 without `project`.
 const UNIT: f64 = 1e-9;
 
 /// Reads `[initial]` into `run`; returns a velocity and its place, from which [`momentum`] finds the momentum.
@@ -63,7 +63,7 @@ fn factor(algebra: &LieAlgebra) -> (&str, usize) {
     power.unwrap_or((algebra.name(), 1))
 }
 
-/// How many copies a power of a group has, if `each` coordinates are those of one copy.
+/// The number of copies in a power of a group if `each` coordinates are those of one copy.
 pub(super) fn copies(algebra: &LieAlgebra, each: usize) -> Option<usize> {
     let (_, copies) = factor(algebra);
     (copies > 1 && each * copies == algebra.dim()).then_some(copies)

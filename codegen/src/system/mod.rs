@@ -92,7 +92,7 @@ pub struct System<H = Problem> {
     pub potential: Option<(Potential, Splitting)>,
     /// The diagonal of Γ, where there is double-bracket damping: μ̇ = ad\*_ω μ + ad\*_x μ with ω = ∂H/∂μ, x = Γ ad\*_ω μ.
     pub damping: Option<Vec<f64>>,
-    /// Where to start, how far and in which steps; each as far as the file says.
+    /// The initial state, the duration and the step, as far as the file gives them.
     pub run: Run,
     /// The units that plots and reports show.
     pub units: Units,
@@ -119,10 +119,10 @@ impl System<Hamiltonian> {
         energy || torque.is_some_and(|torque| torque.moves)
     }
 
-    /// Whether it can be written as code.
+    /// Checks that it can be written as code.
     ///
     /// # Errors
-    /// Why not: code has no inputs, and would read others than these.
+    /// Refuses torques, damping and inputs; the text says so.
     pub fn writable(&self) -> Result<(), String> {
         if self.potential.as_ref().is_some_and(|(potential, _)| potential.alone().is_some()) {
             let what =
@@ -194,7 +194,7 @@ pub fn read_either(
     read_given(text, options, varied, &Functions::default())
 }
 
-/// The same of a text that lacks what these functions are: `hamiltonian`, or entries of `[inputs]`.
+/// Reads a text in which these functions stand for `hamiltonian` or for entries of `[inputs]`.
 ///
 /// # Errors
 /// As [`read`], and where other numbers of the file follow from a parameter that stays one.
@@ -235,15 +235,15 @@ pub fn read_group(text: &str) -> Result<LieAlgebra, Diagnostics> {
 }
 
 struct Kind<'a, H> {
-    /// How a draft becomes a system.
+    /// Turns a draft into a system.
     assemble: &'a dyn Fn(Draft, &Diagnostics) -> Option<H>,
     /// Its gradient at the start, if it is linear.
     gradient: fn(&H, f64) -> Option<initial::Linear>,
     /// True if it depends on time.
     moves: fn(&H) -> bool,
-    /// Whether it is known to be of degree at most two.
+    /// True if it is known to be of degree at most two.
     quadratic: fn(&H) -> bool,
-    /// What is given in place of keys.
+    /// Functions given in place of keys.
     given: &'a Functions,
 }
 

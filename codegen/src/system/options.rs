@@ -1,4 +1,4 @@
-//! How a system file is to be read.
+//! Options of reading a system file.
 
 use crate::lie::Chart;
 use crate::problem::{FrameChoice, Method, Solver};
@@ -13,7 +13,7 @@ pub enum Parameters {
     Kept,
 }
 
-/// How a system file is to be read.
+/// Options of reading a system file.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Options {
     /// The treatment of the parameters.

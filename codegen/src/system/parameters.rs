@@ -16,7 +16,7 @@ use crate::problem::{Parameter, Shape};
 /// The parameters of a file, in its order.
 #[derive(Debug)]
 pub(super) struct Parameters {
-    /// With their places in the table.
+    /// The parameters with their places in the table.
     list: Vec<(usize, Given)>,
     /// All of them as numbers.
     pub constants: Names,

@@ -11,7 +11,7 @@ const STEPS: usize = 6;
 /// zeros: rotations, unitary matrices, motions, and products of them. Translations stay as they are.
 ///
 /// # Errors
-/// In words: another group, or a matrix that is not near it.
+/// The text of the error: another group, or a matrix that is not near it.
 pub(super) fn project(matrix: &mut [Vec<f64>], algebra: &LieAlgebra) -> Result<(), String> {
     let size = matrix.len();
     let basis = algebra.basis().unwrap_or_default();

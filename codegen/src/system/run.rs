@@ -11,14 +11,14 @@ use crate::tolerance::Region;
 const TOLERANCE: &str = "tolerance = 1e-9";
 const REGION: &str = "region = 2.5";
 
-/// Where to start, how far and in which steps; `None` where the file does not say.
+/// The initial state, the duration and the step; `None` where the file says nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Run {
     /// The step size h, finite and not zero.
     pub step: Option<f64>,
     /// The error asked for at the end, instead of a step size.
     pub tolerance: Option<f64>,
-    /// Where the momentum stays, for `tolerance`.
+    /// The region in which the momentum stays, for `tolerance`.
     pub region: Option<Region>,
     /// The truncation, if the file gives one.
     pub truncation: Option<usize>,

@@ -36,7 +36,7 @@ impl<'a> Table<'a> {
         Self { entries, name, span, file, constants, diagnostics }
     }
 
-    /// The same table with other constants.
+    /// The table with other constants.
     pub(super) fn with<'b>(&self, constants: &'b Names) -> Table<'b>
     where
         'a: 'b,
@@ -115,7 +115,7 @@ impl<'a> Table<'a> {
         Some(Table { entries, name: format!("[{key}]"), span: span(value), ..self.clone() })
     }
 
-    /// Whether `key` is true.
+    /// The value of `key`, true or false; false if it is missing.
     pub(super) fn flag(&self, key: &str, example: &str) -> bool {
         let Some(value) = self.get(key) else { return false };
         if let DeValue::Boolean(flag) = value.get_ref() {
@@ -265,7 +265,7 @@ impl<'a> Table<'a> {
         Some(Energy { arena, root: Some((root, place)), parameters, source: text.to_owned() })
     }
 
-    /// Where the content of a string begins in the file.
+    /// The offset in the file of a string's content.
     pub(super) fn offset(&self, place: Span, content: &str) -> usize {
         let Span::Text { start, end } = place else { return 0 };
         // Strings with escapes do not occur literally; their places are then approximate.

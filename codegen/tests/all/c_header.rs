@@ -175,7 +175,7 @@ fn compilers_have_nothing_to_say() {
         let Some(tool) = Tool::find(name) else { continue };
         for built in systems::all() {
             let folder = scratch(&format!("warnings-{name}-{}", built.system.name));
-            // The same file as C++.
+            // A header in C compiles as C++ too.
             let source = built.write_main(&folder);
             let renamed = source.with_extension("cpp");
             std::fs::rename(&source, &renamed).unwrap();

@@ -71,7 +71,7 @@ fn columns(table: &mut Table, names: &[String]) -> Result<Vec<Vec<f64>>, LearnEr
 /// Attitudes as they stand in a file: a sample per column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attitudes {
-    /// Whether they are unit quaternions w, x, y, z: 4 rows; else matrices, row by row: d² rows.
+    /// True for unit quaternions w, x, y, z (4 rows); false for matrices, row by row (d² rows).
     pub quaternions: bool,
     /// The attitudes g′ before.
     pub before: DMatrix<f64>,

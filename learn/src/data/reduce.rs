@@ -92,9 +92,9 @@ impl<G: LieGroup> From<Vec<PhasePair<G>>> for PairRows<G> {
     }
 }
 
-/// How far data may be from exact before a row is called bad, where nothing else is said: far above rounding in files, far
-/// below noise. It is the largest distance of an attitude's entry from the group, and the largest relative difference of J_L
-/// across a pair. Without a limit (infinity) noisy data are projected onto the group, with p taken from μ″.
+/// The default limit on the error of a row: far above rounding in files, far below noise. It bounds the distance of an
+/// attitude's entries from the group and the relative difference of J_L across a pair. With an infinite limit noisy data are
+/// projected onto the group, and p is taken from μ″.
 pub const TOLERANCE: f64 = 1e-6;
 
 /// The policy for bad rows.

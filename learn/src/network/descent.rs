@@ -32,8 +32,8 @@ enum Stage {
     Descent(Descent),
 }
 
-/// Where a descent stands: the best weights found with their loss and gradient, the last steps and
-/// changes of the gradient, the latest last, and whether no step could be found that lowers the loss.
+/// The state of a descent: the best weights found with their loss and gradient, the last steps and changes of the gradient,
+/// the latest last, and a mark that no step could be found that lowers the loss.
 struct Descent {
     weights: DVector<f64>,
     loss: f64,
@@ -48,7 +48,7 @@ struct Header {
     format: String,
     task: u32,
     lengths: Vec<usize>,
-    /// Whether L-BFGS is at work, and whether it is stuck.
+    /// `None` before L-BFGS has begun; then true if it is stuck.
     descent: Option<bool>,
 }
 
@@ -336,7 +336,7 @@ mod tests {
         (sum, gradient)
     }
 
-    /// From −½ by at most `budget` evaluations of `scale` times the function; also their number.
+    /// Descends from −½ by at most `budget` evaluations of `scale` times the function; also returns their number.
     fn descend(scale: f64, budget: usize) -> (Descent, usize) {
         let mut count = 0;
         let mut evaluate = |x: &[f64]| {

@@ -1,10 +1,10 @@
-//! How a network is trained, and reports of it.
+//! Options of training a network, and reports of its progress.
 
 use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
-/// How a network is trained.
+/// Options of training a network.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrainingOptions {
     /// Widths of the hidden layers; the paper's are 500, 500.
@@ -19,8 +19,8 @@ pub struct TrainingOptions {
     pub lbfgs_steps: usize,
     /// Seed of the first weights.
     pub seed: u64,
-    /// Where training keeps its state. If there is one of the same task, training goes on from it and ends with the bits
-    /// of an uninterrupted run; one of another task is refused.
+    /// The file in which training keeps its state. If it holds the state of this task, training continues from it and ends
+    /// with the bits of an uninterrupted run; the state of another task is refused.
     #[serde(skip)]
     pub checkpoint: Option<PathBuf>,
 }
@@ -55,7 +55,7 @@ impl TrainingOptions {
     }
 }
 
-/// Where training stands.
+/// The progress of training.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// Evaluations made.
@@ -64,6 +64,6 @@ pub struct Progress {
     pub total: usize,
     /// The loss, in normalised units: 1 is the variance of the data.
     pub loss: f64,
-    /// The same on validation data, where there are any; looked at every tenth step of Adam.
+    /// The loss on validation data, if there are any; Adam computes it every tenth step.
     pub validation: Option<f64>,
 }

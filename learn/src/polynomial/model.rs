@@ -246,7 +246,7 @@ impl PolynomialModel {
         Self { basis, scaling, coefficients }
     }
 
-    /// The same basis and scaling with other coefficients; missing ones are 0.
+    /// Replaces the coefficients and keeps basis and scaling; missing ones become 0.
     pub fn with_coefficients(mut self, coefficients: &[f64]) -> Self {
         self.coefficients.iter_mut().enumerate().for_each(|(k, c)| {
             *c = coefficients.get(k).copied().unwrap_or(0.0);

@@ -56,7 +56,7 @@ pub struct Row {
 }
 
 impl Row {
-    /// How many cells it has: in CSV a row may have too few or too many.
+    /// The number of cells; a row of CSV may have too few or too many.
     #[allow(clippy::len_without_is_empty)]
     pub fn len(&self) -> usize {
         self.record.len().max(self.numbers.len())
@@ -99,10 +99,10 @@ fn csv_reader(path: &Path) -> Result<Reader<Remarks<File>>, LearnError> {
 }
 
 impl Table {
-    /// Opens a file by the ending of its name; `.partial` behind it is not looked at.
+    /// Opens a file in the format that the ending of its name gives; a further ending `.partial` is ignored.
     ///
     /// # Errors
-    /// Where it cannot be read, or is not in the format of its name.
+    /// Fails if the file cannot be read or is not in that format.
     pub fn open(path: &Path) -> Result<Self, LearnError> {
         let name = path.to_string_lossy().to_ascii_lowercase();
         match name.trim_end_matches(".partial").rsplit_once('.').map_or("", |(_, ending)| ending) {
@@ -144,7 +144,7 @@ impl Table {
         Ok(Self::of_rows(path, columns.into_iter().map(|(name, _)| name).collect(), width, rows))
     }
 
-    /// The same rows, of which this is said.
+    /// Sets what the table says about itself.
     pub fn saying(self, head: BTreeMap<String, String>) -> Self {
         Self { head, ..self }
     }
@@ -233,7 +233,7 @@ impl Table {
         &self.others
     }
 
-    /// Whether rows are text, whose cells can be kept as they are.
+    /// True if rows are text, whose cells can be kept as they are.
     pub fn is_text(&self) -> bool {
         matches!(self.source, Source::Csv(_))
     }
@@ -255,7 +255,7 @@ impl Table {
     /// The number of rows; those of CSV are counted.
     ///
     /// # Errors
-    /// Where the file cannot be read.
+    /// Fails if the file cannot be read.
     pub fn count(&self) -> Result<u64, LearnError> {
         Ok(match &self.source {
             Source::Npy(_, header) => header.shape[0] as u64,
@@ -273,7 +273,7 @@ impl Table {
         })
     }
 
-    /// Where the next row begins, for [`Table::seek`].
+    /// The position of the next row in the file, for [`Table::seek`].
     pub fn position(&self) -> u64 {
         match &self.source {
             Source::Csv(reader) => reader.position().byte(),
@@ -281,10 +281,10 @@ impl Table {
         }
     }
 
-    /// Goes to a row, counted from 0; `position` is what [`Table::position`] said there, if that is known.
+    /// Goes to a row, counted from 0; `position` is what [`Table::position`] returned there, if that is known.
     ///
     /// # Errors
-    /// Where the file cannot be read.
+    /// Fails if the file cannot be read.
     pub fn seek(&mut self, row: u64, position: Option<u64>) -> Result<(), LearnError> {
         match &mut self.source {
             Source::Csv(reader) => {
@@ -317,10 +317,10 @@ impl Table {
         Ok(())
     }
 
-    /// Reads the next row, if there is one.
+    /// Reads the next row; returns false at the end.
     ///
     /// # Errors
-    /// Where the file cannot be read.
+    /// Fails if the file cannot be read.
     pub fn read(&mut self, row: &mut Row) -> Result<bool, LearnError> {
         let Self { path, source, width, next, .. } = self;
         row.numbers.clear();
@@ -386,12 +386,12 @@ struct Remarks<R> {
     head: BTreeMap<String, String>,
     /// The part of the current line that has been read, where it begins with `#`.
     line: Option<Vec<u8>>,
-    /// Whether the next byte begins a line.
+    /// True if the next byte begins a line.
     fresh: bool,
 }
 
 impl<R> Remarks<R> {
-    /// From the beginning of a line on.
+    /// Reads on from the beginning of a line.
     fn new(inner: R) -> Self {
         Self { inner, head: BTreeMap::new(), line: None, fresh: true }
     }
@@ -429,7 +429,7 @@ impl<R: Read> Read for Remarks<R> {
 }
 
 impl<R: Seek> Seek for Remarks<R> {
-    /// To the beginning of a line.
+    /// Seeks the beginning of a line.
     fn seek(&mut self, position: SeekFrom) -> std::io::Result<u64> {
         (self.line, self.fresh) = (None, true);
         self.inner.seek(position)

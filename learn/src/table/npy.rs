@@ -22,19 +22,19 @@ const LONGEST: u64 = 1 << 16;
 pub(crate) struct NpyHeader {
     /// The lengths along each axis.
     pub(crate) shape: Vec<usize>,
-    /// Whether the first index runs quickest.
+    /// True if the first index varies fastest.
     pub(crate) fortran: bool,
     /// Bytes before the first number.
     pub(crate) length: u64,
     /// Bytes of a number: 8 or 4.
     pub(crate) width: usize,
-    /// Whether the first byte of a number is its highest.
+    /// True if the first byte of a number is the most significant.
     big_endian: bool,
     /// The number of numbers; all of them are in the file.
     pub(crate) count: usize,
 }
 
-/// Why an array cannot be read.
+/// Errors of reading an array.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum NpyError {
     #[error(transparent)]
@@ -91,7 +91,7 @@ impl NpyHeader {
         };
         let (length, rest) = (before + claimed, rest - claimed);
         let outside = || NpyError::Shape { shape: shape.clone(), rest };
-        // Where one length is zero, nothing in the file bounds the others.
+        // If one length is zero, nothing in the file bounds the others.
         if shape.contains(&0) && shape.iter().any(|&n| n as u64 > LONGEST) {
             return Err(outside());
         }

@@ -108,8 +108,8 @@ fn npz_and_npy_hold_the_same_data() {
     assert_eq!(a.data.momenta.before[(1, 2)], pairs[2].before.momentum.y);
 }
 
-/// The same five arrays as NumPy 2 writes them with `savez` (stored) and `savez_compressed`, and a
-/// matrix with the first index quickest in version 2 of the format; see `numpy/write.py`.
+/// NumPy 2 wrote five arrays with `savez` (stored) and `savez_compressed`, and a matrix whose first index varies fastest in
+/// version 2 of the format; see `numpy/write.py`.
 #[test]
 fn files_of_numpy_are_read() {
     let directory = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/numpy");
@@ -145,7 +145,7 @@ fn arrays_that_claim_more_than_they_hold_are_refused() {
     // More rows than bytes.
     let short = path("short.npy");
     std::fs::write(&short, npy_header(&[1 << 60, 6])).unwrap();
-    // The same in an archive.
+    // The header of the first, in an archive.
     let archived = path("claims.npz");
     let mut archive = zip::ZipWriter::new(std::fs::File::create(&archived).unwrap());
     archive.start_file("mu.npy", zip::write::SimpleFileOptions::default()).unwrap();

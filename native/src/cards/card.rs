@@ -12,7 +12,7 @@ pub struct Card {
     pub device: Device,
     /// Its name.
     pub name: String,
-    /// Whether the device is this machine's processor.
+    /// True if the device is this machine's processor.
     pub is_processor: bool,
     /// The numbers it computes with.
     pub precision: Precision,
@@ -28,7 +28,7 @@ impl std::fmt::Debug for Card {
     }
 }
 
-/// By the device's library, where the crate was built for it.
+/// Opens a device by its library, if the crate was built for it.
 fn open(device: Device, kernel: &Kernel, slots: &[f64]) -> Result<Opened, DeviceError> {
     match device.api {
         #[cfg(feature = "opencl")]

@@ -21,7 +21,7 @@ impl Array {
     pub(crate) const ALL: [Self; 4] = [Self::Element, Self::Momentum, Self::Done, Self::Status];
 }
 
-/// Why a piece of rows was not moved; they are as they were.
+/// Reasons for not moving a piece of rows; the rows are unchanged.
 #[cfg_attr(not(any(feature = "opencl", feature = "cuda")), allow(dead_code))]
 pub(crate) enum Room {
     /// Memory is short: fewer rows may fit.
@@ -44,7 +44,7 @@ mod calls {
 
     /// An error of a toolkit.
     pub(crate) trait Fault: std::fmt::Display {
-        /// Whether memory was short.
+        /// True if memory was short.
         fn is_short(&self) -> bool;
     }
 
@@ -103,7 +103,7 @@ mod calls {
             DeviceError::Failed { device: self.device, doing, message: error.to_string() }
         }
 
-        /// The same for calls that may run out of memory.
+        /// Converts the error of a call that may run out of memory.
         pub(crate) fn room<T, E: Fault>(
             self,
             doing: &'static str,
@@ -136,7 +136,7 @@ pub(crate) trait Machine: Send {
 pub(crate) struct Opened {
     pub machine: Box<dyn Machine>,
     pub name: String,
-    /// Whether the device is this machine's processor.
+    /// True if the device is this machine's processor.
     pub processor: bool,
     /// Bytes of all arrays together, and of one, that may be asked for.
     pub memory: (u64, u64),

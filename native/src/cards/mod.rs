@@ -24,7 +24,7 @@ pub use card::Card;
 pub use nvrtc::{Compiled, compile};
 pub use piece::{Advanced, Refused, Row, Status};
 
-/// How a device is reached.
+/// The interface through which a device is reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Api {
     /// OpenCL: cards of all makers, and processors.
@@ -47,7 +47,7 @@ impl fmt::Display for Api {
 /// OpenCL's are counted over all platforms, cards before processors; CUDA's as CUDA counts them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Device {
-    /// How it is reached.
+    /// Its interface.
     pub api: Api,
     /// Its number, from 0.
     pub number: usize,
@@ -79,14 +79,14 @@ impl fmt::Display for Device {
     }
 }
 
-/// Why a device cannot be had, or failed. Each is one line.
+/// Errors of opening and using a device. Each is one line.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DeviceError {
     /// The crate was built without the feature.
     #[error("this program was built without {api}; build it with the feature `{api}`")]
     NotBuilt {
-        /// How the device was to be reached.
+        /// The interface asked for.
         api: Api,
     },
     /// The system has no library for it.
@@ -113,7 +113,7 @@ pub enum DeviceError {
         /// Its name.
         name: String,
     },
-    /// Not even a small piece of the rows fits.
+    /// The device has no memory even for a small piece of the rows.
     #[error("{device} ({name}) is out of memory: it has no room for {rows} trajectories")]
     Memory {
         /// The device.

@@ -22,7 +22,7 @@ pub struct Compiled {
     pub log: String,
 }
 
-/// Whether the library is there. (Calling it otherwise would end the program.)
+/// True if the library is installed. (Without it, any other call would end the program.)
 pub(crate) fn is_there() -> bool {
     // SAFETY: it only tries to load the library.
     unsafe { sys::is_culib_present() }

@@ -232,7 +232,7 @@ pub struct Row {
     pub mu: Vec<f64>,
     /// Steps made.
     pub made: u64,
-    /// Whether it stays where it is.
+    /// True if the row moves no further.
     pub ended: bool,
 }
 
@@ -268,7 +268,7 @@ pub struct Refused<'a> {
     pub place: usize,
     /// Its state before that step.
     pub row: &'a mut Row,
-    /// Why.
+    /// The reason.
     pub why: Status,
 }
 
@@ -279,11 +279,11 @@ type Redo<'a> = dyn FnMut(&mut [Refused<'_>], u64) + 'a;
 /// The outcome of `Card::advance`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Advanced {
-    /// How often a thread refused a step that the caller was then given to make.
+    /// Refused steps that the caller was given to make.
     pub refused: u64,
-    /// In how many pieces the rows were moved.
+    /// The number of pieces in which the rows were moved.
     pub pieces: u64,
-    /// How often the kernel was started.
+    /// Launches of the kernel.
     pub launches: u64,
     /// The time the kernel ran.
     pub running: Duration,

@@ -22,12 +22,12 @@ const BIAS: f64 = 1023.0;
 /// A number so large that the last bits of a sum with it are a whole number.
 const LARGE: f64 = 6_755_399_441_055_744.0;
 
-/// How a number of the program is held.
+/// The representation of a number of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Form {
-    /// By itself.
+    /// A single number.
     Number,
-    /// With the same number of the next trajectory.
+    /// A number together with that of the next trajectory.
     Pair,
 }
 
@@ -108,7 +108,7 @@ impl<'f> Coder<'f> {
         self.builder.ins().store(sound(), value, self.base, offset);
     }
 
-    /// The same number everywhere.
+    /// A constant, in every lane.
     pub(super) fn number(&mut self, value: f64) -> Value {
         match self.form {
             Form::Number => self.float(value),
@@ -283,7 +283,7 @@ const NEAR: usize = 16;
 struct Uses {
     /// The operations that use a node, one node's after the other's; those of results come after all operations.
     times: Vec<usize>,
-    /// Where those of a node begin that are still to come, and where they end.
+    /// For each node, the index of its next use and the end of its uses.
     next: Vec<usize>,
     end: Vec<usize>,
 }
@@ -324,7 +324,7 @@ impl Uses {
     }
 }
 
-/// Where the values of a program are.
+/// The places of a program's values.
 struct Held<'p> {
     inputs: &'static [Variable],
     nodes: &'p [Node],
@@ -453,11 +453,11 @@ const MOST: usize = 1 << 18;
 #[derive(Clone, Debug)]
 pub(super) struct Frame {
     variables: Places,
-    /// Where g, then μ, are kept: at the start of the block, and of a step with kicks.
+    /// Offsets of saved g and μ: at the start of the block, and of a step with kicks.
     kept: Range<usize>,
     /// All of them.
     size: usize,
-    /// Where programs keep values that have no register, one program after the other.
+    /// The offset of values without a register, used by one program after another.
     scratch: usize,
 }
 
@@ -491,17 +491,17 @@ impl Frame {
         self.scratch = self.kept.end;
     }
 
-    /// Where a variable's numbers are; those of a count, where programs read it.
+    /// Offsets of a variable's numbers; of a count, those that programs read.
     pub(super) fn places(&self, variable: Variable) -> Range<usize> {
         self.variables.range(variable)
     }
 
-    /// Where g and μ are kept.
+    /// The offset of saved g and μ.
     pub(super) fn kept(&self, kept: Kept) -> usize {
         self.kept.start + kept as usize * self.state().len()
     }
 
-    /// Where g and μ are.
+    /// Offsets of g and μ.
     pub(super) fn state(&self) -> Range<usize> {
         self.variables.state()
     }

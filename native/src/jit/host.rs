@@ -5,7 +5,7 @@ use cranelift_codegen::isa::OwnedTargetIsa;
 use cranelift_codegen::settings::{self, Configurable};
 use cranelift_codegen::{Context, FinalizedMachReloc};
 
-/// Why there is no machine code of a kernel.
+/// Errors of making machine code of a kernel.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum JitError {
     /// Cranelift makes no code for this processor, or none that was tried.

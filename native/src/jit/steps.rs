@@ -19,7 +19,7 @@ pub(super) struct Loop<'f, 'k> {
     kernel: &'k Kernel,
     /// Registers of the counts.
     counts: Vec<Register>,
-    /// Whether trajectories move on, and how many steps are asked for.
+    /// Marks of trajectories that move on, and the steps asked for.
     live: Register,
     steps: Register,
     /// The report of one trajectory: the largest number of corrections, the largest residual.
@@ -56,7 +56,7 @@ impl<'f, 'k> Loop<'f, 'k> {
         }
     }
 
-    /// The same count in all lanes.
+    /// A count, in all lanes.
     fn whole(&mut self, value: u32) -> Value {
         let value = self.coder.integer(u64::from(value));
         self.spread(value)
@@ -247,7 +247,7 @@ impl<'f, 'k> Loop<'f, 'k> {
         }
     }
 
-    /// Where a condition holds: 1 for one trajectory, a mask for pairs.
+    /// The value of a condition: 1 or 0 for one trajectory, a mask for pairs.
     fn condition(&mut self, condition: &[(bool, Test)]) -> Value {
         let mut all = None;
         for &(holds, test) in condition {

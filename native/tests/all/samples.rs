@@ -45,7 +45,7 @@ pub struct Shape {
     pub dim: usize,
     pub element: usize,
     pub constants: usize,
-    /// How many numbers are solved for and read as the solution beyond those of a series; guesses then look at g too.
+    /// Numbers solved for and numbers of the solution read beyond those of a series; guesses then read g too.
     pub beyond: [usize; 2],
     pub slots: usize,
     /// Nodes of each program, roughly.
@@ -197,7 +197,7 @@ fn rarely_no(
     graph.finish(inputs, &[result])
 }
 
-/// How many trajectories were compared, and what became of them.
+/// Counts of the trajectories compared, by outcome.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub struct Seen {
     /// All steps made.

@@ -11,7 +11,7 @@ fn fields(id: &str) -> Fields {
     gallery().into_iter().find(|entry| entry.id == id).unwrap().fields
 }
 
-/// Of `coadjoint simulate examples/rigid_body.toml`, 1000 steps to time 100.
+/// The final momentum of `coadjoint simulate examples/rigid_body.toml`, 1000 steps to time 100.
 const MOMENTUM: [f64; 3] = [2.01070712626444, -0.3680827891997475, -1.0351675771025337];
 
 #[test]

@@ -41,7 +41,7 @@ struct Task<'a, G: DataGroup> {
     seed: u64,
     /// The name their checkpoints begin with, which begins with the experiment's.
     label: String,
-    /// Whether they are as wide as the paper's in the full version.
+    /// True for networks as wide as the paper's in the full version.
     wide: bool,
 }
 
@@ -145,7 +145,7 @@ fn enter(curve: &mut Curve, name: &str, columns: [&str; 2], looks: &[[f64; 3]]) 
     curve.add(columns[1], looks.iter().map(|look| look[2]));
 }
 
-/// The same pairs as samples to fit and to test, with symmetry and without.
+/// Samples to fit and to test from one set of pairs: with symmetry, and without.
 fn samples(
     options: &Options,
     momenta: MomentumBox,

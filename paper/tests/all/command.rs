@@ -16,7 +16,7 @@ initial = { momentum = [1.0, 0.5, 2.0] }
 run = { time = 10.0 }
 "#;
 
-/// Whether the program succeeds, and what it says on the error stream.
+/// Runs the program; returns true for success, and its error stream.
 fn run(folder: &Path, arguments: &[&str]) -> (bool, String) {
     let mut command = Command::cargo_bin("coadjoint-paper").unwrap();
     let output = command.current_dir(folder).args(arguments).output().unwrap();

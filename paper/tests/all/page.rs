@@ -130,7 +130,7 @@ fn the_page_is_complete_well_formed_and_needs_no_network() {
         assert!(rest.split("</h3>").next().unwrap().contains(mark), "{name}");
     }
     assert!(html.contains("group &lt;SO3&gt;"));
-    // The same seed makes the same bytes.
+    // One seed makes the same bytes each time.
     let again: Vec<Report> = CHEAP.iter().map(|name| outcome(name)).collect();
     let cheap = whole().iter().filter(|report| CHEAP.contains(&&*report.name));
     assert!(page(&again, &[]) == page(&cheap.cloned().collect::<Vec<_>>(), &[]));

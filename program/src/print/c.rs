@@ -9,7 +9,7 @@ use crate::graph::{Node, Program};
 use crate::kernel::Kernel;
 use crate::schedule::{Kind, Part, Variable};
 
-/// How one language writes what a program consists of: as C does, but for numbers, coefficients and operations.
+/// The syntax of a language that is C but for numbers, coefficients and operations.
 ///
 /// Every operation is rounded once; a dialect whose compiler might contract or reorder operations has to forbid it.
 pub trait Dialect {
@@ -195,7 +195,7 @@ impl Dialect for C {
 pub struct Field {
     /// Its name.
     pub name: String,
-    /// How many numbers it has; `None` for a single number that is no array.
+    /// The number of entries; `None` for a single number that is no array.
     pub len: Option<usize>,
 }
 
@@ -210,7 +210,7 @@ impl Field {
         Self { name: name.to_owned(), len: None }
     }
 
-    /// How the number at `index` is written where `one` is the form of a single number.
+    /// The text of the number at `index`; `one` gives the form of a single number.
     pub(super) fn place(&self, index: usize, one: impl Fn(&str) -> String) -> String {
         match self.len {
             Some(_) => format!("{}[{index}]", self.name),

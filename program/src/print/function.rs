@@ -58,7 +58,7 @@ pub fn function(dialect: &impl Dialect, signature: &Signature<'_>, longest: usiz
 struct Body<'a, D> {
     dialect: &'a D,
     signature: &'a Signature<'a>,
-    /// How the nodes written so far are read.
+    /// For each node written so far, the text that reads it.
     names: Vec<String>,
 }
 
@@ -90,7 +90,7 @@ impl<D: Dialect> Body<'_, D> {
         }
     }
 
-    /// How a node without operands is written; `None` for an operation.
+    /// The text of a node without operands; `None` for an operation.
     fn leaf(&self, node: Node) -> Option<String> {
         let dialect = self.dialect;
         match node {

@@ -9,7 +9,7 @@ use crate::kernel::Kernel;
 use crate::print::c::Dialect;
 use crate::schedule::{Block, Kept, Kind, Part, Statement, Test, Variable};
 
-/// How a language writes the loop. The function around it has g, μ, `steps` and whatever `live` reads.
+/// The words of a language for the loop. The function around it has g, μ, `steps` and whatever `live` reads.
 #[derive(Clone, Debug)]
 pub struct LoopStyle {
     /// The prefix of the names of programs.
@@ -20,7 +20,7 @@ pub struct LoopStyle {
     pub sizes: [String; 2],
     /// The list of the coefficients.
     pub slots: String,
-    /// How many of them are those of a flow between kicks.
+    /// The number of coefficients that one flow reads.
     pub slots_of_flow: String,
     /// The name of a function that copies (to, from, length).
     pub copy: String,
@@ -38,7 +38,7 @@ pub struct LoopStyle {
     pub clock: String,
 }
 
-/// That of a unit of C: a function around it declares `bool live`.
+/// The style of a unit of C; a function around it declares `bool live`.
 impl Default for LoopStyle {
     fn default() -> Self {
         Self {
@@ -72,7 +72,7 @@ struct Writer<'a, D> {
     style: &'a LoopStyle,
     lanes: bool,
     depth: usize,
-    /// How many masks have a name.
+    /// The number of named masks.
     masks: usize,
     text: String,
 }
@@ -129,7 +129,7 @@ impl<D: Dialect> Writer<'_, D> {
         self.line(&text);
     }
 
-    /// Whether a count is one number for all lanes.
+    /// True if a count is one number for all lanes.
     fn shared(&self, count: Variable) -> bool {
         self.lanes && count == Variable::Flow
     }

@@ -68,7 +68,7 @@ impl Part {
     }
 }
 
-/// Where the numbers of all variables lie in one list: those of g and μ, then the others.
+/// The places of all variables in one list of numbers: g and μ first, then the others.
 #[derive(Clone, Debug)]
 pub struct Places {
     ranges: Vec<Range<usize>>,
@@ -91,7 +91,7 @@ impl Places {
         Self { ranges, len }
     }
 
-    /// How many places there are.
+    /// The number of places.
     #[allow(clippy::len_without_is_empty)]
     pub fn len(&self) -> usize {
         self.len

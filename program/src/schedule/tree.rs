@@ -30,16 +30,16 @@ pub enum Variable {
     Distance,
     /// The length of a correction.
     Moved,
-    /// Whether a step or a state is right: 1 if it is.
+    /// 1 if a step or a state is right.
     Right,
-    /// How many steps were made.
+    /// Steps made.
     Done,
-    /// How many of them in the block.
+    /// Steps made in the block.
     Count,
-    /// How many corrections were made in the step.
+    /// Corrections made in the step.
     Tried,
-    /// How many flows of a step with kicks were made: the same count for all trajectories side by side. Programs read the
-    /// coefficients of this number.
+    /// Flows made of a step with kicks: one count for all trajectories side by side. Programs read the coefficients of this
+    /// number.
     Flow,
 }
 
@@ -83,9 +83,9 @@ pub enum Part {
 /// The states that are kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kept {
-    /// That at the start of a block of steps.
+    /// The state at the start of a block of steps.
     Block,
-    /// That at the start of a step with kicks.
+    /// The state at the start of a step with kicks.
     Step,
 }
 
@@ -101,7 +101,7 @@ impl Part {
         (Self::Kick, "kick"),
     ];
 
-    /// Whether it reads the coefficients of a flow, where a step has kicks.
+    /// True if it reads the coefficients of a flow, for a step with kicks.
     pub fn is_of_flow(self) -> bool {
         !matches!(self, Self::Frame | Self::Sound)
     }
@@ -135,7 +135,7 @@ pub struct Block {
 }
 
 impl Block {
-    /// Whether a variable is one of its own.
+    /// True if a variable is one of its own.
     pub fn owns(&self, variable: Variable) -> bool {
         self.variables.iter().any(|&(own, _)| own == variable)
     }

@@ -125,12 +125,12 @@ fn reference(function: Function, x: f64) -> (Wide, i32) {
     (value, 0)
 }
 
-/// By how many units in the last place a value is off.
+/// The error of a value in units of the last place.
 fn off(found: f64, (expected, k): (Wide, i32)) -> f64 {
     // Compared where the reference is near 1, so that results near the ends of the range count as well.
     let back = |value: f64| value * 2_f64.powi(-k / 2) * 2_f64.powi(-k - -k / 2);
     let exponent = expected.0.abs().log2().floor() as i32;
-    // Those with fewer digits are rounded to them.
+    // Numbers with fewer digits are rounded to them.
     let unit = 2_f64.powi((exponent - 52).max(-1074 - k));
     ((back(found) - expected.0) - expected.1).abs() / unit
 }

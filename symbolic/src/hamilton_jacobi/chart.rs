@@ -9,7 +9,7 @@ use crate::lie::{Chart, CubicEntry, LieAlgebra, cubic};
 use crate::number::{BernoulliWeights, Rational, integer, ratio};
 use crate::poly::{Polynomial, Product, SumError, sum_of_products};
 
-/// Whether a map of the algebra is taken, or its transpose.
+/// Selects a map of the algebra or its transpose.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Side {
     /// ad_x and xξx.
@@ -96,7 +96,7 @@ pub(super) struct Inverse<'a> {
 }
 
 enum Form<'a> {
-    /// With the weights (−1)^k B_k/k!.
+    /// The weights (−1)^k B_k/k!.
     Exponential(BernoulliWeights, Powers<'a>),
     /// v + ½ A v − ¼ xvx.
     Cayley(Vec<CubicEntry>),
@@ -157,7 +157,7 @@ pub(super) fn sandwich(
     let mut result = vec![Polynomial::zero(work.variables); v.len()];
     let one = Polynomial::constant(work.variables, Rational::one());
     for entry in cubic {
-        // The same trilinear form, read with argument and result exchanged.
+        // Both are one trilinear form; the transpose exchanges argument and result.
         let (from, to) = match side {
             Side::Algebra => (entry.argument, entry.result),
             Side::Dual => (entry.result, entry.argument),

@@ -2,7 +2,7 @@
 
 use crate::lie::ChartError;
 
-/// How large a derivation may become before it stops.
+/// The size at which a derivation stops.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TermLimit {
     /// The most terms one polynomial may have.
@@ -25,7 +25,7 @@ impl Default for TermLimit {
     }
 }
 
-/// Why a derivation stopped.
+/// Reasons for which a derivation stops.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DeriveError {

@@ -49,7 +49,7 @@ pub(crate) struct PredictorRows<'a> {
 enum PullBack<'a> {
     /// Σ_k (ad_x^T)^k μ′ / (k+1)!.
     Exponential(Powers<'a>),
-    /// From J_L = p − ½ ad_x^T p − ¼ ⟨p, x·x⟩ = μ′, order by order.
+    /// The solution of J_L = p − ½ ad_x^T p − ¼ ⟨p, x·x⟩ = μ′, order by order.
     Cayley(Vec<CubicEntry>),
 }
 

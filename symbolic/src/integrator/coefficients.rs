@@ -75,7 +75,7 @@ impl Coefficients {
         self.monomials = terms.iter().map(|term| term.factors.clone()).collect();
     }
 
-    /// How many bases belong to the series S₁ + … + S_K; they are the first.
+    /// The number of bases of the series S₁ + … + S_K; they come first.
     pub fn series(&self) -> usize {
         self.monomials.len()
     }

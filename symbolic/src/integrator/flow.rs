@@ -61,7 +61,7 @@ struct Flow<'a> {
     graph: Graph,
     /// The coefficients of sᵏ in each coordinate of μ: `[order][coordinate]`.
     momenta: Vec<Vec<Id>>,
-    /// Those of the monomials met so far.
+    /// The coefficients of the monomials met so far.
     products: HashMap<(Vec<u32>, usize), Id>,
     /// Slots of plain numbers.
     numbers: HashMap<Rational, usize>,

@@ -39,7 +39,7 @@ impl FoldTable {
         Self::placed(integrator, Some)
     }
 
-    /// The same, each coefficient where `place` wants it; without those that it does not want.
+    /// Puts each coefficient at the place that `place` gives, and leaves out those that have none.
     pub fn placed(integrator: &Integrator, place: impl Fn(usize) -> Option<usize>) -> Self {
         let coefficients = &integrator.coefficients;
         let bound_at = coefficients.slots().len();
@@ -154,7 +154,7 @@ impl FoldTable {
         }
     }
 
-    /// How many coefficients there are.
+    /// The number of coefficients.
     #[allow(clippy::len_without_is_empty)]
     pub fn len(&self) -> usize {
         self.len
@@ -205,7 +205,8 @@ impl FoldTable {
         products
     }
 
-    /// The same for rows side by side; also the |p| up to which the last two terms of the series have at most this ratio.
+    /// Folds for rows of symbols side by side. Also returns the |p| up to which the last two terms of the series have at
+    /// most this ratio.
     ///
     /// # Errors
     /// As [`FoldTable::fold`].

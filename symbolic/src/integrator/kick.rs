@@ -58,7 +58,7 @@ pub struct Kicks {
     pub kick: Kick,
     /// The number of the programs' first slot among those of the step.
     pub first: usize,
-    /// How kicks and flows are composed.
+    /// The composition of kicks and flows.
     pub splitting: Splitting,
 }
 
@@ -68,14 +68,14 @@ impl Kicks {
         self.kick.potential.alone()
     }
 
-    /// Whether the torque depends on the time.
+    /// True if the torque depends on the time.
     pub fn moves(&self) -> bool {
         self.torque().is_some_and(|torque| torque.moves)
     }
 }
 
 impl Integrator {
-    /// The same with kicks between flows; `None` where the potential has other parameters than the Hamiltonian.
+    /// Adds kicks between flows; `None` if the parameters of the potential are not those of the Hamiltonian.
     pub fn with_kicks(mut self, kick: Kick, splitting: Splitting) -> Option<Self> {
         let problem = &mut self.problem;
         if kick.potential.parameters != problem.parameters {

@@ -42,7 +42,7 @@ pub(crate) struct Gradient<'a> {
 }
 
 impl<'a> Gradient<'a> {
-    /// That of these terms.
+    /// The gradient of these terms.
     pub(crate) fn new(coefficients: &mut Coefficients, dim: usize, terms: &'a [BaseTerm]) -> Self {
         let with = by_coordinate(terms, dim);
         let graph = Graph::new();

@@ -192,7 +192,7 @@ impl Integrator {
         })
     }
 
-    /// How many terms S₁ + … + S_K has.
+    /// The number of terms of S₁ + … + S_K.
     pub fn terms(&self) -> usize {
         (1..=self.problem.truncation).map(|k| self.series.order(k).len()).sum()
     }
@@ -202,7 +202,7 @@ impl Integrator {
         self.newton.as_ref().or(self.hessian.as_ref()).unwrap_or(&self.gradient)
     }
 
-    /// How many coefficients the bound of [`Integrator::defect`] has: its degree plus one.
+    /// The number of coefficients of the bound of [`Integrator::defect`]: its degree plus one.
     pub(crate) fn defect_len(&self) -> usize {
         self.defect.iter().map(|term| term.degree as usize + 1).max().unwrap_or(0)
     }
@@ -213,7 +213,7 @@ impl Integrator {
     }
 }
 
-/// Whether S₃ … S_K vanish, and S₃ where K = 1.
+/// True if S₃ … S_K vanish, or S₃ for K = 1.
 fn is_first_whole(problem: &Problem, coefficients: &Coefficients) -> bool {
     if problem.truncation > 1 {
         return coefficients.beyond_first().is_empty();

@@ -10,7 +10,7 @@ use crate::lie::Chart;
 use crate::poly::{Factors, Polynomial, split_at};
 use crate::problem::{Problem, Solver};
 
-/// How a step finds its first guess of p.
+/// The first guess of p in a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Predictor {
     /// Polynomials of μ′ for the coordinates of p, up to this degree in h.
@@ -33,7 +33,7 @@ impl Predictor {
 /// solve goes on until rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Plan {
-    /// How a step solves for p.
+    /// The solver for p.
     pub solver: Solver,
     /// The first guess.
     pub predictor: Predictor,
@@ -59,7 +59,7 @@ impl Plan {
         goal.saturating_sub(start).div_ceil(gain).saturating_sub(1)
     }
 
-    /// How many chord steps are to be expected after the first step, Newton's.
+    /// The expected number of chord steps after the first step, which is Newton's.
     pub(crate) fn chords(self, problem: &Problem) -> usize {
         let degree = Self::single_step_degree(problem.truncation);
         let goal = if corrects_dearly(problem) { degree + 5 } else { 2 * degree + 2 };
@@ -115,7 +115,7 @@ impl Plan {
         if newton && problem.chart == Chart::Exponential {
             let possible = flow::DEGREES.iter().filter(|&&degree| degree <= highest).count();
             let degrees = &flow::DEGREES[..possible];
-            // Where a correction is dear the best guess there is pays.
+            // If a correction is dear, the best guess available pays.
             let first = if corrects_dearly(problem) { possible.saturating_sub(1) } else { 0 };
             for &degree in &degrees[first..] {
                 let program =
@@ -178,7 +178,7 @@ impl Plan {
     }
 }
 
-/// In up to this number of dimensions explicit predictors have few monomials.
+/// The largest dimension in which explicit predictors have few monomials.
 const SMALL: usize = 3;
 /// Products of coefficients at most in looking for an explicit predictor beside one along the flow in more dimensions: where
 /// it takes more, it has too many monomials to be worth it.
@@ -188,11 +188,11 @@ const MOST_PRODUCTS: u64 = 5_000_000;
 /// take longer to derive, to compile and to fold than the series itself.
 const MOST_DATA: usize = 32;
 
-/// How many independent operations would fit into the time in which a chart or a small linear system
-/// waits for its own results (measured on SO(3)).
+/// The number of independent operations that fit into the time in which a chart or a small linear system waits for its own
+/// results (measured on SO(3)).
 const WAIT: usize = 300;
 
-/// Whether most of a step goes into its corrections: in more than [`SMALL`] dimensions and for long series, whose Hessian is
+/// True if most of a step goes into its corrections: in more than [`SMALL`] dimensions and for long series. The Hessian is
 /// then taken of the first terms alone.
 fn corrects_dearly(problem: &Problem) -> bool {
     problem.solver() == Solver::Newton && problem.algebra.dim() > SMALL && problem.truncation >= 7
@@ -282,7 +282,7 @@ fn gradient_operations(terms: &[BaseTerm]) -> usize {
     terms.iter().map(|term| term.factors.len()).sum::<usize>() * 3 / 2
 }
 
-/// The same for the upper triangle of the Hessian of the terms up to `truncation`.
+/// Operations of the upper triangle of the Hessian of the terms up to `truncation`.
 fn hessian_operations(terms: &[BaseTerm], truncation: usize) -> usize {
     let entries = |term: &BaseTerm| {
         let present = term.factors.len();

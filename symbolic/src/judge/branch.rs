@@ -7,7 +7,7 @@ use super::linear::{doubles, exact, norm, size, spectral};
 use super::step::{RightSolution, Step, ratio};
 use super::{DoubleDouble, JudgeError};
 
-/// Whether a given x is the right solution.
+/// The verdict on a given x as a solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Branch {
     /// It is: the continuation in s ends at x.
@@ -180,7 +180,7 @@ impl Step<'_> {
             if !length.is_finite() || (length > last && length > whole) {
                 return Err(JudgeError::OutOfRange);
             }
-            // The same factors as long as they gain three digits.
+            // Factors are kept as long as a correction gains three digits.
             if length > 1e-3 * last || last.is_infinite() && length > 1e-6 * whole {
                 model = self.model(&doubles(&x), 1.0)?;
                 response = model.response();
@@ -203,7 +203,7 @@ impl Step<'_> {
         solution.ok_or(Branch::CannotTell)
     }
 
-    /// Whether x is the right solution, and that solution: the exact one next to x.
+    /// The verdict on x, and the exact solution next to x if x is the right one.
     pub(super) fn branch(&self, x: &DMatrix<f64>) -> (Branch, Option<RightSolution>) {
         let right = match self.right_solution() {
             Ok(right) => doubles(&right.x),

@@ -1,4 +1,4 @@
-//! Whether x lies inside the chart.
+//! The domain of a chart.
 
 use nalgebra::{DMatrix, Schur};
 
@@ -17,7 +17,7 @@ const CAYLEY: f64 = 2.0;
 /// Eigenvalues of a defective matrix are as inexact as the root of its rounding.
 const DEFECTIVE: f64 = 4e-8;
 
-/// Whether x is inside the chart.
+/// The verdict on x as an element of the chart's domain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Inside {
     /// It is.

@@ -62,7 +62,7 @@ impl DoubleDouble {
         self.hi
     }
 
-    /// Whether it is neither infinite nor NaN.
+    /// True if it is neither infinite nor NaN.
     pub(super) fn is_finite(self) -> bool {
         self.hi.is_finite() && self.lo.is_finite()
     }

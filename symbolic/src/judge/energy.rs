@@ -19,7 +19,7 @@ use crate::smooth::Smooth;
 #[derive(Clone, Debug)]
 pub(super) struct Energy {
     smooth: Box<Smooth>,
-    /// Of each node whether H needs it, functions being single operations.
+    /// Marks the nodes that H needs, functions being single operations.
     needed: Vec<bool>,
     /// The functions and arguments of nodes that are functions' values.
     calls: BTreeMap<usize, (Function, usize)>,
@@ -69,7 +69,7 @@ impl Energy {
             };
             tape.push(entry);
         }
-        // How much H changes with each node, from the last to the first.
+        // ∂H/∂node for each node, from the last to the first.
         let mut change = vec![T::zero(); nodes.len()];
         for output in self.smooth.value.outputs() {
             change[output.index()] += T::one();

@@ -3,7 +3,7 @@
 use crate::hamilton_jacobi::DeriveError;
 use crate::lie::ChartError;
 
-/// Why a step could not be judged, or a judge not be made.
+/// Errors of making a judge, and of judging a step.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum JudgeError {

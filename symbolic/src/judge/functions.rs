@@ -73,7 +73,7 @@ impl Functions for DoubleDouble {
             return first.exp().into();
         }
         let twos = (first / LN_2.0).round();
-        // What is left by multiples of ln 2, and nine halvings of that.
+        // The remainder modulo ln 2, halved nine times.
         let rest = (self - Self::new(LN_2.0, LN_2.1) * twos.into()).scaled(-HALVINGS);
         // eʳ − 1, so that no digits are lost beside 1.
         let more = (2..11_u8).rev().fold(Self::from(1.0), |sum, k| {
@@ -132,7 +132,7 @@ mod tests {
         elementary(function, a)[0]
     }
 
-    /// Whether a and b are `bound` apart at most, relative to b.
+    /// Asserts that a and b differ by `bound` at most, relative to b.
     fn close(what: &str, a: DoubleDouble, b: DoubleDouble, bound: f64) {
         let error = ((a - b).to_f64() / b.to_f64()).abs();
         assert!(error <= bound, "{what}: {} {error:e}", b.to_f64());

@@ -72,7 +72,7 @@ fn beta(degree: usize) -> Vec<DoubleDouble> {
 }
 
 impl Collocation {
-    /// With this many nodes, and J_R up to the power `degree` of x.
+    /// Collocation with this many nodes, and J_R up to the power `degree` of x.
     pub(super) fn new(energy: Energy, nodes: usize, degree: usize) -> Option<Self> {
         let (times, half) = (half_roots(nodes), DoubleDouble::from(0.5));
         let power = |x: DoubleDouble, k: usize| (0..k).fold(DoubleDouble::one(), |p, _| p * x);
@@ -94,7 +94,7 @@ impl Collocation {
 }
 
 impl Stage<'_> {
-    /// Whether ∂H/∂μ is finite at μ in the middle of the step.
+    /// True if ∂H/∂μ is finite at μ in the middle of the step.
     pub(super) fn is_defined(&self, mu: &DMatrix<DoubleDouble>) -> bool {
         self.velocity(self.middle, mu).is_ok()
     }

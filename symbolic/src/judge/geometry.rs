@@ -13,7 +13,7 @@ use crate::number::Rational;
 /// Terms of an exponential series at most.
 const TERMS: usize = 500;
 
-/// How much larger than its sum the largest term of a series may be: beyond, too few digits are left.
+/// The largest ratio of the largest term of a series to its sum; beyond it too few digits are left.
 const CANCELLATION: f64 = 1e9;
 
 /// 1/k in doubled precision; 1/0 is not used.
@@ -220,7 +220,7 @@ impl Geometry {
         [velocity, force]
     }
 
-    /// How τ and Ad\* answer to a change of x, in double precision: ‖Ad\*_{τ(x)⁻¹}‖ and ‖d^R τ_x‖.
+    /// The sensitivity of τ and Ad\* to x, in double precision: ‖Ad\*_{τ(x)⁻¹}‖ and ‖d^R τ_x‖.
     pub(super) fn sensitivity(
         &self,
         chart: Chart,

@@ -93,7 +93,7 @@ impl Real for DoubleDouble {
         Self::scaled(self, exponent)
     }
 
-    /// By factors in double precision, whose solution is refined as far as its residual in doubled precision tells.
+    /// Solves by factors in double precision; the solution is refined as far as its residual in doubled precision tells.
     fn solve(matrix: &DMatrix<Self>, right: &DMatrix<Self>) -> Option<DMatrix<Self>> {
         const ROUNDING: f64 = 1e-29;
         const ENOUGH: f64 = 1e-20;
@@ -148,7 +148,7 @@ pub(super) fn norm<'a, T: Real>(values: impl IntoIterator<Item = &'a T> + Copy) 
 /// A function's derivative at x by differences over this spacing, where it has the value `here`.
 ///
 /// # Errors
-/// Those of the function.
+/// Returns the errors of the function.
 pub(super) fn derivative<E>(
     x: &DMatrix<f64>,
     here: &DMatrix<f64>,

@@ -79,7 +79,7 @@ pub struct Judge {
     law: Law,
 }
 
-/// How steps are made.
+/// The equation of the steps.
 #[derive(Clone, Debug)]
 enum Law {
     /// By a series, and the motion of a comoving frame, which follows each step.
@@ -88,7 +88,7 @@ enum Law {
 }
 
 impl Judge {
-    /// For the exact series of a Hamiltonian; its variables beyond the dimension are symbols.
+    /// The judge of the exact series of a Hamiltonian; its variables beyond the dimension are symbols.
     ///
     /// # Errors
     /// [`JudgeError::Chart`] where the algebra has no such chart.
@@ -99,7 +99,7 @@ impl Judge {
         Ok(Self { geometry, law })
     }
 
-    /// For the problem that a front end has read, its comoving frame included.
+    /// The judge of a problem that a front end has read, its comoving frame included.
     ///
     /// # Errors
     /// [`JudgeError::Derive`] where the series cannot be derived.
@@ -153,7 +153,7 @@ pub struct Setting<'a> {
     symbols: Vec<f64>,
     /// The time at which a step starts.
     time: DoubleDouble,
-    /// In each of the units that have occurred.
+    /// The law, in each of the units that have occurred.
     scaled: Vec<Scaled>,
 }
 

@@ -6,7 +6,7 @@ use super::linear::{column, doubles, norm};
 use super::step::ratio;
 use super::{Branch, DoubleDouble, JudgeError, RightSolution, Setting, Step};
 
-/// Why a motion stops.
+/// Reasons for which a motion stops.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Stop {
     /// The right solution was not found: [`Branch::Folds`] or [`Branch::CannotTell`].
@@ -15,7 +15,7 @@ pub enum Stop {
     Judge(JudgeError),
 }
 
-/// Where a motion has come to, and how far rounding may have taken another one from it.
+/// The state of a motion, with bounds on the distance to which rounding may have taken another motion from it.
 #[derive(Clone, Debug)]
 pub struct Motion {
     momentum: DMatrix<DoubleDouble>,
@@ -27,7 +27,7 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// From a momentum.
+    /// A motion that starts from a momentum.
     pub fn new(mu: &[f64]) -> Self {
         let momentum = column(mu.iter().map(|&m| DoubleDouble::from(m)));
         Self { momentum, scale: 0, element: None, momentum_bound: 0.0, element_bound: 0.0 }
@@ -97,21 +97,21 @@ impl Motion {
         self.element.as_ref().map_or_else(|| before.clone(), |element| &before * element)
     }
 
-    /// Whether the motion and its bounds are numbers, so that a deviation means something: turns of hundreds of radians are
-    /// bounded by what exceeds all numbers.
+    /// True if the motion and its bounds are finite, so that a deviation has a meaning. The bounds of turns of hundreds of
+    /// radians overflow.
     pub fn is_bounded(&self) -> bool {
         let mut numbers = self.momentum.iter().chain(self.element.iter().flatten());
         let bounds = self.momentum_bound.is_finite() && self.element_bound.is_finite();
         bounds && numbers.all(|number| number.is_finite())
     }
 
-    /// How far a momentum is from this one over the bound of both motions' difference.
+    /// The distance of a momentum from this one, divided by the bound on the difference of both motions.
     pub fn momentum_deviation(&self, momentum: &[f64]) -> f64 {
         let found = column(momentum.iter().map(|&m| DoubleDouble::from(m).scaled(-self.scale)));
         ratio(norm(&(&self.momentum - found)), self.momentum_bound)
     }
 
-    /// How far a group element is from `before` times the steps' elements, over the bound.
+    /// The distance of a group element from `before` times the steps' elements, divided by the bound.
     pub fn element_deviation(&self, before: &[f64], after: &[f64]) -> f64 {
         let product = self.exact_element_from(before);
         let found = after.iter().map(|&g| DoubleDouble::from(g));

@@ -52,8 +52,7 @@ impl Residual {
 }
 
 impl Point<'_> {
-    /// Whether x solves x = ∂S(p̂): the residual and its bound for a scalar of this unit roundoff, 2⁻⁵³ for
-    /// `f64` and 2⁻²⁴ for `f32`.
+    /// The residual of x = ∂S(p̂), and its bound for a scalar of this unit roundoff: 2⁻⁵³ for `f64`, 2⁻²⁴ for `f32`.
     pub fn residual(&self, unit: f64) -> Residual {
         let bound = self.step.bound(&self.x, unit).map_or(f64::NAN, |(bound, _)| bound);
         Residual { residual: norm(&self.defect), bound }
@@ -81,7 +80,7 @@ impl Point<'_> {
         Some(largest(here).min(largest(anywhere)))
     }
 
-    /// Whether x is the right solution, and that solution: the exact one next to x.
+    /// The verdict on x, and the exact solution next to x if x is the right one.
     pub fn branch(&self) -> (Branch, Option<RightSolution>) {
         self.step.branch(&self.x)
     }

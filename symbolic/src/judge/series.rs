@@ -149,7 +149,7 @@ impl Folded {
     }
 }
 
-/// How the derivatives of some monomials are evaluated: each product of powers by one multiplication.
+/// A plan that evaluates the derivatives of some monomials, with one multiplication for each product of powers.
 #[derive(Clone, Debug, Default)]
 struct Plan {
     /// The direct factor of each coordinate.
@@ -165,7 +165,7 @@ struct Plan {
     first: Vec<Derivative>,
 }
 
-/// What a monomial adds at one place of a derivative: its coefficient times `factor` times a product.
+/// The term of a monomial at one place of a derivative: its coefficient times `factor` times a product.
 #[derive(Clone, Copy, Debug)]
 struct Derivative {
     monomial: usize,

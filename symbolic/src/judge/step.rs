@@ -35,7 +35,7 @@ pub struct Step<'a> {
     pub(super) equation: Equation<'a>,
     pub(super) scale: i64,
     pub(super) momentum: DMatrix<DoubleDouble>,
-    /// The same in double precision.
+    /// The momentum in double precision.
     pub(super) double: DMatrix<f64>,
 }
 
@@ -48,7 +48,7 @@ pub struct RightSolution {
     pub response: f64,
 }
 
-/// Where the right solution leads.
+/// The state after the right solution.
 #[derive(Clone, Debug)]
 pub struct End {
     /// The momentum after the step, one column, in units of 2^scale.
@@ -62,7 +62,7 @@ pub struct End {
     pub momentum_bound: f64,
     /// The bound on the change of the group element, relative to ‖g‖.
     pub element_bound: f64,
-    /// By how much an error of the momentum before the step grows at most, to first order.
+    /// The factor by which an error of the momentum before the step grows at most, to first order.
     pub growth: f64,
 }
 
@@ -80,12 +80,12 @@ impl Step<'_> {
         }
     }
 
-    /// Whether x is inside the chart.
+    /// The verdict on x as an element of the chart's domain.
     pub fn inside(&self, x: &[f64]) -> Inside {
         inside(self.geometry, &column(x.iter().copied()))
     }
 
-    /// Whether the Hamiltonian is defined where the step starts.
+    /// True if the Hamiltonian is defined at the start of the step.
     pub(super) fn is_defined(&self) -> bool {
         match &self.equation {
             Equation::Series(_) => true,
@@ -127,7 +127,7 @@ impl Step<'_> {
         }
     }
 
-    /// What is left of the equation at x, computed in doubled precision.
+    /// The residual of the equation at x, computed in doubled precision.
     pub(super) fn defect(&self, x: &DMatrix<DoubleDouble>) -> Result<DMatrix<f64>, JudgeError> {
         Ok(doubles(&(x - self.right_side(x)?)))
     }
@@ -152,7 +152,7 @@ impl Step<'_> {
                 let hessian = scaled.series.hessian(&p);
                 let [_, slope] = self.geometry.sensitivity(self.geometry.chart, x)?;
                 let sizes = norm(x) + scaled.series.terms(&p) + hessian * (norm(&p) + norm(mu));
-                // Where numbers near zero are as far apart as with this unit roundoff.
+                // The spacing of numbers near zero for this unit roundoff.
                 let unscaled = DoubleDouble::from(hessian).scaled(-self.scale).to_f64();
                 let spaced = 16.0 * n * spacing(unit) * (1.0 + unscaled);
                 Ok((rounding * n * sizes + spaced, hessian * (1.0 + slope)))
@@ -167,10 +167,10 @@ impl Step<'_> {
         }
     }
 
-    /// Where the right solution leads, frame motions included.
+    /// The state after the right solution, motions of the frame included.
     ///
     /// # Errors
-    /// [`JudgeError::OutOfRange`].
+    /// Returns [`JudgeError::OutOfRange`] if numbers leave their range.
     pub fn end(&self, right: &RightSolution, unit: f64) -> Result<End, JudgeError> {
         let (geometry, chart) = (self.geometry, self.geometry.chart);
         let exact_x = self.increment(right);

@@ -39,7 +39,7 @@ impl LieAlgebra {
     /// adjoint representation, n² numbers whose product takes n³ operations, a tenth of a second for 512 generators.
     pub const MOST_BY_BRACKETS: usize = 512;
 
-    /// From all nonzero structure constants (i, j, k, c_ij^k), \[e_i, e_j\] = Σ_k c_ij^k e_k.
+    /// Builds an algebra from all nonzero structure constants (i, j, k, c_ij^k), \[e_i, e_j\] = Σ_k c_ij^k e_k.
     ///
     /// Both c_ij^k and c_ji^k are to be given. Generators are called e1, e2, ….
     ///
@@ -65,7 +65,7 @@ impl LieAlgebra {
         Self::checked(name.into(), generators, table, None)
     }
 
-    /// From square rational matrices of one size, their commutator being the bracket.
+    /// Builds an algebra from square rational matrices of one size; the bracket is their commutator.
     ///
     /// # Errors
     /// If a matrix is not square, sizes differ, a matrix depends on those before it, or a bracket
@@ -131,7 +131,7 @@ impl LieAlgebra {
         Self::checked(name.into(), generators, table, Some(basis))
     }
 
-    /// From brackets (i, j, \[e_i, e_j\] as components (k, c_ij^k)).
+    /// Builds an algebra from brackets (i, j, \[e_i, e_j\] as components (k, c_ij^k)).
     ///
     /// A bracket not given is zero, or the opposite of the one given in the other order.
     ///
@@ -181,7 +181,7 @@ impl LieAlgebra {
         Self::checked(name.into(), generators, table, None)
     }
 
-    /// From data known to be a Lie algebra.
+    /// Builds an algebra from data known to define one.
     pub(super) fn from_parts(
         name: String,
         generators: Vec<String>,
@@ -191,7 +191,7 @@ impl LieAlgebra {
         Self { name, generators, structure, basis }
     }
 
-    /// The same algebra under another name.
+    /// Changes the name.
     #[must_use]
     pub fn renamed(mut self, name: impl Into<String>) -> Self {
         self.name = name.into();
@@ -341,7 +341,7 @@ fn check_jacobi(generators: &[String], table: &Table) -> Result<(), LieAlgebraEr
     }
 }
 
-/// Why data does not define a Lie algebra. Every message is one line and names generators.
+/// Reasons for which data do not define a Lie algebra. Every message is one line and names generators.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LieAlgebraError {
@@ -422,7 +422,7 @@ pub enum LieAlgebraError {
         /// The dimension.
         dimension: usize,
     },
-    /// The same bracket or structure constant is given twice with different values.
+    /// A bracket or structure constant is given twice with different values.
     #[error("the bracket [{first}, {second}] is given twice with different values; keep one")]
     Inconsistent {
         /// The name of the first generator.

@@ -59,8 +59,8 @@ pub fn casimirs(algebra: &LieAlgebra, degree: u32) -> Result<Vec<Polynomial>, Ca
     Ok(result)
 }
 
-/// The Casimirs that runs and emitted code watch: generators of degree two at most, or one where two is too much work.
-/// Those of higher degrees take long to find in large algebras; [`casimirs`] finds them.
+/// The Casimirs that runs and emitted code watch: generators of degree two at most, or one if two is too much work. Higher
+/// degrees take long in large algebras; [`casimirs`] finds them.
 pub fn watched_casimirs(algebra: &LieAlgebra) -> Vec<Polynomial> {
     [2, 1].into_iter().find_map(|degree| casimirs(algebra, degree).ok()).unwrap_or_default()
 }
@@ -158,7 +158,7 @@ pub(super) fn of_degree(
     Ok(kernel.iter().map(|vector| polynomial(algebra, &monomials, vector)).collect())
 }
 
-/// Whether the monomials of a degree are few enough to be looked through.
+/// Refuses a degree with too many monomials to search.
 pub(super) fn check_size(algebra: &LieAlgebra, degree: u32) -> Result<(), CasimirError> {
     // The count is C(n + degree − 1, degree), built up from exact smaller ones.
     let mut count = 1_u128;
@@ -288,7 +288,7 @@ pub(super) const MONOMIALS: usize = 50_000;
 /// Multiplications in one elimination at most.
 pub(super) const OPERATIONS: u64 = 100_000_000;
 
-/// Why Casimirs were not computed.
+/// Errors of computing Casimirs.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CasimirError {

@@ -249,7 +249,7 @@ pub fn summary(name: &str) -> Option<String> {
     Some(text)
 }
 
-/// Why a text names no group.
+/// Reasons for which a text names no group.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CatalogueError {

@@ -15,7 +15,7 @@ pub enum Chart {
     Cayley,
 }
 
-/// Why a chart does not exist for an algebra.
+/// Reasons for which an algebra does not have a chart.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ChartError {
@@ -55,10 +55,10 @@ pub(crate) struct CubicEntry {
 }
 
 impl Chart {
-    /// Whether the chart exists for this algebra.
+    /// Checks that this algebra has the chart.
     ///
     /// # Errors
-    /// The reason if it does not.
+    /// Returns the reason if it does not.
     pub fn check(self, algebra: &LieAlgebra) -> Result<(), ChartError> {
         match self {
             Self::Exponential => Ok(()),

@@ -64,7 +64,7 @@ impl LieAlgebra {
         (0..self.dim()).map(factor).collect()
     }
 
-    /// Where the factors begin.
+    /// The first index of each factor.
     fn blocks(&self) -> Vec<Block> {
         let mut blocks: Vec<Block> = Vec::new();
         // The last element, and the last row, that what came before has.
@@ -110,8 +110,8 @@ struct Block {
 }
 
 impl LieAlgebra {
-    /// Whether the lower central series 𝔤, \[𝔤, 𝔤\], \[𝔤, \[𝔤, 𝔤\]\], … ends at zero. Every ad_x is then
-    /// nilpotent, and d exp is invertible at every x.
+    /// True if the lower central series 𝔤, \[𝔤, 𝔤\], \[𝔤, \[𝔤, 𝔤\]\], … ends at zero. Every ad_x is then nilpotent, and d
+    /// exp is invertible at every x.
     ///
     /// ```
     /// use coadjoint_symbolic::lie::catalogue::lookup;
@@ -238,17 +238,14 @@ impl LieAlgebra {
         product.renamed(format!("{base}^{count}"))
     }
 
-    /// The semidirect product 𝔤 ⋉ V^copies, \[e_i, v_a\] = Σ_b ρ(e_i)_ba v_b, with one matrix of
-    /// the representation ρ on V for every generator. The basis is that of 𝔤, then the first copy
-    /// of V, then the second, ….
+    /// The semidirect product 𝔤 ⋉ V^copies, \[e_i, v_a\] = Σ_b ρ(e_i)_ba v_b, with one matrix of the representation ρ on V
+    /// for every generator. The basis is that of 𝔤, then the first copy of V, then the second, ….
     ///
-    /// Where ρ is the matrices of 𝔤 themselves the result consists of affine matrices
-    /// ((ξ, v), (0, 0)), v having one column for each copy; otherwise ((ρ(ξ), v), (0, 0)) stands
-    /// beside ξ as a block of its own.
+    /// If ρ is given by the matrices of 𝔤 themselves, the result consists of affine matrices ((ξ, v), (0, 0)), v having one
+    /// column for each copy; otherwise ((ρ(ξ), v), (0, 0)) stands beside ξ as a block of its own.
     ///
     /// # Errors
-    /// If a matrix is missing or not square, or ρ is no representation (the Jacobi identity
-    /// fails).
+    /// Fails if a matrix is missing or not square, or ρ is no representation (the Jacobi identity fails).
     pub fn semidirect_product(
         name: impl Into<String>,
         algebra: &Self,

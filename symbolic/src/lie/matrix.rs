@@ -81,12 +81,12 @@ impl RationalMatrix {
         self.entries.iter().map(|(&(i, j), value)| (i, j, value))
     }
 
-    /// Whether the transpose is the negative: of a basis of such matrices, exponentials are orthogonal.
+    /// True if the transpose is the negative. Exponentials of such matrices are orthogonal.
     pub fn is_antisymmetric(&self) -> bool {
         self.entries().all(|(i, j, value)| self.get(j, i) == -value.clone())
     }
 
-    /// Whether every entry is zero.
+    /// True if every entry is zero.
     pub(crate) fn is_zero(&self) -> bool {
         self.entries.is_empty()
     }

@@ -136,7 +136,7 @@ impl Polynomial {
         Self { variables, bound, keys, values }
     }
 
-    /// How monomials up to a total degree are packed, if they can be.
+    /// The packing of monomials up to a total degree, if there is one.
     pub(super) fn packing(variables: usize, bound: u32) -> Option<Packing> {
         Packing::new(variables).filter(|packing| packing.holds(bound))
     }
@@ -159,7 +159,7 @@ impl Polynomial {
         }
     }
 
-    /// The same polynomial in `variables` variables, where it has fewer.
+    /// Adds variables until there are `variables`.
     pub fn widened(&self, variables: usize) -> Cow<'_, Self> {
         if variables <= self.variables {
             return Cow::Borrowed(self);
@@ -172,7 +172,7 @@ impl Polynomial {
         self.variables
     }
 
-    /// Whether it is the zero polynomial.
+    /// True for the zero polynomial.
     pub fn is_zero(&self) -> bool {
         self.keys.len() == 0
     }
@@ -351,8 +351,8 @@ pub(crate) trait Key: Clone + Ord {
     fn hash(&self) -> u64;
 }
 
-/// How exponents of a given number of variables are packed into 128 bits, the first variable in
-/// the highest bits, so that integer order is lexicographic order.
+/// A packing of the exponents of a given number of variables into 128 bits, the first variable in the highest bits, so that
+/// integer order is lexicographic order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Packing {
     variables: usize,
@@ -370,7 +370,7 @@ impl Packing {
         Some(Self { variables, width })
     }
 
-    /// Whether every monomial of this total degree fits, so that sums of keys cannot carry.
+    /// True if every monomial of this total degree fits, so that sums of keys cannot carry.
     pub(crate) fn holds(self, degree: u32) -> bool {
         u64::from(degree) < 1_u64 << self.width
     }

@@ -8,7 +8,7 @@ use crate::cancel;
 use crate::number::{Coefficients, Rational, bits, lcm};
 use crate::poly::polynomial::{Factors, Key, Keys, Polynomial};
 
-/// Why a sum was not computed.
+/// Reasons for which a sum is not computed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum SumError {
     /// The sum has more terms than the limit allows; this many were counted.

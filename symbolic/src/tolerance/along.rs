@@ -30,8 +30,7 @@ pub(super) struct Along {
     pub(super) turning: f64,
 }
 
-/// How fast e changes a state: the larger of its own coordinates and those of ad\*_e μ relative
-/// to μ.
+/// The rate at which e changes a state: the larger of its own coordinates and those of ad\*_e μ relative to μ.
 pub(super) fn rate(brackets: &Brackets, e: &[f64], mu: &[f64]) -> f64 {
     let size = largest(mu);
     let turned = largest(&brackets.ad_star(e, mu));

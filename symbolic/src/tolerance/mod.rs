@@ -1,4 +1,4 @@
-//! From a tolerance to a truncation and a step size.
+//! Chooses a truncation and a step size for a tolerance.
 //!
 //! The error of the method of truncation K is, to leading order, what the missing terms S_{K+2},
 //! S_{K+4}, … of the exact series do. They are derived, so their size is known exactly where
@@ -43,9 +43,9 @@ pub struct Target {
     pub duration: f64,
     /// The momentum at the start.
     pub start: Option<Vec<f64>>,
-    /// Where the momentum stays; without it, where the run from `start` comes.
+    /// The region in which the momentum stays; if there is none, that of the run from `start`.
     pub region: Option<Region>,
-    /// Only this truncation.
+    /// The truncation, if it is fixed.
     pub truncation: Option<usize>,
 }
 
@@ -56,7 +56,7 @@ pub struct Choice {
     pub tolerance: f64,
     /// K.
     pub truncation: usize,
-    /// Whether the series is that of the comoving frame.
+    /// True for the series of the comoving frame.
     pub comoving: bool,
     /// h; it divides the duration.
     pub step: f64,
@@ -65,9 +65,9 @@ pub struct Choice {
     pub next_term: Option<f64>,
     /// The error expected at the end, of all missing terms.
     pub error: f64,
-    /// Where the maximum is taken.
+    /// The region over which the maximum is taken.
     pub region: Region,
-    /// Whether the maximum is taken along one run, which stays in the region.
+    /// True if the maximum is taken along one run, which stays in the region.
     pub along_run: bool,
     /// Operations per unit time, by which this was the least.
     pub operations: f64,
@@ -114,7 +114,7 @@ impl fmt::Display for Bound {
     }
 }
 
-/// Why nothing could be picked.
+/// Reasons for which nothing was chosen.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ToleranceError {
@@ -173,7 +173,7 @@ pub enum ToleranceError {
         scale: f64,
         /// The limit of the step.
         bound: Bound,
-        /// Whether it was found along a run, not over a region.
+        /// True if it was found along a run, not over a region.
         along_run: bool,
     },
     /// Even the smallest truncation is too large.
@@ -290,10 +290,10 @@ pub fn choose(
 }
 
 impl Target {
-    /// Refuses a target that makes no sense for momenta of this dimension.
+    /// Checks the target for momenta of this dimension.
     ///
     /// # Errors
-    /// Why it makes none.
+    /// Refuses a target that makes no sense, with the reason.
     pub fn check(&self, dim: usize) -> Result<(), ToleranceError> {
         if !(1e-14..=1e-1).contains(&self.tolerance) {
             return Err(ToleranceError::Tolerance(self.tolerance));
@@ -344,7 +344,7 @@ fn derive(
     }
 }
 
-/// How large the terms are, and what they do.
+/// The size of the terms, and their effect.
 struct Sizes {
     /// max |∂S_j| over the region, for each odd j.
     rates: Vec<f64>,

@@ -1,4 +1,4 @@
-//! Where the momentum is taken to stay.
+//! Regions in which the momentum is assumed to stay.
 
 use std::fmt;
 

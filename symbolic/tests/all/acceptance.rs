@@ -144,7 +144,7 @@ fn series_of_few_terms_limit_the_rate() {
     assert!(turn(7, 1.95));
 }
 
-/// Where S₃ vanishes S₁ is the whole series, and motions may part at any rate: a spherical body, with K = 1 as with K = 3.
+/// If S₃ vanishes, S₁ is the whole series, and motions may part at any rate: a spherical body, with K = 1 as with K = 3.
 #[test]
 fn a_series_that_ends_has_no_limit_of_the_rate() {
     for truncation in [1, 3] {

@@ -72,7 +72,7 @@ fn a_step_is_its_kicks_and_flows() {
         let start = (vec![0.5, 0.5, -0.5, 0.5], vec![0.4, -0.3, 0.8]);
         let (mut g, mut mu) = start.clone();
         assert_eq!(step.kernel().advance(&slots, &mut g, &mut mu, 3).steps, 3);
-        // The same by hand.
+        // The expected state is made by hand.
         let (mut own, mut nu) = start.clone();
         for _ in 0..3 {
             for (i, length) in kicks.iter().enumerate() {

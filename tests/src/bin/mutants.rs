@@ -176,7 +176,7 @@ const MUTANTS: &[(&str, &[[&str; 2]])] = &[
     ),
 ];
 
-/// Those that no test can notice, and why.
+/// Mutants that no test can notice, each with the reason.
 const EQUIVALENT: &[[&str; 2]] = &[
     [
         "let far = graph.add(first_stretch, stretch);",

@@ -230,7 +230,7 @@ fn refused_steps_say_why_and_leave_the_state() {
     assert_eq!(invalid, Err(StepError::InvalidStep { step: 0.0 }));
 }
 
-/// Whether the first step with `M` nodes on SL(2, ℝ) is refused because its nodes do not resolve it. The form is given by
+/// True if the first step with `M` nodes on SL(2, ℝ) is refused because its nodes do not resolve it. The form is given by
 /// its entries 01, 02 and 12.
 fn unresolved<const M: usize>(
     [h, a, b, c]: [f64; 4],

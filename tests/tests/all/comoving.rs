@@ -24,14 +24,14 @@ fn top(mu: [f64; 6], transverse: f64, axial: f64, weight: f64, frame: f64) -> f6
     (x * x + z * z) / (2.0 * transverse) + y * y / (2.0 * axial) + weight * v - frame * y
 }
 
-/// The same, all of it in the series.
+/// `top` in the fixed frame.
 #[lie_poisson(group = SE3, truncation = 7)]
 fn whole(mu: [f64; 6], transverse: f64, axial: f64, weight: f64, frame: f64) -> f64 {
     let [x, y, z, _, v, _] = mu;
     (x * x + z * z) / (2.0 * transverse) + y * y / (2.0 * axial) + weight * v - frame * y
 }
 
-/// The same with a short series, which takes less to compile in lanes and for the laws.
+/// `top` with a short series, which takes less to compile in lanes and for the laws.
 #[lie_poisson(group = SE3, truncation = 3, frame = comoving)]
 fn short(mu: [f64; 6], transverse: f64, axial: f64, weight: f64, frame: f64) -> f64 {
     let [x, y, z, _, v, _] = mu;
@@ -44,7 +44,7 @@ fn wobble(mu: [f64; 3], inverse: [f64; 3]) -> f64 {
     0.5 * (inverse[0] * mu[0] * mu[0] + inverse[1] * mu[1] * mu[1] + inverse[2] * mu[2] * mu[2])
 }
 
-/// The same in the fixed frame.
+/// `wobble` in the fixed frame.
 #[lie_poisson(group = SO3, truncation = 11)]
 fn tumbling(mu: [f64; 3], inverse: [f64; 3]) -> f64 {
     0.5 * (inverse[0] * mu[0] * mu[0] + inverse[1] * mu[1] * mu[1] + inverse[2] * mu[2] * mu[2])
@@ -60,7 +60,7 @@ fn torpedo(mu: [f64; 6], inertia: [f64; 2], mass: [f64; 2]) -> f64 {
         + w * w / (2.0 * mass[1])
 }
 
-/// The same, all of it in the series.
+/// `torpedo` in the fixed frame.
 #[lie_poisson(group = SE3, truncation = 5)]
 fn torpedo_at_rest(mu: [f64; 6], inertia: [f64; 2], mass: [f64; 2]) -> f64 {
     let [x, y, z, u, v, w] = mu;

@@ -118,7 +118,7 @@ const OTHERS: [(&str, usize); 5] = [
 const FRAMED: &str = "name = \"framed\"\ngroup = \"SO3\"\ncoordinates = [\"a\", \"b\", \"c\"]\n\
      hamiltonian = \"a^2/3 + b^2/3.2 + c^2/4\"\n[integrator]\nframe = \"comoving\"\n";
 
-/// Whether what is missing is a failure.
+/// Reports a missing tool; fails if tools are required.
 fn missing(what: &str) {
     assert!(
         std::env::var_os("COADJOINT_REQUIRE_TOOLS").is_none_or(|value| value != "1"),

@@ -101,7 +101,7 @@ fn a_field_turns_the_motion_without_it() {
     }
 }
 
-/// What a linear term leaves to a frame, and to the series.
+/// A frame takes the part of a linear term that commutes with the rest; the series keeps the other part.
 #[test]
 fn a_field_is_taken_as_far_as_it_commutes() {
     let exchange = "a*d + b*e + c*f";
@@ -112,7 +112,7 @@ fn a_field_is_taken_as_far_as_it_commutes() {
         ("SO3^2", format!("{exchange} + 7*c + 9*d"), None),
         ("SO3", "a^2/3 + b^2/3 + c^2/5 + 2*a + 3*c".to_owned(), None),
         ("SO3", "a^2/3 + b^2/4 + c^2/5 + 3*c".to_owned(), None),
-        // What commutes with everything moves x alone, which the series does exactly.
+        // A term that commutes with everything moves x alone, which the series does exactly.
         ("SO3*R1", "a^2/3 + b^2/4 + c^2/5 + 3*d".to_owned(), None),
         // Without a field nothing changes; a field alone is followed, in steps of any size.
         ("SO3", "a^2/3 + b^2/3 + c^2/5".to_owned(), None),

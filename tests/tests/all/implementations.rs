@@ -41,7 +41,7 @@ const PARTS: &[Part] = &[
         files: &["program/src/fold.rs"],
     },
     Part {
-        // The same data printed to C, which evaluates them there.
+        // C evaluates the same data itself.
         name: "folding in C",
         words: &["product_of[term]", "1.1892071"],
         files: &["codegen/src/emit/c/fold.rs", "codegen/src/emit/c/template.rs"],
@@ -69,7 +69,7 @@ const PARTS: &[Part] = &[
         files: &["symbolic/src/step/collocation.rs", "symbolic/src/step/programs.rs"],
     },
     Part {
-        // Where a refusal gets its name: by the generic step, of functions that are no program and of what kernels refuse.
+        // The generic step names refusals: of functions that are no program, and of steps that kernels refuse.
         name: "acceptance by the generic step",
         words: &["StepError::SeriesDiverges {", "fn accept<"],
         files: &["runtime/src/solve/accept.rs"],

@@ -14,7 +14,7 @@ fn by_basis(mu: [f64; 3]) -> f64 {
     mu[0] * mu[0] / 4.0 + (mu[1] + mu[2]).powi(2) / 3.0 + (mu[1] - mu[2]).powi(2) / 10.0
 }
 
-/// The same by its brackets; group elements are adjoint matrices.
+/// sl(2, R) by its brackets; group elements are adjoint matrices.
 #[lie_poisson(
     group = algebra(
         generators = [h, x, y],

@@ -76,7 +76,7 @@ fn agrees<A: StaticAlgebra>(name: &str) -> Result<(), Box<dyn std::error::Error>
     Ok(())
 }
 
-/// The same of an algebra with the Cayley chart.
+/// Compares an algebra that has the Cayley chart too.
 fn agrees_with_cayley<A: CayleyAlgebra>(name: &str) -> Result<(), Box<dyn std::error::Error>> {
     Chart::Cayley.check(&lookup(name)?)?;
     agrees::<A>(name)

@@ -15,7 +15,7 @@ fn relativistic(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
     sum.sqrt()
 }
 
-/// The same from a system file by a build script.
+/// `relativistic`, from a system file by a build script.
 mod fast_body {
     include!(concat!(env!("OUT_DIR"), "/fast_body.rs"));
 }

@@ -127,8 +127,7 @@ fn integrals_drift_at_the_order_of_the_method() {
     }
 }
 
-/// Where Π·Γ = 0 it is an integral (Ḟ = −Π₂ Π·Γ); the integrator keeps Π·Γ = 0 exactly, so F
-/// stays near.
+/// F is an integral only on Π·Γ = 0 (Ḟ = −Π₂ Π·Γ). The integrator keeps Π·Γ = 0 exactly, so F stays near its first value.
 #[test]
 fn goryachev_and_chaplygins_integral() {
     let system = "goryachev-chaplygin-top";

@@ -50,7 +50,7 @@ pub(crate) fn refused(cases: &[(&str, &str)]) {
     cases.iter().for_each(|(arguments, word)| drop(run(arguments).fails(2, &[word])));
 }
 
-/// How a command ended: exit code, standard output, standard error.
+/// The outcome of a command: exit code, standard output, standard error.
 #[derive(Debug)]
 pub(crate) struct Ran {
     pub code: i32,

@@ -102,7 +102,7 @@ pub(crate) fn run(path: &str, folder: &Path) -> usize {
     outcome.commands
 }
 
-/// Whether an output is the one expected; what differs otherwise.
+/// Compares an output with the expected one; the error shows the difference.
 fn same(found: &str, expected: &str) -> snapbox::assert::Result<()> {
     let assert = Assert::new().normalize_paths(false);
     assert.try_eq(None, found.into_data(), expected.into_data())

@@ -25,7 +25,7 @@ pub(super) struct Folding {
     pub table: FoldTable,
     /// The place of the length of a kick, where there are kicks.
     kick_at: Option<usize>,
-    /// How many of them are times, which steps set.
+    /// The number of places for times, which steps set.
     times: usize,
 }
 
@@ -85,7 +85,7 @@ impl Folding {
         Ok(Self { places, table, kick_at, times })
     }
 
-    /// How many coefficients are folded.
+    /// The number of folded coefficients.
     pub(super) fn len(&self) -> usize {
         self.places.len() - self.times
     }

@@ -41,7 +41,7 @@ fn identifier(name: &str) -> String {
     result
 }
 
-/// Whether a name looks like a macro, as `NAN`, `M_PI` and, of complex numbers, `I` are: two capitals or more, or an
+/// True if a name looks like a macro, as `NAN`, `M_PI` and, of complex numbers, `I` do: two capitals or more, or an
 /// underscore, and nothing in lower case.
 fn is_macro(name: &str) -> bool {
     let capitals = name.chars().filter(|c| !c.is_ascii_digit()).count();
@@ -121,11 +121,11 @@ pub enum Language {
     /// C99, which C++ can include.
     #[default]
     C,
-    /// The same, and a class of C++11.
+    /// C99 with a class of C++11 around it.
     Cpp,
 }
 
-/// How a header is to look.
+/// Options of writing a header.
 #[derive(Clone, Debug, Default)]
 pub struct HeaderOptions {
     /// The language.
@@ -140,7 +140,7 @@ pub struct HeaderOptions {
     pub only_step: Option<f64>,
 }
 
-/// Why a system is not written as C.
+/// Errors of writing a system as C.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum HeaderError {

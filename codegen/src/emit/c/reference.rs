@@ -398,7 +398,7 @@ fn paragraphs(
     list
 }
 
-/// How to go on after a refused step.
+/// The advice after a refused step.
 fn rescue(origin: &Origin, step: &Step) -> String {
     match origin.series() {
         Some(_) => "The library in Rust then follows the solution from the identity; this header does not: take a \

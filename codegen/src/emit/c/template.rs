@@ -24,7 +24,7 @@ static inline double @p@_internal_power(double a, uint32_t n)
 }
 ";
 
-/// How far a series is trusted.
+/// The check of the last term of a series against the one before.
 pub(super) const WITHIN: &str = "
 /* Internal: the value of a polynomial. */
 static inline double @p@_internal_polynomial(const double *coefficients, double r)

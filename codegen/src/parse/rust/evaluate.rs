@@ -17,7 +17,7 @@ const MOST_OPERATIONS: usize = 200_000;
 /// The most calls of closures and functions inside each other.
 pub(super) const DEEPEST_CALL: usize = 24;
 
-/// Why an expression has no value.
+/// Reasons for which an expression has no value.
 #[derive(Debug)]
 pub(super) enum Flow {
     Return(Value),
@@ -236,7 +236,7 @@ impl<'a> Evaluator<'a> {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Scopes {
     variables: Vec<(String, Value)>,
-    /// Where each open block begins.
+    /// For each open block, the index of its first variable.
     marks: Vec<usize>,
 }
 

@@ -19,7 +19,7 @@ pub(super) enum Variable {
 }
 
 impl Variable {
-    /// Whether an argument of this shape can be it.
+    /// True if an argument of this shape can be this variable.
     fn accepts(self, shape: &Shape) -> bool {
         match self {
             Self::Momentum => matches!(shape, Shape::Array(_) | Shape::Vector(_)),

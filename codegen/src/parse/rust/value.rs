@@ -538,7 +538,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// Whether the body of a loop ended the loop.
+/// True if the body of a loop ended the loop.
 fn ends(flow: Result<Value, Flow>) -> Result<bool, Flow> {
     match flow {
         Ok(_) | Err(Flow::Continue | Flow::Wrong) => Ok(false),

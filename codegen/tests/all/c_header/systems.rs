@@ -24,9 +24,9 @@ pub struct System {
     pub chart: Chart,
     pub parameters: Parameters,
     pub language: Language,
-    /// Whether its header is committed.
+    /// Its header is committed.
     pub golden: bool,
-    /// Whether compilers take long for it.
+    /// Compilers take long for it.
     pub large: bool,
 }
 
@@ -155,14 +155,14 @@ pub struct Built {
     /// The step size.
     pub step: f64,
     pub momentum: Vec<f64>,
-    /// Whether every matrix is an element, so far as steps can tell.
+    /// True if steps accept every matrix as an element.
     pub any_element: bool,
     pub file: String,
     pub header: String,
     prefix: String,
 }
 
-/// Whether a step finds nothing wrong with twice the neutral element.
+/// True if a step accepts twice the neutral element.
 fn any_element(programs: &Step) -> bool {
     let kernel = programs.kernel();
     let matrix = programs.kernel().programs.matrix.outputs().len().isqrt();
