@@ -6,7 +6,7 @@ use crate::engine::Numbers;
 pub(crate) type Milestone = (u64, Numbers);
 
 /// The parts of a run at whose ends its state is kept.
-const PARTS: u64 = 128;
+const PARTS: u64 = 32;
 
 /// The number of steps after which, again and again, the state of a run is kept. It is even, so that steps of twice the size
 /// begin there.
