@@ -201,7 +201,7 @@ impl<'a> Trial<'a> {
     /// before it does; and the error. If there is none, the step of the smallest error. Errors of motions that are steep somewhere
     /// depend on where steps end there, so that a single run may meet the goal by chance.
     fn step(&self, choice: &Choice, goal: f64) -> Option<(f64, f64)> {
-        let order = f64::from(self.derived.order());
+        let order = f64::from(self.derived.power());
         let longest = if self.derived.moves() { self.duration / SEEN } else { self.duration };
         let (mut next, mut before) = (choice.step.min(longest), choice.error);
         let (mut nearest, mut stuck): (Option<(f64, f64)>, _) = (None, 0);
@@ -230,7 +230,7 @@ impl<'a> Trial<'a> {
     fn error(&self, step: f64) -> Option<f64> {
         let steps = (self.duration / step).round() as u64;
         let other = |size: f64| self.motion(step * size);
-        let method = (self.derived.order(), self.derived.moves(), false);
+        let method = (self.derived.power(), false);
         let mut worst = 0.0;
         for start in &self.starts {
             let start = self.state(start, step).ok()?;

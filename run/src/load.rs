@@ -434,6 +434,13 @@ impl Derived {
         self.kicks().map_or(order, |kicks| order.min(kicks.splitting.order()))
     }
 
+    /// The power of the step that errors follow: the order, or, with inputs by tables, at most 4, since the third derivatives of
+    /// their splines jump inside of steps.
+    pub(crate) fn power(&self) -> u32 {
+        let knots = if self.signals().is_empty() { u32::MAX } else { 4 };
+        self.order().min(knots)
+    }
+
     /// The method of a run, in a few words.
     pub fn label(&self) -> String {
         let mut label = match &self.flow {

@@ -22,8 +22,6 @@ const RATIOS: [f64; 2] = [2.13, 0.78];
 const FEW: f64 = 3.0;
 /// Two runs that are this far apart do not say where the motion ends.
 const UNRESOLVED: f64 = 0.1;
-/// The highest order at which smooth motions are taken to follow it in steps twice as long as those of a run.
-const STEADY: u32 = 8;
 /// The share of a unit of rounding by which each step may add to the error.
 const ROUNDING: f64 = 0.125;
 /// An error above this is worth a warning.
@@ -45,10 +43,8 @@ pub(crate) struct Made<'a, 'm> {
     pub steps: f64,
     /// The times between the steps.
     pub grid: Grid,
-    /// The order of the method.
+    /// The power of the step that errors follow.
     pub order: u32,
-    /// True if the equations depend on the time other than through the state.
-    pub moves: bool,
     /// Asked from time to time whether to stop.
     pub stop: &'a dyn Fn() -> bool,
 }
@@ -58,9 +54,7 @@ impl<'m> Made<'_, 'm> {
     ///
     /// Beside the run goes one over the whole time, and Richardson's extrapolation of the difference at the end is the error
     /// (Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations I*, II.4). So it grows on the way as the motion lets
-    /// it grow. Where the equations depend on the time, which they may do with jumps and knots inside of steps, the power of
-    /// the step that the error follows is measured where most of it arises. Below the rounding of one unit a step, truncation
-    /// is not seen.
+    /// it grow. Below the rounding of one unit a step, truncation is not seen.
     ///
     /// # Errors
     /// The reason if it is not known.
@@ -69,17 +63,13 @@ impl<'m> Made<'_, 'm> {
         let (mut why, mut states) = (Unknown::REFUSED, Vec::new());
         for (number, &ratio) in RATIOS.iter().enumerate().skip(first) {
             // The last one also says when the two part.
-            let measured = self.moves || self.order > STEADY;
-            if states.is_empty() && (measured || number > 0) {
+            if number > 0 {
                 states = self.states()?;
             }
             let Some((ratio, way)) = self.compare(ratio, &states)? else { continue };
             let difference = way.last().map_or(0.0, |(_, difference)| *difference);
             if difference <= UNRESOLVED {
-                let gain = |power: f64| 1.0 / (power - 1.0).abs();
-                let own = measured.then(|| self.measured(&way, &states)).flatten();
-                let own = own.map_or(0.0, |power| gain(power.powf(ratio.log2().abs()).max(2.0)));
-                let truncation = difference * own.max(gain(ratio.powi(self.order as i32)));
+                let truncation = difference / (ratio.powi(self.order as i32) - 1.0).abs();
                 let rounding = ROUNDING * self.steps.ceil() * f64::EPSILON;
                 let moved = difference > 0.0 || self.apart(self.ends[0], self.ends[1]) > 0.0;
                 let least = if moved { 0.5 * f64::EPSILON } else { 0.0 };
@@ -143,28 +133,6 @@ impl<'m> Made<'_, 'm> {
         Ok(states)
     }
 
-    /// 2^q, where q is the power of the step that the error follows in the part of the run in which most of it arises;
-    /// none where rounding hides it.
-    fn measured(&self, way: &[(u64, f64)], states: &[Milestone]) -> Option<f64> {
-        let parts = std::iter::once(&(0, 0.0)).chain(way).zip(way);
-        let worst = parts.max_by(|(a, b), (c, d)| (b.1 - a.1).total_cmp(&(d.1 - c.1)))?;
-        let (from, to) = (worst.0.0, worst.1.0 / 2 * 2);
-        let kept = states.iter().find(|(place, _)| *place == from);
-        let state = kept.map_or(self.ends[0], |(_, state)| state);
-        let after = |motion: &dyn Motion, first, count| {
-            let mut state = state.clone();
-            motion.advance(&mut state, first, count).ok().map(|_| state)
-        };
-        let own = after(self.motion, from, to - from)?;
-        let away = |size, first, count| {
-            let motion = (self.other)(size).ok()?;
-            Some(self.apart(&own, &after(motion.as_ref(), first, count)?))
-        };
-        let long = away(2.0, from / 2, (to - from) / 2)?;
-        let short = away(0.5, 2 * from, 2 * (to - from))?;
-        (short > 2.0 * (to - from) as f64 * f64::EPSILON).then_some(long / short)
-    }
-
     /// Makes steps `first` to `end`, in groups between which it may be stopped, up to one that is refused. What programs refuse is made by other means, which take long, only if `patient`.
     fn go(
         &self,
@@ -216,7 +184,7 @@ pub(crate) fn error_of<'m>(
     other: &dyn Fn(f64) -> Result<Box<dyn Motion + 'm>, StepError>,
     start: &Numbers,
     (steps, grid): (u64, Grid),
-    (order, moves, patient): (u32, bool, bool),
+    (order, patient): (u32, bool),
 ) -> Result<f64, Unknown> {
     const REFUSED: Unknown = Unknown::Other("not known: a step of the run is refused");
     let stop = || {
@@ -236,7 +204,6 @@ pub(crate) fn error_of<'m>(
         steps: count,
         grid,
         order,
-        moves,
         stop: &stop,
     };
     let (mut kept, mut at) = (Vec::new(), 0);
