@@ -396,7 +396,7 @@ fn errors_of_a_sample_are_estimated() {
         run(&folder, "in.csv", "out.csv", &options).ok()
     };
     rough(40).says(&["the error at the end of a row is about"]).prints(&["\"median\""]);
-    let ran = rough(400).says(&["the error at the end of 2 rows estimated is not known: "]);
+    let ran = rough(1600).says(&["the error at the end of 2 rows estimated is not known: "]);
     let report: Value = serde_json::from_str(&ran.out).unwrap();
     assert!(report["estimated_error"].is_null(), "{report}");
     assert_eq!(report["estimated_error_unknown"]["rows"], 2);

@@ -64,7 +64,7 @@ fn the_estimated_error_is_near_the_truth() {
         assert!((0.1..10.0).contains(&(found / truth)), "{system}: {found:e}, in truth {truth:e}");
         assert_eq!(coarse["warnings"], Value::Array(Vec::new()), "{system}");
     }
-    let rough = run(&format!("simulate {BODY} --truncation 1 --step 0.25 --time 400")).ok();
+    let rough = run(&format!("simulate {BODY} --truncation 1 --step 0.25 --time 1600")).ok();
     rough.says(&["warning: the end is not resolved"]).prints(&["  warning: the end is not"]);
     let rough = run(&format!("simulate {BODY} --truncation 1 --step 0.25 --time 100")).ok();
     rough.says(&["warning: the error at the end is about "]).prints(&["  warning: the error at"]);

@@ -168,7 +168,7 @@ pub struct Engine<'a> {
     /// Rows of which the device has refused a step.
     redone: AtomicU64,
     invariants: Invariants,
-    /// The order of accuracy.
+    /// The power of the step that errors follow.
     order: u32,
     /// The numbers of the identity, where rows that give no attitude start.
     identity: Vec<f64>,
@@ -205,7 +205,7 @@ impl<'a> Engine<'a> {
         let invariants =
             Invariants { hamiltonian: None, potential: None, ..system.invariants.clone() };
         let redone = AtomicU64::new(0);
-        let order = system.order();
+        let order = system.power();
         let parameters = system.facts().defaults();
         Ok(Self {
             system,
@@ -426,7 +426,7 @@ impl<'a> Engine<'a> {
                 let grid = Grid { step: self.grid.step * size, ..self.grid };
                 self.system.varied(grid, &parameters, self.compiled.as_ref())
             };
-            let method = (self.order, self.system.moves(), true);
+            let method = (self.order, true);
             let found = error_of(&other, &start, (steps, self.grid), method);
             found.map_err(|why| why.to_string())
         };

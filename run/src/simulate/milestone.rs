@@ -6,10 +6,9 @@ use crate::engine::Numbers;
 pub(crate) type Milestone = (u64, Numbers);
 
 /// The parts of a run at whose ends its state is kept.
-const PARTS: u64 = 128;
+const PARTS: u64 = 32;
 
-/// The number of steps after which, again and again, the state of a run is kept. It is even, so that steps of twice the size
-/// begin there.
+/// The number of steps after which, again and again, the state of a run is kept.
 pub(super) fn part(steps: u64) -> u64 {
-    (steps / PARTS).max(1).next_multiple_of(2)
+    (steps / PARTS).max(1)
 }

@@ -72,8 +72,7 @@ pub fn run(system: &Derived, setup: &Setup, sink: &mut dyn Sink) -> Result<Outco
             part: part(schedule.steps),
             steps,
             grid,
-            order: system.order(),
-            moves: system.moves(),
+            order: system.power(),
             stop: &|| sink.borrow_mut().stop(),
         };
         made.error()
