@@ -115,71 +115,41 @@ impl Number for f64 {
 #[repr(align(64))]
 pub(crate) struct Lanes<const L: usize>(pub [f64; L]);
 
-impl<const L: usize> Lanes<L> {
-    #[inline(always)]
-    fn each(f: impl Fn(usize) -> f64) -> Self {
-        let mut result = [0.0; L];
-        for (lane, value) in result.iter_mut().enumerate() {
-            *value = f(lane);
+/// The operations of numbers, in each lane.
+macro_rules! in_lanes {
+    ($($name:ident($($other:ident),*)),*) => {
+        impl<const L: usize> Number for Lanes<L> {
+            #[inline(always)]
+            fn of(value: f64) -> Self {
+                Self([value; L])
+            }
+            $(
+                #[inline(always)]
+                fn $name(mut self $(, $other: Self)*) -> Self {
+                    for l in 0..L {
+                        self.0[l] = Number::$name(self.0[l] $(, $other.0[l])*);
+                    }
+                    self
+                }
+            )*
         }
-        Self(result)
-    }
+    };
 }
 
-impl<const L: usize> Number for Lanes<L> {
-    #[inline(always)]
-    fn of(value: f64) -> Self {
-        Self([value; L])
-    }
-    #[inline(always)]
-    fn add(self, b: Self) -> Self {
-        Self::each(|l| self.0[l] + b.0[l])
-    }
-    #[inline(always)]
-    fn sub(self, b: Self) -> Self {
-        Self::each(|l| self.0[l] - b.0[l])
-    }
-    #[inline(always)]
-    fn mul(self, b: Self) -> Self {
-        Self::each(|l| self.0[l] * b.0[l])
-    }
-    #[inline(always)]
-    fn times_plus(self, b: Self, c: Self) -> Self {
-        Self::each(|l| fused(self.0[l], b.0[l], c.0[l]))
-    }
-    #[inline(always)]
-    fn div(self, b: Self) -> Self {
-        Self::each(|l| self.0[l] / b.0[l])
-    }
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Self::each(|l| -self.0[l])
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Self::each(|l| Number::abs(self.0[l]))
-    }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Self::each(|l| root(self.0[l]))
-    }
-    #[inline(always)]
-    fn round(self) -> Self {
-        Self::each(|l| nearest(self.0[l]))
-    }
-    #[inline(always)]
-    fn scale(self, k: Self) -> Self {
-        Self::each(|l| Number::scale(self.0[l], k.0[l]))
-    }
-    #[inline(always)]
-    fn exponent(self) -> Self {
-        Self::each(|l| Number::exponent(self.0[l]))
-    }
-    #[inline(always)]
-    fn select(self, b: Self, then: Self, otherwise: Self) -> Self {
-        Self::each(|l| if self.0[l] <= b.0[l] { then.0[l] } else { otherwise.0[l] })
-    }
-}
+in_lanes!(
+    add(b),
+    sub(b),
+    mul(b),
+    times_plus(b, c),
+    div(b),
+    neg(),
+    abs(),
+    sqrt(),
+    round(),
+    scale(k),
+    exponent(),
+    select(b, then, otherwise)
+);
 
 /// Numbers that know how they lie in memory, and which of them are done.
 pub(crate) trait Packed<const L: usize>: Number {

@@ -1,6 +1,5 @@
 //! The product of two groups.
 
-use core::fmt;
 use core::marker::PhantomData;
 
 use nalgebra::SVector;
@@ -23,6 +22,7 @@ use crate::number::Scalar;
 /// let group = Product::<SO3, SE2, 6>::new();
 /// assert_eq!((group.dim(), group.matrix_size(), group.casimir_count()), (6, 6, 2));
 /// ```
+#[derive(Clone, Copy, Debug)]
 pub struct Product<A, B, const N: usize>(PhantomData<(A, B)>);
 
 impl<A: FixedDimension, B: FixedDimension, const N: usize> Product<A, B, N> {
@@ -40,21 +40,6 @@ impl<A: FixedDimension, B: FixedDimension, const N: usize> Product<A, B, N> {
 impl<A: FixedDimension, B: FixedDimension, const N: usize> Default for Product<A, B, N> {
     fn default() -> Self {
         Self::new()
-    }
-}
-
-// Derived impls would ask the same of the factors.
-impl<A, B, const N: usize> Clone for Product<A, B, N> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<A, B, const N: usize> Copy for Product<A, B, N> {}
-
-impl<A, B, const N: usize> fmt::Debug for Product<A, B, N> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("Product")
     }
 }
 
@@ -122,10 +107,6 @@ where
 
     fn dim(&self) -> usize {
         N
-    }
-
-    fn identity(&self) -> Self::Element {
-        (A::default().identity(), B::default().identity())
     }
 
     fn compose(&self, g: &Self::Element, h: &Self::Element) -> Self::Element {
