@@ -104,14 +104,14 @@ const fn derive<const N: usize, const D: usize>(
     let [mut gram, mut gram_inverse, mut elliptic, mut cayley] = [[[0.0; N]; N]; 4];
     let (mut dense, mut ad) = ([[0.0; D]; D], [[[0.0; N]; N]; N]);
     let ad = ad.as_flattened_mut().as_flattened_mut();
-    let [gram, room] = [gram.as_flattened_mut(), gram_inverse.as_flattened_mut()];
+    let [gram, inverse, room] =
+        [gram.as_flattened_mut(), gram_inverse.as_flattened_mut(), cayley.as_flattened_mut()];
     let ideal = domain::elliptic_form(N, structure, ad, room, elliptic.as_flattened_mut());
     let mut facts = facts(structure, basis, (N, D), gram, dense.as_flattened_mut());
     if let Some(entries) = basis {
-        let cayley = cayley.as_flattened_mut();
-        domain::cayley_form(N, entries, gram, facts.orthogonal, ideal, cayley);
+        domain::cayley_form(N, entries, gram, facts.orthogonal, ideal, room);
     }
-    facts.dependent = invert(N, gram, room);
+    facts.dependent = invert(N, gram, inverse);
     Derived { facts, gram_inverse, elliptic, cayley }
 }
 
