@@ -190,19 +190,13 @@ const fn brackets(basis: &Entries) -> Entries {
     structure
 }
 
+/// The squares of these coordinates.
+macro_rules! squares {
+    ($($i:literal)*) => { &[$((1.0, &[($i, 2)])),*] };
+}
+
 /// The square of the momentum: of 𝔰𝔬(5), and its beginning of 𝔰𝔬(4).
-const SQUARES: &[CasimirTerm] = &[
-    (1.0, &[(0, 2)]),
-    (1.0, &[(1, 2)]),
-    (1.0, &[(2, 2)]),
-    (1.0, &[(3, 2)]),
-    (1.0, &[(4, 2)]),
-    (1.0, &[(5, 2)]),
-    (1.0, &[(6, 2)]),
-    (1.0, &[(7, 2)]),
-    (1.0, &[(8, 2)]),
-    (1.0, &[(9, 2)]),
-];
+const SQUARES: &[CasimirTerm] = squares!(0 1 2 3 4 5 6 7 8 9);
 
 /// The second Casimir of 𝔰𝔬(4).
 const PFAFFIAN: &[CasimirTerm] =

@@ -142,11 +142,8 @@ impl<A: StaticAlgebra, const N: usize, const D: usize, T: Scalar> Tables
     }
 
     fn casimir(&self, index: usize, mu: &Self::Vector) -> T {
-        let mut sum = T::of(0.0);
-        for &(c, factors) in A::CASIMIRS.get(index).copied().unwrap_or_default() {
-            sum += monomial(c, factors, mu);
-        }
-        sum
+        let terms = A::CASIMIRS.get(index).copied().unwrap_or_default();
+        terms.iter().fold(T::of(0.0), |sum, &(c, factors)| sum + monomial(c, factors, mu))
     }
 }
 

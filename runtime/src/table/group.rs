@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 
 use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd};
 
-use crate::group::element_error::{ElementError, within};
+use crate::group::element_error::{ElementError, finite, within};
 use crate::group::{CayleyGroup, LieGroup, Rows};
 use crate::linear::coordinates::Coordinates;
 use crate::linear::square;
@@ -236,11 +236,12 @@ impl<K: Tables> LieGroup for TableGroup<K> {
 
     fn exp_transport(&self, x: &Self::Vector, mu: &Self::Vector) -> (Self::Element, Self::Vector) {
         // Ad*_{exp(−x)} μ = exp(ad_xᵀ) μ
-        (self.exp(x), self.act(x, mu).exp)
+        (self.exp(x), self.act(x, mu)[1].clone())
     }
 
     fn dexp_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        self.act(x, mu).phi
+        let [phi, _] = self.act(x, mu);
+        phi
     }
 
     fn exp_extent(&self, x: &Self::Vector) -> K::Scalar {
@@ -343,16 +344,8 @@ impl<K: Tables> TableGroup<K> {
         entry: impl Fn(usize, usize) -> K::Scalar,
     ) -> Result<Element<K>, ElementError> {
         let size = self.algebra().size;
-        let mut g = self.zero_matrix();
-        for row in 0..size {
-            for column in 0..size {
-                let value = entry(row, column);
-                if !value.all_finite() {
-                    return Err(ElementError::NonFinite { row, column });
-                }
-                g[(row, column)] = value;
-            }
-        }
+        finite(size, &entry)?;
+        let g = K::Column::matrix_from_entries(size, entry);
         let one = K::Scalar::of(1.0);
         let scale = square::largest_entry(size, &g);
         if self.algebra().facts.orthogonal {
@@ -396,8 +389,8 @@ impl<K: Tables> TableGroup<K> {
             for i in 0..dim {
                 for j in i + 1..dim {
                     let moved = self.adjoint(g, &self.bracket(&unit(i), &unit(j)));
-                    let bracket =
-                        self.bracket(&self.adjoint(g, &unit(i)), &self.adjoint(g, &unit(j)));
+                    let [first, second] = [i, j].map(|at| self.adjoint(g, &unit(at)));
+                    let bracket = self.bracket(&first, &second);
                     let difference = K::Vector::from_entries(dim, |k| moved[k] - bracket[k]);
                     defect = defect.simd_max(difference.largest_entry());
                 }
@@ -437,11 +430,12 @@ impl<K: Tables> TableGroup<K> {
             let rest = square::plus_scaled(self.algebra().size, &rest, -one, &self.unit_matrix());
             let r = self.coordinates_of(&rest);
             // Row j of d^R exp_x: the transpose applied to a basis vector.
-            let row = |j| self.dexp_transpose(&x, &K::Vector::unit(dim, j));
             let mut turn = K::Vector::zero_matrix(dim);
             for j in 0..dim {
-                let row = row(j);
-                (0..dim).for_each(|i| turn[(j, i)] = row[i]);
+                let row = self.dexp_transpose(&x, &K::Vector::unit(dim, j));
+                for i in 0..dim {
+                    turn[(j, i)] = row[i];
+                }
             }
             let better = K::Vector::solve(&turn, &r);
             x = K::Vector::from_entries(dim, |i| x[i] + better[i]);
@@ -524,12 +518,6 @@ const TAYLOR_TERMS: usize = 30;
 /// Square matrices of the algebra's dimension.
 pub(crate) type Matrix<K> = <<K as Tables>::Vector as Coordinates<<K as Tables>::Scalar>>::Matrix;
 
-/// φ(A)μ and exp(A)μ.
-pub(crate) struct Action<V> {
-    pub phi: V,
-    pub exp: V,
-}
-
 impl<K: Tables> TableGroup<K> {
     /// A bound of ‖ad_xᵀ‖ in the maximum norm.
     fn ad_norm(&self, x: &K::Vector) -> K::Scalar {
@@ -582,17 +570,17 @@ impl<K: Tables> TableGroup<K> {
     }
 
     /// φ(A)μ and exp(A)μ, A = ad_xᵀ.
-    pub(super) fn act(&self, x: &K::Vector, mu: &K::Vector) -> Action<K::Vector> {
+    pub(super) fn act(&self, x: &K::Vector, mu: &K::Vector) -> [K::Vector; 2] {
         let dim = self.algebra().dim;
         let norm = self.ad_norm(x);
         let largest = norm.largest_lane();
         if largest.is_nan() || largest > SUBSTEPS {
             let Some(count) = square::halvings(norm, 1.0) else {
                 let nowhere = self.scaled(mu, K::Scalar::of(f64::NAN));
-                return Action { phi: nowhere.clone(), exp: nowhere };
+                return [nowhere.clone(), nowhere];
             };
             let (exp, phi) = self.action_matrices(x, count);
-            return Action { phi: mu.left_multiply(&phi), exp: mu.left_multiply(&exp) };
+            return [phi, exp].map(|matrix| mu.left_multiply(&matrix));
         }
         let mut steps = 1;
         while TAYLOR * f64::from(steps) < largest {
@@ -607,7 +595,7 @@ impl<K: Tables> TableGroup<K> {
             phi = K::Vector::from_entries(dim, |i| average[i].times_plus(part, phi[i]));
             exp = K::Vector::from_entries(dim, |i| exp[i] + change[i]);
         }
-        Action { phi, exp }
+        [phi, exp]
     }
 
     /// exp(A) and φ(A) as matrices, by `count` doublings.

@@ -31,7 +31,7 @@ impl Product {
     }
 
     /// Lists of the factors one after the other.
-    fn joined<T>(&self, list: impl Fn(Factor<'_>) -> Vec<T>) -> Vec<T> {
+    fn joined<T>(&self, list: impl FnMut(Factor<'_>) -> Vec<T>) -> Vec<T> {
         self.factors().into_iter().flat_map(list).collect()
     }
 
@@ -126,21 +126,10 @@ impl Part for Product {
     }
 
     fn extent(&self, graph: &Graph, x: &[Id]) -> Id {
-        let extents: Vec<Id> = self
-            .factors()
-            .into_iter()
-            .map(|factor| factor.part.extent(graph, &x[factor.own]))
-            .collect();
+        let extents = self.joined(|Factor { part, own, .. }| vec![part.extent(graph, &x[own])]);
         // The larger of two may hide what is not a number; their sum does not.
-        let (zero, mut sum) = (graph.zero(), graph.zero());
-        for &extent in &extents {
-            sum = graph.add(sum, extent);
-        }
-        let largest = largest(graph, &extents);
-        let one = graph.constant(1.0);
-        let valid = graph.select(sum, graph.constant(f64::MAX), zero, one);
-        // More than one where any is not a number.
-        graph.add(largest, graph.add(valid, valid))
+        let sum = extents.iter().fold(graph.zero(), |sum, &extent| graph.add(sum, extent));
+        graph.add(largest(graph, &extents), finite(graph, &[sum]))
     }
 
     fn defect(&self, graph: &Graph, g: &[Id]) -> Id {
@@ -177,20 +166,15 @@ impl Part for Product {
     }
 
     fn element_of(&self, matrix: &[f64]) -> Vec<f64> {
-        let sizes: Vec<usize> = self.0.iter().map(|part| Self::size(part.as_ref())).collect();
-        let size: usize = sizes.iter().sum();
-        let mut start = 0;
-        let mut element = Vec::new();
-        for (part, rows) in self.0.iter().zip(sizes) {
-            let entry = |at: usize| {
-                let (row, column) = (start + at / rows, start + at % rows);
-                matrix.get(row * size + column).copied().unwrap_or(0.0)
-            };
+        let (size, mut start) = (matrix.len().isqrt(), 0);
+        self.joined(|Factor { part, .. }| {
+            let rows = Self::size(part);
+            let place = |at: usize| (start + at / rows) * size + start + at % rows;
+            let entry = |at| matrix.get(place(at)).copied().unwrap_or(0.0);
             let block: Vec<f64> = (0..rows * rows).map(entry).collect();
-            element.extend(part.element_of(&block));
             start += rows;
-        }
-        element
+            part.element_of(&block)
+        })
     }
 }
 
@@ -209,7 +193,9 @@ pub(crate) trait Part: std::fmt::Debug + Send + Sync {
     fn element(&self) -> usize;
 
     /// (d^R τ_x)ᵀ μ
-    fn pull_back(&self, graph: &Graph, x: &[Id], mu: &[Id]) -> Vec<Id>;
+    fn pull_back(&self, graph: &Graph, x: &[Id], mu: &[Id]) -> Vec<Id> {
+        self.pull_back_with_derivative(graph, x, mu).0
+    }
 
     /// (d^R τ_x)ᵀ μ and its derivative in x, which Newton's method alone uses.
     fn pull_back_with_derivative(&self, graph: &Graph, x: &[Id], mu: &[Id]) -> (Vec<Id>, Matrix);
@@ -282,10 +268,6 @@ impl Part for Translations {
 
     fn element(&self) -> usize {
         self.dim + self.memory
-    }
-
-    fn pull_back(&self, _graph: &Graph, _x: &[Id], mu: &[Id]) -> Vec<Id> {
-        mu.to_vec()
     }
 
     fn pull_back_with_derivative(&self, graph: &Graph, _x: &[Id], mu: &[Id]) -> (Vec<Id>, Matrix) {

@@ -136,7 +136,7 @@ impl Tables {
             let factor = graph.constant(1.0 / (k + 1) as f64);
             if k <= slopes {
                 let both = a.times_plus(graph, &slope, &self.ad_slope(graph, &term));
-                slope = Matrix::new(self.dim, self.dim, |i, j| graph.mul(both.at(i, j), factor));
+                slope = both.scaled(graph, factor);
                 derivative = derivative.plus(graph, one, &slope);
             }
             term = a.apply(graph, &term).iter().map(|&entry| graph.mul(entry, factor)).collect();
@@ -175,20 +175,17 @@ impl Tables {
         let norm = row_norm(graph, x);
         let (most, scale) = (graph.constant(FARTHEST), graph.constant(0.5_f64.powi(SQUARINGS)));
         let scale = graph.select(norm, most, scale, graph.constant(f64::MAX));
-        let scaled = |graph: &Graph, factor: Id, matrix: &Matrix| {
-            Matrix::zeros(graph, self.size, self.size).plus(graph, factor, matrix)
-        };
-        let x = scaled(graph, scale, x);
+        let x = x.scaled(graph, scale);
         // X (1 + X/2 (1 + X/3 (…))).
         let mut sum = Matrix::zeros(graph, self.size, self.size);
         for k in (1..=TERMS).rev() {
             let inverse = graph.constant(1.0 / f64::from(k));
-            let part = scaled(graph, inverse, &x);
+            let part = x.scaled(graph, inverse);
             sum = part.times_plus(graph, &sum, &part);
         }
         let two = graph.constant(2.0);
         for _ in 0..SQUARINGS {
-            sum = sum.times_plus(graph, &sum, &scaled(graph, two, &sum));
+            sum = sum.times_plus(graph, &sum, &sum.scaled(graph, two));
         }
         sum
     }
@@ -205,10 +202,9 @@ impl Tables {
             return product;
         }
         let (half, three_halves) = (graph.constant(-0.5), graph.constant(1.5));
-        let (zeros, identity) =
-            (Matrix::zeros(graph, self.size, self.size), Matrix::identity(graph, self.size));
         let gram = product.transposed().times(graph, &product);
-        let correction = zeros.plus(graph, three_halves, &identity).plus(graph, half, &gram);
+        let whole = Matrix::identity(graph, self.size).scaled(graph, three_halves);
+        let correction = whole.plus(graph, half, &gram);
         product.times(graph, &correction)
     }
 
@@ -224,11 +220,9 @@ impl Tables {
     /// The coordinates ⟨Z, Eᵢ⟩.
     fn coordinates(&self, graph: &Graph, z: &Matrix) -> Vec<Id> {
         let coordinate = |entries: &Entries| {
-            let mut sum = graph.zero();
-            for &(i, j, value) in entries {
-                sum = graph.times_plus(graph.constant(value), z.at(i, j), sum);
-            }
-            sum
+            entries.iter().fold(graph.zero(), |sum, &(i, j, value)| {
+                graph.times_plus(graph.constant(value), z.at(i, j), sum)
+            })
         };
         self.basis.iter().map(coordinate).collect()
     }
@@ -266,17 +260,11 @@ fn terms(norm: f64, accuracy: f64) -> usize {
     200
 }
 
-/// The largest row sum of sizes.
+/// The largest row sum of sizes of a square matrix.
 fn row_norm(graph: &Graph, matrix: &Matrix) -> Id {
-    let rows: Vec<Id> = (0..matrix.rows())
-        .map(|i| {
-            let mut sum = graph.zero();
-            for j in 0..matrix.entries().len() / matrix.rows().max(1) {
-                sum = graph.add(sum, graph.abs(matrix.at(i, j)));
-            }
-            sum
-        })
-        .collect();
+    let size = |sum, &entry: &Id| graph.add(sum, graph.abs(entry));
+    let rows = matrix.entries().chunks(matrix.rows().max(1));
+    let rows: Vec<Id> = rows.map(|row| row.iter().fold(graph.zero(), size)).collect();
     largest(graph, &rows)
 }
 
@@ -371,9 +359,7 @@ impl Part for Tables {
             Chart::Cayley => {
                 // (1 − X/2)⁻¹ (1 + X/2) = 2 (1 − X/2)⁻¹ − 1
                 let (x, minus) = (self.represent(graph, x), graph.constant(-1.0));
-                let identity = Matrix::identity(graph, self.size);
-                let negative =
-                    Matrix::zeros(graph, self.size, self.size).plus(graph, minus, &identity);
+                let negative = Matrix::identity(graph, self.size).scaled(graph, minus);
                 let [increment, inverse] = [-1.0, 1.0].map(|s| {
                     negative.plus(graph, graph.constant(2.0), &self.resolvent(graph, &x, s))
                 });
@@ -402,8 +388,11 @@ impl Part for Tables {
             let inverse = if self.orthogonal {
                 transposed
             } else {
-                let back = Matrix::zeros(graph, self.size, self.size).plus(graph, minus, &y);
-                identity.plus(graph, one, &self.exponential_less_one(graph, &back))
+                identity.plus(
+                    graph,
+                    one,
+                    &self.exponential_less_one(graph, &y.scaled(graph, minus)),
+                )
             };
             self.coordinates(graph, &self.between(graph, &increment, mu, &inverse))
         };
@@ -433,17 +422,12 @@ impl Part for Tables {
                 let a = self.ad_transpose(graph, x);
                 let scale = graph.constant(std::f64::consts::FRAC_1_PI);
                 // Where the series ends by itself there is no limit.
-                let squared = a.times(graph, &a);
-                let inside = match squared.is_zero(graph) {
+                let norm = |matrix: &Matrix, power: Matrix| match power.is_zero(graph) {
                     true => graph.zero(),
-                    false => row_norm(graph, &a),
+                    false => row_norm(graph, matrix),
                 };
-                let squared = matrix.times(graph, &matrix);
-                let cubed = squared.times(graph, &matrix);
-                let own = match cubed.is_zero(graph) {
-                    true => graph.zero(),
-                    false => row_norm(graph, &matrix),
-                };
+                let inside = norm(&a, a.times(graph, &a));
+                let own = norm(&matrix, matrix.times(graph, &matrix).times(graph, &matrix));
                 graph.mul(graph.max(inside, own), scale)
             }
         };
@@ -457,13 +441,10 @@ impl Part for Tables {
         }
         let (g, one) = (self.square(g), graph.constant(1.0));
         let gram = g.transposed().times(graph, &g);
-        let mut off = Vec::new();
-        for i in 0..self.size {
-            for j in i..self.size {
-                let unit = if i == j { one } else { graph.zero() };
-                off.push(graph.sub(gram.at(i, j), unit));
-            }
-        }
+        let places = (0..self.size).flat_map(|i| (i..self.size).map(move |j| (i, j)));
+        let off =
+            places.map(|(i, j)| graph.sub(gram.at(i, j), if i == j { one } else { graph.zero() }));
+        let off: Vec<Id> = off.collect();
         graph.add(largest(graph, &off), rest)
     }
 

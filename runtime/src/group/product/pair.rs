@@ -59,14 +59,7 @@ where
 
     fn join((a, b): (A::Vector, B::Vector)) -> SVector<T, N> {
         let n = a.dim();
-        let mut result = SVector::repeat(T::of(0.0));
-        for i in 0..n {
-            result[i] = a[i];
-        }
-        for i in 0..b.dim() {
-            result[n + i] = b[i];
-        }
-        result
+        SVector::from_entries(N, |i| if i < n { a[i] } else { b[i - n] })
     }
 
     /// The coordinates of both factors at each node.

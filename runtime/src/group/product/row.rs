@@ -183,12 +183,12 @@ impl<T: Scalar, R: Row<Group: LieGroup<Scalar = T>>> RowProduct<R> {
 
     /// An element, made factor by factor.
     fn element(&self, mut make: impl FnMut(Factor<'_, R::Group>) -> ElementOf<R>) -> R::Element {
-        let groups = self.0.groups();
-        let mut factors = factors(groups.as_ref());
-        self.0.element(|at| match factors.next() {
-            Some(factor) => make(factor),
-            // There are as many factors as places.
-            None => groups.as_ref()[at].identity(),
+        let (groups, mut start) = (self.0.groups(), 0);
+        self.0.element(|at| {
+            let group = &groups.as_ref()[at];
+            let factor = Factor { group, at, start };
+            start += group.dim();
+            make(factor)
         })
     }
 
