@@ -662,19 +662,18 @@ static inline void toutatis_internal_accept(const double *TOUTATIS_RESTRICT c, c
     const double t14 = TOUTATIS_FMA(x[2], x[2], t13);
     const double t16 = t14 * 0.10132118364233778;
     const double t18 = fabs(t16);
-    const double t21 = (t16 <= 1.7976931348623157e308) ? 0.0 : 1.0;
-    const double t22 = t21 + t21;
-    const double t23 = t18 + t22;
-    const double t27 = (c[227] <= 3.4028234663852886e38) ? 4.0 : 9.0;
-    const double t28 = t23 * t27;
-    const double t29 = mu[0] * mu[0];
-    const double t30 = TOUTATIS_FMA(mu[1], mu[1], t29);
-    const double t31 = TOUTATIS_FMA(mu[2], mu[2], t30);
-    const double t32 = (t31 <= c[227]) ? 1.0 : 0.0;
-    const double t33 = (t28 <= 1.0) ? t32 : 0.0;
-    const double t34 = (distance <= 0.05) ? t33 : 0.0;
-    const double t35 = (residual_bound <= t10) ? t34 : 0.0;
-    *right = t35;
+    const double t19 = t16 - t16;
+    const double t20 = t18 + t19;
+    const double t25 = (c[227] <= 3.4028234663852886e38) ? 4.0 : 9.0;
+    const double t26 = t20 * t25;
+    const double t27 = mu[0] * mu[0];
+    const double t28 = TOUTATIS_FMA(mu[1], mu[1], t27);
+    const double t29 = TOUTATIS_FMA(mu[2], mu[2], t28);
+    const double t30 = (t29 <= c[227]) ? 1.0 : 0.0;
+    const double t31 = (t26 <= 1.0) ? t30 : 0.0;
+    const double t32 = (distance <= 0.05) ? t31 : 0.0;
+    const double t33 = (residual_bound <= t10) ? t32 : 0.0;
+    *right = t33;
 }
 
 /* Internal: the state moved by the increment x. */

@@ -181,12 +181,6 @@ impl Group<6, 7> for Motions {
         }
         (of_momenta(value), matrix)
     }
-    /// (d^R cay_x)ᵀ μ
-    #[inline(always)]
-    fn cayley_pull_back<T: Number>(x: [T; 6], mu: [T; 6]) -> [T; 6] {
-        let parts = CayleyParts::new(x, mu);
-        whole(parts.p, parts.q)
-    }
     /// (d^R cay_x)ᵀ μ and its derivative in x.
     #[inline(always)]
     fn cayley_pull_back_with_derivative<T: Number>(x: [T; 6], mu: [T; 6]) -> ([T; 6], [[T; 6]; 6]) {

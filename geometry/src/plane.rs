@@ -32,6 +32,16 @@ fn both<T: Number>((value, slope): ([T; 6], [[T; 6]; 6])) -> ([T; 3], [[T; 3]; 3
     (dropped(value), [dropped(slope[2]), dropped(slope[3]), dropped(slope[4])])
 }
 
+/// Functions of coordinates that are those of the motion of space.
+macro_rules! in_space {
+    ($($name:ident($x:ident, $y:ident $(; $rest:ident: $type:ty)?);)*) => {$(
+        #[inline(always)]
+        fn $name<T: Number>($x: [T; 3], $y: [T; 3] $(, $rest: $type)?) -> [T; 3] {
+            dropped(Motions::$name(lifted($x), lifted($y) $(, $rest)?))
+        }
+    )*};
+}
+
 /// The motions of the plane. Increments are motions of space that keep the third axis.
 #[derive(Clone, Copy, Debug)]
 pub struct Plane;
@@ -58,13 +68,12 @@ impl Group<3, 4> for Plane {
     fn cayley_pull_back_with_derivative<T: Number>(x: [T; 3], mu: [T; 3]) -> ([T; 3], [[T; 3]; 3]) {
         both(Motions::cayley_pull_back_with_derivative(lifted(x), lifted(mu)))
     }
-    #[inline(always)]
-    fn ad_star<T: Number>(x: [T; 3], mu: [T; 3]) -> [T; 3] {
-        dropped(Motions::ad_star(lifted(x), lifted(mu)))
-    }
-    #[inline(always)]
-    fn bracket<T: Number>(x: [T; 3], y: [T; 3]) -> [T; 3] {
-        dropped(Motions::bracket(lifted(x), lifted(y)))
+    in_space! {
+        ad_star(x, mu);
+        bracket(x, y);
+        pull_back(x, mu; length: Length);
+        cayley_pull_back(x, mu);
+        momentum(x, p; degree: usize);
     }
     #[inline(always)]
     fn exp<T: Number>(x: [T; 3], length: Length) -> Motion<T> {
@@ -80,18 +89,6 @@ impl Group<3, 4> for Plane {
     #[inline(always)]
     fn cayley<T: Number>(x: [T; 3]) -> Motion<T> {
         Motions::cayley(lifted(x))
-    }
-    #[inline(always)]
-    fn pull_back<T: Number>(x: [T; 3], mu: [T; 3], length: Length) -> [T; 3] {
-        dropped(Motions::pull_back(lifted(x), lifted(mu), length))
-    }
-    #[inline(always)]
-    fn cayley_pull_back<T: Number>(x: [T; 3], mu: [T; 3]) -> [T; 3] {
-        dropped(Motions::cayley_pull_back(lifted(x), lifted(mu)))
-    }
-    #[inline(always)]
-    fn momentum<T: Number>(x: [T; 3], p: [T; 3], degree: usize) -> [T; 3] {
-        dropped(Motions::momentum(lifted(x), lifted(p), degree))
     }
     #[inline(always)]
     fn rates<T: Number>(x: [T; 3], p: [T; 3], omega: [T; 3], degree: usize) -> [[T; 3]; 2] {

@@ -8,82 +8,39 @@ use crate::number::Number;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row<T, const M: usize>(pub [T; M]);
 
-// Loops, and not the maps of arrays, which stay calls in large formulas.
-impl<T: Copy, const M: usize> Row<T, M> {
-    #[inline(always)]
-    fn one(self, f: impl Fn(T) -> T) -> Self {
-        let mut row = self.0;
-        for i in 0..M {
-            row[i] = f(self.0[i]);
-        }
-        Self(row)
-    }
-    #[inline(always)]
-    fn two(self, b: Self, f: impl Fn(T, T) -> T) -> Self {
-        let mut row = self.0;
-        for i in 0..M {
-            row[i] = f(self.0[i], b.0[i]);
-        }
-        Self(row)
-    }
-}
-
-macro_rules! operators {
-    ($($operator:ident $name:ident),*) => {$(
-        impl<T: Number, const M: usize> $operator for Row<T, M> {
-            type Output = Self;
-
-            #[inline(always)]
-            fn $name(self, b: Self) -> Self {
-                self.two(b, T::$name)
+/// Operations of numbers side by side, as methods of a trait; with loops, and not the maps of arrays, which stay calls in
+/// large formulas.
+macro_rules! by_number {
+    ($($name:ident($($other:ident),*)),*) => {$(
+        #[inline(always)]
+        fn $name(self $(, $other: Self)*) -> Self {
+            let mut row = self.0;
+            for i in 0..M {
+                row[i] = self.0[i].$name($($other.0[i]),*);
             }
+            Self(row)
         }
     )*};
 }
 
-operators!(Add add, Sub sub, Mul mul, Div div);
+macro_rules! operators {
+    ($($operator:ident $name:ident($($other:ident)?)),*) => {$(
+        impl<T: Number, const M: usize> $operator for Row<T, M> {
+            type Output = Self;
 
-impl<T: Number, const M: usize> Neg for Row<T, M> {
-    type Output = Self;
-
-    #[inline(always)]
-    fn neg(self) -> Self {
-        self.one(T::neg)
-    }
+            by_number!($name($($other)?));
+        }
+    )*};
 }
 
+operators!(Add add(b), Sub sub(b), Mul mul(b), Div div(b), Neg neg());
+
 impl<T: Number, const M: usize> Number for Row<T, M> {
+    by_number!(times_plus(a, b), abs(), sqrt(), round(), at_most(other, then, otherwise));
+
     #[inline(always)]
     fn of(value: f64) -> Self {
         Self([T::of(value); M])
-    }
-    #[inline(always)]
-    fn times_plus(self, a: Self, b: Self) -> Self {
-        let mut row = self.0;
-        for i in 0..M {
-            row[i] = self.0[i].times_plus(a.0[i], b.0[i]);
-        }
-        Self(row)
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        self.one(T::abs)
-    }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        self.one(T::sqrt)
-    }
-    #[inline(always)]
-    fn round(self) -> Self {
-        self.one(T::round)
-    }
-    #[inline(always)]
-    fn at_most(self, other: Self, then: Self, otherwise: Self) -> Self {
-        let mut row = self.0;
-        for i in 0..M {
-            row[i] = self.0[i].at_most(other.0[i], then.0[i], otherwise.0[i]);
-        }
-        Self(row)
     }
     #[inline(always)]
     fn known_at_most(self, limit: f64) -> Option<bool> {

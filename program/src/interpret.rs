@@ -3,9 +3,10 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use crate::bits::{exponent, power_of_two};
 use crate::graph::{Node, Program};
 use crate::kernel::{Kernel, Outcome, Stepper, WIDTH};
-use crate::number::{Lanes, Number, Packed};
+use crate::number::{Lanes, fused, nearest, root};
 use crate::schedule::{Block, Kept, Kind, Part, Places, Statement, Test, Variable};
 
 impl Stepper for Kernel {
@@ -13,7 +14,7 @@ impl Stepper for Kernel {
         if self.lacks(slots, g, mu, 1) {
             return Outcome::default();
         }
-        let mut walk = Walk::<f64, 1>::new(self, slots, g, mu);
+        let mut walk = Walk::<1>::new(self, slots, g, mu);
         let [done] = walk.run(steps, [true]);
         walk.store(g, mu);
         Outcome { steps: done, ..walk.outcome }
@@ -30,7 +31,7 @@ impl Stepper for Kernel {
         if self.lacks(slots, g, mu, WIDTH) {
             return [0; WIDTH];
         }
-        let mut walk = Walk::<Lanes<WIDTH>, WIDTH>::new(self, slots, g, mu);
+        let mut walk = Walk::<WIDTH>::new(self, slots, g, mu);
         let done = walk.run(steps, live);
         walk.store(g, mu);
         done
@@ -53,12 +54,15 @@ pub struct Attempt {
 impl Kernel {
     /// The solution of the equation of the step from μ, by the interpreter; refused where numbers are missing.
     pub fn attempt(&self, slots: &[f64], mu: &[f64]) -> Attempt {
-        let mut walk = Walk::<f64, 1>::new(self, slots, &vec![0.0; self.element], mu);
+        let mut walk = Walk::<1>::new(self, slots, &vec![0.0; self.element], mu);
         walk.run(1, [true]);
         Attempt {
-            increment: walk.numbers[walk.places.range(Variable::Increment)].to_vec(),
-            residual_bound: walk.number(Variable::ResidualBound),
-            distance: walk.number(Variable::Distance),
+            increment: walk.numbers[walk.places.range(Variable::Increment)]
+                .iter()
+                .map(|number| number.0[0])
+                .collect(),
+            residual_bound: walk.number(Variable::ResidualBound).0[0],
+            distance: walk.number(Variable::Distance).0[0],
             accepted: !walk.refused,
         }
     }
@@ -70,36 +74,36 @@ impl Kernel {
 }
 
 /// A walk through the loop by L trajectories side by side.
-struct Walk<'k, T, const L: usize> {
+struct Walk<'k, const L: usize> {
     kernel: &'k Kernel,
-    slots: Vec<T>,
+    slots: Vec<Lanes<L>>,
     places: Places,
     /// The numbers of all variables.
-    numbers: Vec<T>,
+    numbers: Vec<Lanes<L>>,
     /// The counts, by the number of their variables.
     counts: [[u64; L]; Variable::ALL.len()],
     /// g and μ where they are kept: at the start of the block, and of a step with kicks.
-    kept: [Vec<T>; 2],
+    kept: [Vec<Lanes<L>>; 2],
     /// Which trajectories move on.
     live: [bool; L],
     /// True if a step was refused.
     refused: bool,
     steps: u64,
     outcome: Outcome,
-    inputs: Vec<T>,
-    nodes: Vec<T>,
+    inputs: Vec<Lanes<L>>,
+    nodes: Vec<Lanes<L>>,
 }
 
-impl<'k, T: Packed<L>, const L: usize> Walk<'k, T, L> {
+impl<'k, const L: usize> Walk<'k, L> {
     fn new(kernel: &'k Kernel, slots: &[f64], g: &[f64], mu: &[f64]) -> Self {
         let places = Places::of(kernel);
-        let mut numbers = vec![T::of(0.0); places.len()];
+        let mut numbers = vec![Lanes::of(0.0); places.len()];
         for (variable, list) in [(Variable::Element, g), (Variable::Momentum, mu)] {
             for (i, place) in places.range(variable).enumerate() {
-                numbers[place] = T::load(list, i);
+                numbers[place] = Lanes::load(list, i);
             }
         }
-        let slot = |i: usize| T::of(slots.get(i).copied().unwrap_or(f64::NAN));
+        let slot = |i: usize| Lanes::of(slots.get(i).copied().unwrap_or(f64::NAN));
         Self {
             kernel,
             slots: (0..kernel.slots()).map(slot).collect(),
@@ -139,7 +143,7 @@ impl<'k, T: Packed<L>, const L: usize> Walk<'k, T, L> {
                     self.counts[variable as usize] = [u64::from(initial.unwrap_or(0)); L];
                 }
                 (_, Some(initial)) => {
-                    self.numbers[self.places.range(variable)].fill(T::of(f64::from(initial)));
+                    self.numbers[self.places.range(variable)].fill(Lanes::of(f64::from(initial)));
                 }
                 (_, None) => {}
             }
@@ -154,7 +158,8 @@ impl<'k, T: Packed<L>, const L: usize> Walk<'k, T, L> {
             Statement::Clock => {}
             Statement::Call(part) => self.call(*part, within, mask),
             Statement::Lengthen => {
-                let sum = self.number(Variable::Distance).add(self.number(Variable::Moved));
+                let both = [Variable::Distance, Variable::Moved].map(|part| self.number(part));
+                let sum = Lanes::each(both, |[a, b]| a + b);
                 let place = self.places.range(Variable::Distance).start;
                 self.numbers[place] = self.numbers[place].update(mask, sum);
             }
@@ -184,8 +189,8 @@ impl<'k, T: Packed<L>, const L: usize> Walk<'k, T, L> {
                 let Outcome { corrections, residual, .. } = &mut self.outcome;
                 for lane in (0..L).filter(|&lane| mask[lane]) {
                     *corrections = (*corrections).max(tried[lane] as u32);
-                    if *residual < bound.lane(lane) {
-                        *residual = bound.lane(lane);
+                    if *residual < bound.0[lane] {
+                        *residual = bound.0[lane];
                     }
                 }
             }
@@ -220,7 +225,7 @@ impl<'k, T: Packed<L>, const L: usize> Walk<'k, T, L> {
             match input.kind(self.kernel) {
                 Kind::Count => {
                     let count = self.counts[input as usize].map(|count| count as f64);
-                    self.inputs.push(T::load(&count, 0));
+                    self.inputs.push(Lanes(count));
                 }
                 _ => self.inputs.extend_from_slice(&self.numbers[self.places.range(input)]),
             }
@@ -229,7 +234,8 @@ impl<'k, T: Packed<L>, const L: usize> Walk<'k, T, L> {
         let flow = self.counts[Variable::Flow as usize].into_iter().max();
         let flow = flow.filter(|_| part.is_of_flow()).unwrap_or(0);
         let slots = self.slots.get(flow as usize * self.kernel.slots_of_flow()..);
-        evaluate(program, &self.inputs, slots.unwrap_or_default(), &mut self.nodes);
+        let (inputs, slots) = (&self.inputs, slots.unwrap_or_default());
+        evaluate(program, |i| inputs[i], |i| slots[i], &mut self.nodes);
         let mut results = program.outputs().iter().map(|id| self.nodes[id.index()]);
         for &output in outputs {
             let own = within.owns(output);
@@ -257,41 +263,51 @@ impl<'k, T: Packed<L>, const L: usize> Walk<'k, T, L> {
                             self.counts[count as usize][lane] < u64::from(most)
                         }
                         Test::Open => {
-                            let solved = bound.lane(lane) <= self.kernel.tolerance;
-                            !solved && distance.lane(lane) <= self.kernel.near
+                            let solved = bound.0[lane] <= self.kernel.tolerance;
+                            !solved && distance.0[lane] <= self.kernel.near
                         }
-                        Test::Right => right.lane(lane) == 1.0,
+                        Test::Right => right.0[lane] == 1.0,
                     }
             };
             mask[lane] && condition.iter().all(test)
         })
     }
 
-    fn number(&self, variable: Variable) -> T {
+    fn number(&self, variable: Variable) -> Lanes<L> {
         self.numbers[self.places.range(variable).start]
     }
 }
 
-/// [`Program::evaluate`] on inputs and coefficients in lists, compiled for this processor.
+/// [`Program::evaluate`], compiled for this processor.
 ///
 /// A fused product is one instruction on every processor of the last ten years, but on x86-64 a program compiled for
 /// all of them calls a function for it. Here the evaluation is compiled once more with the instructions of AVX2
 /// and FMA, and taken where the processor has them; the bits are the same.
-fn evaluate<T: Number>(program: &Program, inputs: &[T], slots: &[T], nodes: &mut Vec<T>) {
+fn evaluate<const L: usize>(
+    program: &Program,
+    input: impl Fn(usize) -> Lanes<L>,
+    slot: impl Fn(usize) -> Lanes<L>,
+    nodes: &mut Vec<Lanes<L>>,
+) {
     #[cfg(all(feature = "std", target_arch = "x86_64"))]
     if std::arch::is_x86_feature_detected!("fma") && std::arch::is_x86_feature_detected!("avx2") {
         // SAFETY: the processor has both features, as was just asked.
         #[allow(unsafe_code)]
-        return unsafe { evaluate_fma(program, inputs, slots, nodes) };
+        return unsafe { evaluate_fma(program, input, slot, nodes) };
     }
-    program.evaluate(|i| inputs[i], |i| slots[i], nodes);
+    program.evaluate(input, slot, nodes);
 }
 
 /// Evaluates with fused products as instructions. Only a processor with AVX2 and FMA can run it.
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 #[target_feature(enable = "avx2,fma")]
-fn evaluate_fma<T: Number>(program: &Program, inputs: &[T], slots: &[T], nodes: &mut Vec<T>) {
-    program.evaluate(|i| inputs[i], |i| slots[i], nodes);
+fn evaluate_fma<const L: usize>(
+    program: &Program,
+    input: impl Fn(usize) -> Lanes<L>,
+    slot: impl Fn(usize) -> Lanes<L>,
+    nodes: &mut Vec<Lanes<L>>,
+) {
+    program.evaluate(input, slot, nodes);
 }
 
 impl Program {
@@ -300,34 +316,39 @@ impl Program {
     ///
     /// Always inlined, so that lanes get the instruction set of the caller.
     #[inline(always)]
-    fn evaluate<T: Number>(
+    fn evaluate<const L: usize>(
         &self,
-        input: impl Fn(usize) -> T,
-        slot: impl Fn(usize) -> T,
-        scratch: &mut Vec<T>,
+        input: impl Fn(usize) -> Lanes<L>,
+        slot: impl Fn(usize) -> Lanes<L>,
+        scratch: &mut Vec<Lanes<L>>,
     ) {
         scratch.clear();
         scratch.reserve(self.nodes().len());
         for node in self.nodes() {
             let at = |id: crate::Id| scratch[id.index()];
             let value = match *node {
-                Node::Zero => T::of(0.0),
-                Node::Constant(bits) => T::of(f64::from_bits(bits)),
-                Node::Epsilon => T::of(f64::EPSILON),
+                Node::Zero => Lanes::of(0.0),
+                Node::Constant(bits) => Lanes::of(f64::from_bits(bits)),
+                Node::Epsilon => Lanes::of(f64::EPSILON),
                 Node::Input(i) => input(i as usize),
                 Node::Slot(i) => slot(i as usize),
-                Node::Add(a, b) => at(a).add(at(b)),
-                Node::Sub(a, b) => at(a).sub(at(b)),
-                Node::Mul(a, b) => at(a).mul(at(b)),
-                Node::TimesPlus(a, b, c) => at(a).times_plus(at(b), at(c)),
-                Node::Div(a, b) => at(a).div(at(b)),
-                Node::Neg(a) => at(a).neg(),
-                Node::Abs(a) => at(a).abs(),
-                Node::Sqrt(a) => at(a).sqrt(),
-                Node::Round(a) => at(a).round(),
-                Node::Scale(a, k) => at(a).scale(at(k)),
-                Node::Exponent(a) => at(a).exponent(),
-                Node::Select(a, b, c, d) => at(a).select(at(b), at(c), at(d)),
+                Node::Add(a, b) => Lanes::each([at(a), at(b)], |[a, b]| a + b),
+                Node::Sub(a, b) => Lanes::each([at(a), at(b)], |[a, b]| a - b),
+                Node::Mul(a, b) => Lanes::each([at(a), at(b)], |[a, b]| a * b),
+                Node::TimesPlus(a, b, c) => {
+                    Lanes::each([at(a), at(b), at(c)], |[a, b, c]| fused(a, b, c))
+                }
+                Node::Div(a, b) => Lanes::each([at(a), at(b)], |[a, b]| a / b),
+                Node::Neg(a) => Lanes::each([at(a)], |[a]| -a),
+                Node::Abs(a) => Lanes::each([at(a)], |[a]| a.abs()),
+                Node::Sqrt(a) => Lanes::each([at(a)], |[a]| root(a)),
+                Node::Round(a) => Lanes::each([at(a)], |[a]| nearest(a)),
+                Node::Scale(a, k) => Lanes::each([at(a), at(k)], |[a, k]| a * power_of_two(k)),
+                Node::Exponent(a) => Lanes::each([at(a)], |[a]| exponent(a)),
+                Node::Select(a, b, c, d) => Lanes::each(
+                    [at(a), at(b), at(c), at(d)],
+                    |[a, b, c, d]| if a <= b { c } else { d },
+                ),
             };
             scratch.push(value);
         }
@@ -335,13 +356,9 @@ impl Program {
 
     /// The results of the program on `inputs` with these folded coefficients. Missing inputs and slots read as NaN.
     pub fn run(&self, inputs: &[f64], slots: &[f64]) -> Vec<f64> {
-        let read = |list: &[f64], i: usize| list.get(i).copied().unwrap_or(f64::NAN);
+        let read = |list: &[f64], i: usize| Lanes([list.get(i).copied().unwrap_or(f64::NAN)]);
         let mut nodes = Vec::new();
-        if inputs.len() >= self.inputs() && slots.len() >= self.slots() {
-            evaluate(self, inputs, slots, &mut nodes);
-        } else {
-            self.evaluate(|i| read(inputs, i), |i| read(slots, i), &mut nodes);
-        }
-        self.outputs().iter().map(|id| nodes[id.index()]).collect()
+        evaluate(self, |i| read(inputs, i), |i| read(slots, i), &mut nodes);
+        self.outputs().iter().map(|id| nodes[id.index()].0[0]).collect()
     }
 }

@@ -13,11 +13,12 @@ pub use crate::chart::{Cayley, Chart, Exponential};
 pub use crate::group::product::row::DirectProduct;
 pub use crate::group::{
     CayleyGroup, FixedDimension, LieGroup, Rows,
+    closed::{Closed, Formulas},
     element_error::ElementError,
     product::{pair::Product, row::Power},
     se2::SE2,
     se3::SE3,
-    so3::{Quaternions, SO3, SU2},
+    so3::{SO3, SU2},
 };
 pub use crate::linear::coordinates::Coordinates;
 #[cfg(feature = "alloc")]

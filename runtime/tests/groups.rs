@@ -44,6 +44,19 @@ impl StaticAlgebra for Brackets {
     const CASIMIRS: &'static [&'static [(f64, &'static [(usize, u32)])]] = Rotations::<3>::CASIMIRS;
 }
 
+/// se(2), whose translations are a nilpotent ideal: the blocks of ad_x agree.
+struct Plane;
+impl StaticAlgebra for Plane {
+    const DIM: usize = 3;
+    const MATRIX_SIZE: usize = 3;
+    const STRUCTURE: &'static [(usize, usize, usize, f64)] =
+        &[(0, 1, 2, 1.0), (1, 0, 2, -1.0), (0, 2, 1, -1.0), (2, 0, 1, 1.0)];
+    const BASIS: Option<&'static [(usize, usize, usize, f64)]> =
+        Some(&[(0, 1, 0, 1.0), (0, 0, 1, -1.0), (1, 0, 2, 1.0), (2, 1, 2, 1.0)]);
+    const CASIMIRS: &'static [&'static [(f64, &'static [(usize, u32)])]] =
+        &[&[(1.0, &[(1, 2)]), (1.0, &[(2, 2)])]];
+}
+
 #[test]
 fn closed_forms() {
     group_laws(&SO3::<f64>::new(), 1.0, true);
@@ -130,6 +143,10 @@ fn static_tables() {
     group_laws(&StaticMatrixGroup::<Rotations<3>, 3, 3>::new(), 1.0, true);
     chart_laws(&StaticMatrixGroup::<Rotations<3>, 3, 3>::new(), Cayley, 1.0, true);
     group_laws(&StaticMatrixGroup::<Brackets, 3, 3>::new(), 1.0, true);
+    let plane = StaticMatrixGroup::<Plane, 3, 3>::new();
+    group_laws(&plane, 1.0, true);
+    let x = nalgebra::Vector3::new(0.3, 40.0, -7.0);
+    assert!((plane.exp_extent(&x) - SE2::new().exp_extent(&x)).abs() < 1e-15);
 }
 
 #[test]

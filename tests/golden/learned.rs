@@ -36,7 +36,7 @@
 ///
 /// Group: SO3. Chart exp, truncation K = 1, order of accuracy 2.
 /// Terms: S1: 10.
-/// A step takes 398 operations, and 299 more for each further correction.
+/// A step takes 397 operations, and 299 more for each further correction.
 #[derive(::core::clone::Clone, ::core::fmt::Debug)]
 #[allow(clippy::trailing_empty_array)]
 pub struct Learned<T = f64> {
@@ -542,29 +542,18 @@ const _: () = {
         let t11 = x[2].times_plus(x[2], t10);
         let t13 = t11 * c.of(0.10132118364233778);
         let t15 = t13.simd_abs();
-        let t18 = T::select(
-            c.of(0.0),
-            T::simd_le(
-                t13,
-                c
-                    .of(
-                        179769313486231570000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000.0,
-                    ),
-            ),
-            c.of(1.0),
-        );
-        let t19 = t18 + t18;
-        let t20 = t15 + t19;
-        let t24 = T::select(
+        let t16 = t13 - t13;
+        let t17 = t15 + t16;
+        let t22 = T::select(
             c.of(4.0),
             T::simd_le(c.at(80), c.of(340282346638528860000000000000000000000.0)),
             c.of(9.0),
         );
-        let t25 = t20 * t24;
-        let t26 = T::select(c.of(1.0), T::simd_le(t25, c.of(1.0)), c.of(0.0));
-        let t27 = T::select(t26, T::simd_le(distance, c.of(0.05)), c.of(0.0));
-        let t28 = T::select(t27, T::simd_le(residual_bound, t7), c.of(0.0));
-        t28
+        let t23 = t17 * t22;
+        let t24 = T::select(c.of(1.0), T::simd_le(t23, c.of(1.0)), c.of(0.0));
+        let t25 = T::select(t24, T::simd_le(distance, c.of(0.05)), c.of(0.0));
+        let t26 = T::select(t25, T::simd_le(residual_bound, t7), c.of(0.0));
+        t26
     }
 
     #[inline(always)]

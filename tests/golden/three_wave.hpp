@@ -24,8 +24,8 @@
  * used is known to hold there. Longer steps are refused with a status. The library in Rust then follows the
  * solution from the identity; this header does not: take a smaller step.
  *
- * Cost of a step with one correction, as most have: 301 multiplications, 176 additions, 6 divisions and roots.
- * Cost at most (12 corrections, and a check of the state): 2457 multiplications, 1454 additions, 40 divisions and
+ * Cost of a step with one correction, as most have: 293 multiplications, 172 additions, 6 divisions and roots.
+ * Cost at most (12 corrections, and a check of the state): 2449 multiplications, 1450 additions, 40 divisions and
  * roots.
  * Data: 35 coefficients (280 bytes) in a map, 56 bytes in a state.
  *
@@ -576,101 +576,92 @@ static inline void three_wave_internal_accept(const double *THREE_WAVE_RESTRICT 
     const double t29 = t28 * t28;
     const double t30 = t17 + t29;
     const double t31 = fabs(t30);
-    const double t33 = (t30 <= 1.7976931348623157e308) ? 0.0 : 1.0;
-    const double t34 = t33 + t33;
-    const double t35 = t31 + t34;
-    const double t38 = t35 * 9.0;
-    const double t39 = mu[0] * mu[0];
-    const double t40 = THREE_WAVE_FMA(mu[1], mu[1], t39);
-    const double t41 = THREE_WAVE_FMA(mu[2], mu[2], t40);
-    const double t42 = (t41 <= c[34]) ? 1.0 : 0.0;
-    const double t43 = (t38 <= 1.0) ? t42 : 0.0;
-    const double t44 = (distance <= 0.05) ? t43 : 0.0;
-    const double t45 = (residual_bound <= t10) ? t44 : 0.0;
-    *right = t45;
+    const double t32 = t30 - t30;
+    const double t33 = t31 + t32;
+    const double t36 = t33 * 9.0;
+    const double t37 = mu[0] * mu[0];
+    const double t38 = THREE_WAVE_FMA(mu[1], mu[1], t37);
+    const double t39 = THREE_WAVE_FMA(mu[2], mu[2], t38);
+    const double t40 = (t39 <= c[34]) ? 1.0 : 0.0;
+    const double t41 = (t36 <= 1.0) ? t40 : 0.0;
+    const double t42 = (distance <= 0.05) ? t41 : 0.0;
+    const double t43 = (residual_bound <= t10) ? t42 : 0.0;
+    *right = t43;
 }
 
 /* Internal: the state moved by the increment x. */
 static inline void three_wave_internal_transport(const double *THREE_WAVE_RESTRICT c, const double *THREE_WAVE_RESTRICT g, const double *THREE_WAVE_RESTRICT mu, const double *THREE_WAVE_RESTRICT x, double *THREE_WAVE_RESTRICT g_next, double *THREE_WAVE_RESTRICT mu_next)
 {
     (void)c;
-    const double t11 = -x[0];
-    const double t14 = THREE_WAVE_FMA(x[0], (-0.5), 1.0);
-    const double t15 = x[1] * (-0.5);
-    const double t16 = x[2] * (-0.5);
-    const double t17 = THREE_WAVE_FMA(t11, (-0.5), 1.0);
-    const double t18 = -t15;
+    const double t12 = -x[0];
+    const double t15 = THREE_WAVE_FMA(x[0], (-0.5), 1.0);
+    const double t16 = x[1] * (-0.5);
+    const double t17 = x[2] * (-0.5);
+    const double t18 = THREE_WAVE_FMA(t12, (-0.5), 1.0);
     const double t19 = -t16;
-    const double t20 = t14 * t17;
-    const double t21 = THREE_WAVE_FMA(t15, t19, t20);
-    const double t22 = 1.0 / t21;
-    const double t23 = t17 * t22;
-    const double t24 = t19 * t22;
-    const double t25 = t18 * t22;
-    const double t26 = t14 * t22;
-    const double t27 = THREE_WAVE_FMA(x[0], 0.5, 1.0);
-    const double t28 = x[1] * 0.5;
-    const double t29 = x[2] * 0.5;
-    const double t30 = THREE_WAVE_FMA(t11, 0.5, 1.0);
-    const double t31 = -t28;
-    const double t32 = -t29;
-    const double t33 = t27 * t30;
-    const double t34 = THREE_WAVE_FMA(t28, t32, t33);
-    const double t35 = 1.0 / t34;
-    const double t36 = t30 * t35;
-    const double t37 = t32 * t35;
-    const double t38 = t31 * t35;
-    const double t39 = t27 * t35;
-    const double t40 = t23 * t27;
-    const double t41 = THREE_WAVE_FMA(t25, t29, t40);
-    const double t42 = t23 * t28;
-    const double t43 = THREE_WAVE_FMA(t25, t30, t42);
-    const double t44 = t24 * t27;
-    const double t45 = THREE_WAVE_FMA(t26, t29, t44);
-    const double t46 = t24 * t28;
-    const double t47 = THREE_WAVE_FMA(t26, t30, t46);
-    const double t48 = t14 * t36;
-    const double t49 = THREE_WAVE_FMA(t16, t38, t48);
-    const double t50 = t15 * t36;
-    const double t51 = THREE_WAVE_FMA(t17, t38, t50);
-    const double t52 = t14 * t37;
-    const double t53 = THREE_WAVE_FMA(t16, t39, t52);
-    const double t54 = t15 * t37;
-    const double t55 = THREE_WAVE_FMA(t17, t39, t54);
-    const double t56 = mu[0] * 0.5;
-    const double t57 = mu[0] * (-0.5);
-    const double t58 = t41 * t56;
-    const double t59 = THREE_WAVE_FMA(mu[2], t45, t58);
-    const double t60 = mu[1] * t41;
-    const double t61 = THREE_WAVE_FMA(t45, t57, t60);
-    const double t62 = t43 * t56;
-    const double t63 = THREE_WAVE_FMA(mu[2], t47, t62);
-    const double t64 = mu[1] * t43;
-    const double t65 = THREE_WAVE_FMA(t47, t57, t64);
-    const double t66 = t49 * t59;
-    const double t67 = THREE_WAVE_FMA(t51, t61, t66);
-    const double t68 = t53 * t59;
-    const double t69 = THREE_WAVE_FMA(t55, t61, t68);
-    const double t70 = t49 * t63;
-    const double t71 = THREE_WAVE_FMA(t51, t65, t70);
-    const double t72 = t53 * t63;
-    const double t73 = THREE_WAVE_FMA(t55, t65, t72);
-    const double t74 = t67 - t73;
-    const double t75 = g[0] * t41;
-    const double t76 = THREE_WAVE_FMA(g[1], t45, t75);
-    const double t77 = g[0] * t43;
-    const double t78 = THREE_WAVE_FMA(g[1], t47, t77);
-    const double t79 = g[2] * t41;
-    const double t80 = THREE_WAVE_FMA(g[3], t45, t79);
-    const double t81 = g[2] * t43;
-    const double t82 = THREE_WAVE_FMA(g[3], t47, t81);
-    g_next[0] = t76;
-    g_next[1] = t78;
-    g_next[2] = t80;
-    g_next[3] = t82;
-    mu_next[0] = t74;
-    mu_next[1] = t69;
-    mu_next[2] = t71;
+    const double t20 = -t17;
+    const double t21 = t15 * t18;
+    const double t22 = THREE_WAVE_FMA(t16, t20, t21);
+    const double t23 = 1.0 / t22;
+    const double t24 = t18 * t23;
+    const double t25 = t20 * t23;
+    const double t26 = t19 * t23;
+    const double t27 = t15 * t23;
+    const double t28 = THREE_WAVE_FMA(2.0, t24, (-1.0));
+    const double t29 = 2.0 * t26;
+    const double t30 = 2.0 * t25;
+    const double t31 = THREE_WAVE_FMA(2.0, t27, (-1.0));
+    const double t33 = THREE_WAVE_FMA(x[0], 0.5, 1.0);
+    const double t34 = x[1] * 0.5;
+    const double t35 = x[2] * 0.5;
+    const double t36 = THREE_WAVE_FMA(t12, 0.5, 1.0);
+    const double t37 = -t34;
+    const double t38 = -t35;
+    const double t39 = t33 * t36;
+    const double t40 = THREE_WAVE_FMA(t34, t38, t39);
+    const double t41 = 1.0 / t40;
+    const double t42 = t36 * t41;
+    const double t43 = t38 * t41;
+    const double t44 = t37 * t41;
+    const double t45 = t33 * t41;
+    const double t46 = THREE_WAVE_FMA(2.0, t42, (-1.0));
+    const double t47 = 2.0 * t44;
+    const double t48 = 2.0 * t43;
+    const double t49 = THREE_WAVE_FMA(2.0, t45, (-1.0));
+    const double t50 = mu[0] * 0.5;
+    const double t51 = mu[0] * (-0.5);
+    const double t52 = t28 * t50;
+    const double t53 = THREE_WAVE_FMA(mu[2], t30, t52);
+    const double t54 = mu[1] * t28;
+    const double t55 = THREE_WAVE_FMA(t30, t51, t54);
+    const double t56 = t29 * t50;
+    const double t57 = THREE_WAVE_FMA(mu[2], t31, t56);
+    const double t58 = mu[1] * t29;
+    const double t59 = THREE_WAVE_FMA(t31, t51, t58);
+    const double t60 = t46 * t53;
+    const double t61 = THREE_WAVE_FMA(t47, t55, t60);
+    const double t62 = t48 * t53;
+    const double t63 = THREE_WAVE_FMA(t49, t55, t62);
+    const double t64 = t46 * t57;
+    const double t65 = THREE_WAVE_FMA(t47, t59, t64);
+    const double t66 = t48 * t57;
+    const double t67 = THREE_WAVE_FMA(t49, t59, t66);
+    const double t68 = t61 - t67;
+    const double t69 = g[0] * t28;
+    const double t70 = THREE_WAVE_FMA(g[1], t30, t69);
+    const double t71 = g[0] * t29;
+    const double t72 = THREE_WAVE_FMA(g[1], t31, t71);
+    const double t73 = g[2] * t28;
+    const double t74 = THREE_WAVE_FMA(g[3], t30, t73);
+    const double t75 = g[2] * t29;
+    const double t76 = THREE_WAVE_FMA(g[3], t31, t75);
+    g_next[0] = t70;
+    g_next[1] = t72;
+    g_next[2] = t74;
+    g_next[3] = t76;
+    mu_next[0] = t68;
+    mu_next[1] = t63;
+    mu_next[2] = t65;
 }
 
 /* Internal: 1 where a state is finite and on the group. */

@@ -1,6 +1,6 @@
 //! The trait of Lie groups, implemented once per group.
 
-mod arrays;
+pub(crate) mod closed;
 pub(crate) mod element_error;
 mod log;
 pub(crate) mod middle;
@@ -34,7 +34,9 @@ pub trait LieGroup: Clone + Debug {
     fn dim(&self) -> usize;
 
     /// The neutral element.
-    fn identity(&self) -> Self::Element;
+    fn identity(&self) -> Self::Element {
+        self.exp(&Self::Vector::zeros(self.dim()))
+    }
 
     /// The product g·h.
     fn compose(&self, g: &Self::Element, h: &Self::Element) -> Self::Element;

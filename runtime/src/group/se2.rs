@@ -1,17 +1,14 @@
 //! SE(2): rigid motions of the plane.
 
-use core::marker::PhantomData;
-
-use coadjoint_geometry::angle::Length;
-use coadjoint_geometry::group::Group;
+use coadjoint_geometry::group::Matrices;
 use coadjoint_geometry::motion::Motion;
 use coadjoint_geometry::plane::Plane;
-use nalgebra::{Complex, Isometry2, SimdBool, Translation2, Unit, Vector2, Vector3};
+use coadjoint_geometry::vector::{V3, finite};
+use nalgebra::{Complex, Isometry2, SimdBool, Translation2, Unit};
 
-use crate::group::arrays::{array, by_formulas, cayley_by_formulas, nodes, rows};
-use crate::group::element_error::{ElementError, finite, fixed, within};
+use crate::group::closed::{Closed, Formulas};
+use crate::group::element_error::{ElementError, fixed, within};
 use crate::group::log::dexp_inverse;
-use crate::group::{CayleyGroup, FixedDimension, LieGroup, Rows};
 use crate::number::Scalar;
 
 /// The Euclidean group of the plane, elements as a rotation (unit complex number) and a
@@ -20,131 +17,103 @@ use crate::number::Scalar;
 /// Basis: e₁ the rotation, e₂ and e₃ the translations, with [e₁, e₂] = e₃, [e₁, e₃] = −e₂.
 /// Matrices: 3×3, rotation and translation column. Casimir: μ₂² + μ₃². Both charts. The
 /// differentials are those of SE(3), whose subgroup this is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SE2<T = f64>(PhantomData<T>);
-
-impl<T> SE2<T> {
-    /// The group; there is nothing to choose.
-    #[must_use]
-    pub const fn new() -> Self {
-        Self(PhantomData)
-    }
-}
-
-// A derived impl would ask for `T: Default`.
-impl<T> Default for SE2<T> {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-impl<T> FixedDimension for SE2<T> {
-    const DIM: usize = 3;
-}
-
-/// The motion of the plane that a motion of space keeping the third axis makes.
-#[inline(always)]
-fn flatten<T: Scalar>(g: Motion<T>) -> Isometry2<T> {
-    // (w + iz)² = cos θ + i sin θ, scaled to the unit circle by the quaternion's norm.
-    let ([w, _, _, k], [x, y, _]) = (g.turn.quaternion(), g.place);
-    motion(w * w - k * k, T::of(2.0) * w * k, x, y)
-}
+pub type SE2<T = f64> = Closed<Plane, T, 3, 4>;
 
 #[inline(always)]
-fn motion<T: Scalar>(cosine: T, sine: T, x: T, y: T) -> Isometry2<T> {
+fn motion<T: Scalar>([cosine, sine, x, y]: [T; 4]) -> Isometry2<T> {
     Isometry2 {
         rotation: Unit::new_unchecked(Complex { re: cosine, im: sine }),
-        translation: Translation2 { vector: Vector2::new(x, y) },
+        translation: Translation2 { vector: [x, y].into() },
     }
 }
 
 #[inline(always)]
-fn parts<T: Scalar>(g: &Isometry2<T>) -> (T, T, T, T) {
-    (g.rotation.re, g.rotation.im, g.translation.vector.x, g.translation.vector.y)
+fn parts<T: Scalar>(g: &Isometry2<T>) -> [T; 4] {
+    [g.rotation.re, g.rotation.im, g.translation.vector.x, g.translation.vector.y]
 }
 
-impl<T: Scalar> LieGroup for SE2<T> {
-    type Scalar = T;
-    type Vector = Vector3<T>;
-    type Element = Isometry2<T>;
+impl Formulas<3, 4> for Plane {
+    type Element<T: Scalar> = Isometry2<T>;
 
-    by_formulas!(Plane);
+    const ROWS: usize = 3;
+    const CASIMIRS: usize = 1;
 
-    fn dim(&self) -> usize {
-        3
+    /// Cosine and sine of half the angle, then the translation.
+    #[inline(always)]
+    fn numbers<T: Scalar>(g: &Isometry2<T>) -> [T; 4] {
+        let ([cosine, sine, x, y], half, one) = (parts(g), T::of(0.5), T::of(1.0));
+        // The larger of both by a root, the other one by sin θ = 2 sin(θ/2) cos(θ/2).
+        let large = (half + half * cosine.simd_abs()).simd_sqrt();
+        let small = half * sine / large;
+        let near = cosine.simd_ge(T::of(0.0));
+        let sign = one.select(sine.simd_ge(T::of(0.0)), -one);
+        [large.select(near, small * sign), small.select(near, large * sign), x, y]
     }
 
-    fn identity(&self) -> Self::Element {
-        motion(T::of(1.0), T::of(0.0), T::of(0.0), T::of(0.0))
+    #[inline(always)]
+    fn element<T: Scalar>([w, k, x, y]: [T; 4]) -> Isometry2<T> {
+        motion([(w - k) * (w + k), (w + w) * k, x, y])
     }
 
-    /// The product; the rotation is pulled back onto the unit circle to first order.
-    fn compose(&self, g: &Self::Element, h: &Self::Element) -> Self::Element {
-        let ((c, s, x, y), (d, r, u, v)) = (parts(g), parts(h));
+    #[inline(always)]
+    fn of_increment<T: Scalar>(h: Motion<T>) -> Isometry2<T> {
+        let ([w, _, _, k], [x, y, _]) = (h.turn.quaternion(), h.place);
+        Self::element([w, k, x, y])
+    }
+
+    fn compose<T: Scalar>(g: &Isometry2<T>, h: &Isometry2<T>) -> Isometry2<T> {
+        let ([c, s, x, y], [d, r, u, v]) = (parts(g), parts(h));
         let (cosine, sine) = (c * d - s * r, c * r + s * d);
         let factor = T::of(1.5) - T::of(0.5) * (cosine * cosine + sine * sine);
-        motion(cosine * factor, sine * factor, c * u - s * v + x, s * u + c * v + y)
+        motion([cosine * factor, sine * factor, c * u - s * v + x, s * u + c * v + y])
     }
 
-    fn inverse(&self, g: &Self::Element) -> Self::Element {
-        let (c, s, x, y) = parts(g);
-        motion(c, -s, -(c * x + s * y), s * x - c * y)
+    fn inverse<T: Scalar>(g: &Isometry2<T>) -> Isometry2<T> {
+        let [c, s, x, y] = parts(g);
+        motion([c, -s, -(c * x + s * y), s * x - c * y])
     }
 
-    fn exp(&self, x: &Self::Vector) -> Self::Element {
-        flatten(Plane::exp(array(x), Length::Any))
-    }
-
-    fn log(&self, g: &Self::Element) -> Option<Self::Vector> {
-        let (c, s, x, y) = parts(g);
+    fn log<T: Scalar>(g: &Isometry2<T>) -> Option<V3<T>> {
+        let [c, s, x, y] = parts(g);
         let angle = s.simd_atan2(c);
         // V⁻¹ = 1 − ½ω̂ + κ ω̂², κ = (1 − (ω/2) cot(ω/2))/ω².
         let across = angle * T::of(0.5);
         let along = T::of(1.0) - angle * angle * dexp_inverse([across]);
-        Some(Vector3::new(angle, along * x + across * y, along * y - across * x))
+        Some([angle, along * x + across * y, along * y - across * x])
     }
 
-    fn coadjoint(&self, g: &Self::Element, mu: &Self::Vector) -> Self::Vector {
-        let (c, s, u, v) = parts(g);
-        let (first, second) = (c * mu.y - s * mu.z, s * mu.y + c * mu.z);
-        Vector3::new(mu.x + u * second - v * first, first, second)
+    fn cayley_inverse<T: Scalar>(g: &Isometry2<T>) -> Option<V3<T>> {
+        // ω/2 = tan(θ/2) = sin θ/(1 + cos θ), v = (1 − ω̂/2) t
+        let [c, s, x, y] = parts(g);
+        let below = T::of(1.0) + c;
+        let half = s / below;
+        // A half turn is never reached.
+        let reached = below.simd_gt(T::epsilon()).all();
+        reached.then_some([half + half, x + half * y, y - half * x])
     }
 
-    fn element_defect(&self, g: &Self::Element) -> T {
-        let turn = g.rotation.complex();
-        let off = (turn.re * turn.re + turn.im * turn.im - T::of(1.0)).simd_abs();
-        off + (g.translation.x + g.translation.y) * T::of(0.0)
+    fn coadjoint_by<T: Scalar>(g: &Isometry2<T>, mu: V3<T>) -> V3<T> {
+        let [c, s, u, v] = parts(g);
+        let (first, second) = (c * mu[1] - s * mu[2], s * mu[1] + c * mu[2]);
+        [mu[0] + u * second - v * first, first, second]
     }
 
-    fn casimir_count(&self) -> usize {
-        1
+    fn defect_of<T: Scalar>(g: &Isometry2<T>) -> T {
+        let [c, s, x, y] = parts(g);
+        (c * c + s * s - T::of(1.0)).simd_abs() + finite([x, y])
     }
 
-    fn casimir(&self, _index: usize, mu: &Self::Vector) -> T {
-        mu.y * mu.y + mu.z * mu.z
+    fn casimir<T: Scalar>(_index: usize, mu: V3<T>) -> T {
+        mu[1] * mu[1] + mu[2] * mu[2]
     }
 
-    fn matrix_size(&self) -> usize {
-        3
+    fn entry<T: Scalar>(g: &Isometry2<T>, row: usize, column: usize) -> T {
+        Self::matrix(Self::numbers(g))[row][column]
     }
 
-    fn matrix_entry(&self, g: &Self::Element, row: usize, column: usize) -> T {
-        let (c, s, x, y) = parts(g);
-        match (row, column) {
-            (0, 0) | (1, 1) => c,
-            (1, 0) => s,
-            (0, 1) => -s,
-            (0, 2) => x,
-            (1, 2) => y,
-            _ => T::of(if column == 2 { 1.0 } else { 0.0 }),
-        }
-    }
-
-    fn element_from_matrix(
-        &self,
+    fn from_matrix<T: Scalar>(
         entry: impl Fn(usize, usize) -> T,
-    ) -> Result<Self::Element, ElementError> {
-        finite(3, &entry)?;
+    ) -> Result<Isometry2<T>, ElementError> {
         for column in 0..3 {
             fixed(&entry, (2, column), if column == 2 { 1.0 } else { 0.0 })?;
         }
@@ -157,25 +126,6 @@ impl<T: Scalar> LieGroup for SE2<T> {
         if !within(defect, T::of(1.0)) {
             return Err(ElementError::NotOrthogonal { defect: defect.largest_lane() });
         }
-        Ok(motion(cosine / norm, sine / norm, entry(0, 2), entry(1, 2)))
-    }
-}
-
-impl<T: Scalar> CayleyGroup for SE2<T> {
-    cayley_by_formulas!(Plane);
-
-    fn cayley(&self, x: &Self::Vector) -> Self::Element {
-        flatten(Plane::cayley(array(x)))
-    }
-
-    fn cayley_inverse(&self, g: &Self::Element) -> Option<Self::Vector> {
-        // ω/2 = tan(θ/2) = sin θ/(1 + cos θ), v = (1 − ω̂/2) t
-        let (c, s, x, y) = parts(g);
-        let below = T::of(1.0) + c;
-        if !below.simd_gt(T::epsilon()).all() {
-            return None; // a half turn: cay never reaches it
-        }
-        let half = s / below;
-        Some(Vector3::new(half + half, x + half * y, y - half * x))
+        Ok(motion([cosine / norm, sine / norm, entry(0, 2), entry(1, 2)]))
     }
 }

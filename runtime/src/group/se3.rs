@@ -1,18 +1,15 @@
 //! SE(3): rigid motions of space.
 
-use core::marker::PhantomData;
+use coadjoint_geometry::group::Matrices;
+use coadjoint_geometry::motion::{Motion, Motions, halves};
+use coadjoint_geometry::rotation::{Quaternions, Turn};
+use coadjoint_geometry::vector::{V3, cross, dot, minus, plus, plus_by};
+use nalgebra::{Isometry3, Translation3};
 
-use coadjoint_geometry::angle::Length;
-use coadjoint_geometry::group::Group;
-use coadjoint_geometry::motion::{Motion, Motions};
-use coadjoint_geometry::rotation::Turn;
-use nalgebra::{Isometry3, Translation3, Vector3, Vector6};
-
-use crate::group::arrays::{array, by_formulas, cayley_by_formulas, nodes, rows};
-use crate::group::element_error::{ElementError, finite, fixed};
+use crate::group::closed::{Closed, Formulas};
+use crate::group::element_error::{ElementError, fixed};
 use crate::group::log::dexp_inverse;
-use crate::group::so3::{self, SO3, rotation_from};
-use crate::group::{CayleyGroup, FixedDimension, LieGroup, Rows};
+use crate::group::so3::rotation_from;
 use crate::number::Scalar;
 
 /// The Euclidean group SE(3), elements as a rotation (unit quaternion) and a translation.
@@ -21,157 +18,82 @@ use crate::number::Scalar;
 /// the dual μ = (Π, Γ), the angular and the linear momentum (for a heavy top, the momentum and the
 /// advected vertical). Brackets: [(ω, v), (η, w)] = (ω×η, ω×w − η×v). Matrices: 4×4, rotation and
 /// translation column. Ad\*_g (Π, Γ) = (RΠ + t×RΓ, RΓ). Casimirs: |Γ|², Π·Γ. Both charts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SE3<T = f64>(PhantomData<T>);
+pub type SE3<T = f64> = Closed<Motions, T, 6, 7>;
 
-impl<T> SE3<T> {
-    /// The group; there is nothing to choose.
-    #[must_use]
-    pub const fn new() -> Self {
-        Self(PhantomData)
-    }
-}
+/// The rotations of space.
+type Space = Quaternions<false>;
 
-// A derived impl would ask for `T: Default`.
-impl<T> Default for SE3<T> {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-impl<T> FixedDimension for SE3<T> {
-    const DIM: usize = 6;
-}
-
-type V<T> = Vector3<T>;
-
+/// The turn of an element, and its translation.
 #[inline(always)]
-fn split<T: Scalar>(x: &Vector6<T>) -> (V<T>, V<T>) {
-    (V::new(x[0], x[1], x[2]), V::new(x[3], x[4], x[5]))
+fn parts<T: Scalar>(g: &Isometry3<T>) -> (Turn<T>, V3<T>) {
+    (Turn::of(Space::numbers(&g.rotation)), g.translation.vector.into())
 }
 
 #[inline(always)]
-fn join<T: Scalar>(a: &V<T>, b: &V<T>) -> Vector6<T> {
-    Vector6::new(a.x, a.y, a.z, b.x, b.y, b.z)
+fn whole<T: Scalar>([a, b, c]: V3<T>, [d, e, f]: V3<T>) -> [T; 6] {
+    [a, b, c, d, e, f]
 }
 
-#[inline(always)]
-fn isometry<T: Scalar>(rotation: nalgebra::UnitQuaternion<T>, t: V<T>) -> Isometry3<T> {
-    Isometry3 { rotation, translation: Translation3 { vector: t } }
-}
+impl Formulas<6, 7> for Motions {
+    type Element<T: Scalar> = Isometry3<T>;
 
-/// The numbers of an element: its quaternion, then its translation.
-#[inline(always)]
-pub(crate) fn numbers<T: Scalar>(g: &Isometry3<T>) -> [T; 7] {
-    let ([w, i, j, k], [a, b, c]) = (so3::numbers(&g.rotation), array(&g.translation.vector));
-    [w, i, j, k, a, b, c]
-}
+    const ROWS: usize = 4;
+    const CASIMIRS: usize = 2;
 
-/// The element of these numbers.
-#[inline(always)]
-pub(crate) fn element<T: Scalar>([w, i, j, k, a, b, c]: [T; 7]) -> Isometry3<T> {
-    isometry(so3::quaternion([w, i, j, k]), V::new(a, b, c))
-}
-
-#[inline(always)]
-fn of_motion<T: Scalar>(motion: Motion<T>) -> Isometry3<T> {
-    isometry(so3::quaternion(motion.turn.quaternion()), motion.place.into())
-}
-
-impl<T: Scalar> LieGroup for SE3<T> {
-    type Scalar = T;
-    type Vector = Vector6<T>;
-    type Element = Isometry3<T>;
-
-    by_formulas!(Motions);
-
-    fn dim(&self) -> usize {
-        6
+    #[inline(always)]
+    fn numbers<T: Scalar>(g: &Isometry3<T>) -> [T; 7] {
+        let ([w, i, j, k], (_, [a, b, c])) = (Space::numbers(&g.rotation), parts(g));
+        [w, i, j, k, a, b, c]
     }
 
-    fn identity(&self) -> Self::Element {
-        isometry(SO3::new().identity(), V::repeat(T::of(0.0)))
+    #[inline(always)]
+    fn element<T: Scalar>([w, i, j, k, a, b, c]: [T; 7]) -> Isometry3<T> {
+        Self::of_increment(Motion { turn: Turn::of([w, i, j, k]), place: [a, b, c] })
     }
 
-    /// The product; its rotation is kept on the unit sphere as SO(3)'s is.
-    fn compose(&self, g: &Self::Element, h: &Self::Element) -> Self::Element {
-        element(Motion::of(numbers(h)).after(numbers(g)))
+    #[inline(always)]
+    fn of_increment<T: Scalar>(h: Motion<T>) -> Isometry3<T> {
+        let translation = Translation3 { vector: h.place.into() };
+        Isometry3 { rotation: Space::of_increment(h.turn), translation }
     }
 
-    fn inverse(&self, g: &Self::Element) -> Self::Element {
-        let place = Turn::of(so3::numbers(&g.rotation)).back(array(&g.translation.vector));
-        isometry(g.rotation.conjugate(), -V::from(place))
+    fn compose<T: Scalar>(g: &Isometry3<T>, h: &Isometry3<T>) -> Isometry3<T> {
+        Self::element(Motion::of(Self::numbers(h)).after(Self::numbers(g)))
     }
 
-    fn exp(&self, x: &Self::Vector) -> Self::Element {
-        of_motion(Motions::exp(array(x), Length::Any))
+    fn inverse<T: Scalar>(g: &Isometry3<T>) -> Isometry3<T> {
+        let (turn, t) = parts(g);
+        Self::of_increment(Motion { turn: turn.inverse(), place: minus(turn.back(t)) })
     }
 
-    fn exp_transport(&self, x: &Self::Vector, mu: &Self::Vector) -> (Self::Element, Self::Vector) {
-        let motion = Motions::exp(array(x), Length::Any);
-        (of_motion(motion), motion.back(array(mu)).into())
+    fn log<T: Scalar>(g: &Isometry3<T>) -> Option<[T; 6]> {
+        let ((_, t), omega) = (parts(g), Space::log(&g.rotation)?);
+        let c = dexp_inverse(omega.map(|entry| entry * T::of(0.5)));
+        let once = cross(omega, t);
+        Some(whole(omega, plus(plus_by(t, -0.5, once), c, cross(omega, once))))
     }
 
-    fn log(&self, g: &Self::Element) -> Option<Self::Vector> {
-        let omega = SO3::new().log(&g.rotation)?;
-        let c = dexp_inverse(array(&(omega * T::of(0.5))));
-        let t = &g.translation.vector;
-        let once = omega.cross(t);
-        Some(join(&omega, &(t - once * T::of(0.5) + omega.cross(&once) * c)))
+    fn cayley_inverse<T: Scalar>(g: &Isometry3<T>) -> Option<[T; 6]> {
+        let ((_, t), omega) = (parts(g), Space::cayley_inverse(&g.rotation)?);
+        Some(whole(omega, plus_by(t, -0.5, cross(omega, t))))
     }
 
-    fn coadjoint(&self, g: &Self::Element, mu: &Self::Vector) -> Self::Vector {
-        Motions::coadjoint(numbers(g), array(mu)).into()
+    fn casimir<T: Scalar>(index: usize, mu: [T; 6]) -> T {
+        let [pi, gamma] = halves(mu);
+        dot(gamma, if index == 0 { gamma } else { pi })
     }
 
-    fn element_defect(&self, g: &Self::Element) -> T {
-        Motions::defect(numbers(g))
+    fn entry<T: Scalar>(g: &Isometry3<T>, row: usize, column: usize) -> T {
+        Self::matrix(Self::numbers(g))[row][column]
     }
 
-    fn casimir_count(&self) -> usize {
-        2
-    }
-
-    fn casimir(&self, index: usize, mu: &Self::Vector) -> T {
-        let (pi, gamma) = split(mu);
-        if index == 0 { gamma.norm_squared() } else { pi.dot(&gamma) }
-    }
-
-    fn matrix_size(&self) -> usize {
-        4
-    }
-
-    fn matrix_entry(&self, g: &Self::Element, row: usize, column: usize) -> T {
-        match (row, column) {
-            (0..3, 0..3) => SO3::new().matrix_entry(&g.rotation, row, column),
-            (0..3, _) => g.translation.vector[row],
-            _ => T::of(if column == 3 { 1.0 } else { 0.0 }),
-        }
-    }
-
-    fn element_from_matrix(
-        &self,
+    fn from_matrix<T: Scalar>(
         entry: impl Fn(usize, usize) -> T,
-    ) -> Result<Self::Element, ElementError> {
-        finite(4, &entry)?;
+    ) -> Result<Isometry3<T>, ElementError> {
         for column in 0..4 {
             fixed(&entry, (3, column), if column == 3 { 1.0 } else { 0.0 })?;
         }
-        let t = V::from_fn(|row, _| entry(row, 3));
-        Ok(isometry(rotation_from(entry)?, t))
-    }
-}
-
-impl<T: Scalar> CayleyGroup for SE3<T> {
-    cayley_by_formulas!(Motions);
-
-    fn cayley(&self, x: &Self::Vector) -> Self::Element {
-        of_motion(Motions::cayley(array(x)))
-    }
-
-    fn cayley_inverse(&self, g: &Isometry3<T>) -> Option<Self::Vector> {
-        let omega = SO3::new().cayley_inverse(&g.rotation)?;
-        let t = &g.translation.vector;
-        Some(join(&omega, &(t - omega.cross(t) * T::of(0.5))))
+        let vector = [entry(0, 3), entry(1, 3), entry(2, 3)].into();
+        Ok(Isometry3 { rotation: rotation_from(entry)?, translation: Translation3 { vector } })
     }
 }

@@ -1,12 +1,8 @@
 //! Group elements as the numbers that straight-line programs compute with.
 
-use nalgebra::{Isometry2, Translation2, UnitComplex};
-
 use crate::group::LieGroup;
+use crate::group::closed::{Closed, Formulas};
 use crate::group::product::{pair::Product, row::Power};
-use crate::group::se2::SE2;
-use crate::group::se3::{self, SE3};
-use crate::group::so3::{self, Quaternions};
 use crate::number::Scalar;
 use crate::table::fixed::{StaticAlgebra, StaticMatrixGroup};
 
@@ -22,59 +18,23 @@ pub trait ElementNumbers: LieGroup {
     fn read(numbers: &[Self::Scalar]) -> Self::Element;
 }
 
-impl<T: Scalar, const DOUBLE_COVER: bool> ElementNumbers for Quaternions<T, DOUBLE_COVER> {
-    const COUNT: usize = 4;
+impl<F, T, const N: usize, const M: usize> ElementNumbers for Closed<F, T, N, M>
+where
+    F: Formulas<N, M>,
+    T: Scalar,
+{
+    const COUNT: usize = M;
 
     #[inline(always)]
     fn write(g: &Self::Element, numbers: &mut [T]) {
-        numbers[..4].copy_from_slice(&so3::numbers(g));
+        numbers[..M].copy_from_slice(&F::numbers(g));
     }
 
     #[inline(always)]
-    fn read(n: &[T]) -> Self::Element {
-        so3::quaternion([n[0], n[1], n[2], n[3]])
-    }
-}
-
-impl<T: Scalar> ElementNumbers for SE3<T> {
-    const COUNT: usize = 7;
-
-    #[inline(always)]
-    fn write(g: &Self::Element, numbers: &mut [T]) {
-        numbers[..7].copy_from_slice(&se3::numbers(g));
-    }
-
-    #[inline(always)]
-    fn read(n: &[T]) -> Self::Element {
-        se3::element([n[0], n[1], n[2], n[3], n[4], n[5], n[6]])
-    }
-}
-
-impl<T: Scalar> ElementNumbers for SE2<T> {
-    const COUNT: usize = 4;
-
-    /// Cosine and sine of half the angle, then the translation.
-    #[inline(always)]
-    fn write(g: &Self::Element, numbers: &mut [T]) {
-        let (half, one) = (T::of(0.5), T::of(1.0));
-        let (cosine, sine) = (g.rotation.re, g.rotation.im);
-        // The larger of both by a root, the other one by sin θ = 2 sin(θ/2) cos(θ/2).
-        let large = (half + half * cosine.simd_abs()).simd_sqrt();
-        let small = half * sine / large;
-        let near = cosine.simd_ge(T::of(0.0));
-        let sign = one.select(sine.simd_ge(T::of(0.0)), -one);
-        numbers[0] = large.select(near, small * sign);
-        numbers[1] = small.select(near, large * sign);
-        numbers[2] = g.translation.vector.x;
-        numbers[3] = g.translation.vector.y;
-    }
-
-    #[inline(always)]
-    fn read(n: &[T]) -> Self::Element {
-        let (w, k) = (n[0], n[1]);
-        let rotation =
-            UnitComplex::new_unchecked(nalgebra::Complex::new((w - k) * (w + k), (w + w) * k));
-        Isometry2::from_parts(Translation2::new(n[2], n[3]), rotation)
+    fn read(numbers: &[T]) -> Self::Element {
+        let mut own = [T::of(0.0); M];
+        own.copy_from_slice(&numbers[..M]);
+        F::element(own)
     }
 }
 

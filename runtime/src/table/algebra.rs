@@ -27,7 +27,7 @@ pub struct Algebra<'a> {
     pub(super) gram_inverse: &'a [f64],
     /// The quadratic form that bounds eigenvalues of ad_x: see `domain`.
     pub(super) elliptic: &'a [f64],
-    /// The same of the matrix of x.
+    /// The quadratic form that bounds eigenvalues of the matrix of x; nothing where it is ad_x.
     pub(super) cayley: &'a [f64],
 }
 
@@ -63,8 +63,8 @@ impl<'a> Algebra<'a> {
     }
 }
 
-/// The facts about the matrices of an algebra of dimension `n`, whose inverse Gram matrix is written to `gram_inverse`
-/// (n×n). `gram` (n×n) and `dense` (d×d) are room to work in; both matrices are zero before.
+/// The facts about the matrices of an algebra of dimension `n`, whose Gram matrix is written to `gram` (n×n); all but
+/// [`Facts::dependent`], which its inversion tells. `dense` (d×d) is room to work in; `gram` is zero before.
 ///
 /// A function of the compiler's, where the tables are in the program.
 pub(super) const fn facts(
@@ -72,7 +72,6 @@ pub(super) const fn facts(
     basis: Option<&[BasisEntry]>,
     (n, d): (usize, usize),
     gram: &mut [f64],
-    gram_inverse: &mut [f64],
     dense: &mut [f64],
 ) -> Facts {
     let (mut orthogonal, mut traceless) = (true, true);
@@ -112,12 +111,12 @@ pub(super) const fn facts(
         diagonal = diagonal && (at / n == at % n || gram[at] == 0.0);
         at += 1;
     }
-    Facts { dependent: invert(n, gram, gram_inverse), diagonal, orthogonal, traceless }
+    Facts { dependent: None, diagonal, orthogonal, traceless }
 }
 
 /// Replaces b, which is zero, by the inverse of a Gram matrix; else returns the first vector that depends on those before
 /// it. A Gram matrix needs no pivoting.
-const fn invert(n: usize, a: &mut [f64], b: &mut [f64]) -> Option<usize> {
+pub(super) const fn invert(n: usize, a: &mut [f64], b: &mut [f64]) -> Option<usize> {
     // The squares of the lengths, until it is their turn.
     let mut k = 0;
     while k < n {

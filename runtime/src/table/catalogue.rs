@@ -63,36 +63,26 @@ impl<const N: usize> StaticAlgebra for SpecialUnitary<N> {
     };
 }
 
-impl StaticAlgebra for SL2Algebra {
-    const DIM: usize = 3;
-    const MATRIX_SIZE: usize = 2;
-    const STRUCTURE: &'static [StructureConstant] = const { &brackets(&SL2_BASIS) }.entries();
-    const BASIS: Option<&'static [BasisEntry]> = Some(SL2_BASIS.entries());
-    const CASIMIRS: &'static [&'static [CasimirTerm]] =
-        &[&[(1.0, &[(0, 2)]), (4.0, &[(1, 1), (2, 1)])]];
+/// The tables of an algebra of fixed size, and that xξx stays in it.
+macro_rules! small {
+    ($algebra:ident, $dim:literal, $size:literal, $basis:ident, $casimirs:expr) => {
+        impl StaticAlgebra for $algebra {
+            const DIM: usize = $dim;
+            const MATRIX_SIZE: usize = $size;
+            const STRUCTURE: &'static [StructureConstant] = const { &brackets(&$basis) }.entries();
+            const BASIS: Option<&'static [BasisEntry]> = Some($basis.entries());
+            const CASIMIRS: &'static [&'static [CasimirTerm]] = $casimirs;
+        }
+
+        impl CayleyAlgebra for $algebra {}
+    };
 }
 
-impl StaticAlgebra for Aff1Algebra {
-    const DIM: usize = 2;
-    const MATRIX_SIZE: usize = 2;
-    const STRUCTURE: &'static [StructureConstant] = const { &brackets(&AFF1_BASIS) }.entries();
-    const BASIS: Option<&'static [BasisEntry]> = Some(AFF1_BASIS.entries());
-    const CASIMIRS: &'static [&'static [CasimirTerm]] = &[];
-}
-
-impl StaticAlgebra for HeisenbergAlgebra {
-    const DIM: usize = 3;
-    const MATRIX_SIZE: usize = 3;
-    const STRUCTURE: &'static [StructureConstant] =
-        const { &brackets(&HEISENBERG_BASIS) }.entries();
-    const BASIS: Option<&'static [BasisEntry]> = Some(HEISENBERG_BASIS.entries());
-    const CASIMIRS: &'static [&'static [CasimirTerm]] = &[&[(1.0, &[(2, 1)])]];
-}
+small!(SL2Algebra, 3, 2, SL2_BASIS, &[&[(1.0, &[(0, 2)]), (4.0, &[(1, 1), (2, 1)])]]);
+small!(Aff1Algebra, 2, 2, AFF1_BASIS, &[]);
+small!(HeisenbergAlgebra, 3, 3, HEISENBERG_BASIS, &[&[(1.0, &[(2, 1)])]]);
 
 impl<const D: usize> CayleyAlgebra for Rotations<D> {}
-impl CayleyAlgebra for SL2Algebra {}
-impl CayleyAlgebra for Aff1Algebra {}
-impl CayleyAlgebra for HeisenbergAlgebra {}
 
 static SL2_BASIS: Entries =
     Entries::EMPTY.with(0, 0, 0, 1.0).with(0, 1, 1, -1.0).with(1, 0, 1, 1.0).with(2, 1, 0, 1.0);
@@ -104,9 +94,8 @@ static HEISENBERG_BASIS: Entries =
 
 /// Room for the structure constants of any table here; a larger one does not compile.
 const CAPACITY: usize = 96;
-/// Room for the matrices and the basis of SU3 and SO5.
+/// Room for the matrices of SU3.
 const MAX_SIZE: usize = 6;
-const MAX_DIM: usize = 10;
 
 struct Entries {
     all: [(usize, usize, usize, f64); CAPACITY],
@@ -164,90 +153,50 @@ const fn special_unitary(n: usize) -> Entries {
 
 /// The structure constants of a basis in which the first entry of each matrix is zero in all that follow it.
 const fn brackets(basis: &Entries) -> Entries {
-    // Where the entries of each matrix begin.
-    let (mut start, mut dim, mut at) = ([0; MAX_DIM + 1], 0, 0);
-    while at < basis.len {
-        if basis.all[at].0 == dim {
-            start[dim] = at;
-            dim += 1;
-        }
-        at += 1;
-    }
-    start[dim] = basis.len;
+    let dim = basis.all[basis.len - 1].0 + 1;
     let (mut structure, mut i) = (Entries::EMPTY, 0);
     while i < dim * dim {
         let (first, second) = (i / dim, i % dim);
-        let mut rest = [[0.0; MAX_SIZE]; MAX_SIZE];
-        add_product(
-            &mut rest,
-            basis,
-            (start[first], start[first + 1]),
-            (start[second], start[second + 1]),
-            1.0,
-        );
-        add_product(
-            &mut rest,
-            basis,
-            (start[second], start[second + 1]),
-            (start[first], start[first + 1]),
-            -1.0,
-        );
-        let mut k = 0;
-        while k < dim {
-            let (_, row, column, value) = basis.all[start[k]];
-            let coordinate = rest[row][column] / value;
-            if coordinate != 0.0 {
-                structure = structure.with(first, second, k, coordinate);
-                let mut at = start[k];
-                while at < start[k + 1] {
-                    let (_, row, column, value) = basis.all[at];
-                    rest[row][column] -= coordinate * value;
-                    at += 1;
+        let (mut rest, mut a) = ([[0.0; MAX_SIZE]; MAX_SIZE], 0);
+        while a < basis.len {
+            let (index, row, inner, value) = basis.all[a];
+            let mut b = if index == first { 0 } else { basis.len };
+            while b < basis.len {
+                let (index, other, column, factor) = basis.all[b];
+                if index == second && inner == other {
+                    rest[row][column] += value * factor;
+                }
+                if index == second && column == row {
+                    rest[other][inner] -= factor * value;
+                }
+                b += 1;
+            }
+            a += 1;
+        }
+        let (mut coordinate, mut at) = (0.0, 0);
+        while at < basis.len {
+            let (k, row, column, value) = basis.all[at];
+            if at == 0 || basis.all[at - 1].0 != k {
+                coordinate = rest[row][column] / value;
+                if coordinate != 0.0 {
+                    structure = structure.with(first, second, k, coordinate);
                 }
             }
-            k += 1;
+            rest[row][column] -= coordinate * value;
+            at += 1;
         }
         i += 1;
     }
     structure
 }
 
-/// Adds `sign` times the product of two matrices, whose entries are given by where they begin and end.
-const fn add_product(
-    sum: &mut [[f64; MAX_SIZE]; MAX_SIZE],
-    basis: &Entries,
-    left: (usize, usize),
-    right: (usize, usize),
-    sign: f64,
-) {
-    let mut a = left.0;
-    while a < left.1 {
-        let (_, row, inner, value) = basis.all[a];
-        let mut b = right.0;
-        while b < right.1 {
-            let (_, other, column, factor) = basis.all[b];
-            if inner == other {
-                sum[row][column] += sign * value * factor;
-            }
-            b += 1;
-        }
-        a += 1;
-    }
+/// The squares of these coordinates.
+macro_rules! squares {
+    ($($i:literal)*) => { &[$((1.0, &[($i, 2)])),*] };
 }
 
 /// The square of the momentum: of 𝔰𝔬(5), and its beginning of 𝔰𝔬(4).
-const SQUARES: &[CasimirTerm] = &[
-    (1.0, &[(0, 2)]),
-    (1.0, &[(1, 2)]),
-    (1.0, &[(2, 2)]),
-    (1.0, &[(3, 2)]),
-    (1.0, &[(4, 2)]),
-    (1.0, &[(5, 2)]),
-    (1.0, &[(6, 2)]),
-    (1.0, &[(7, 2)]),
-    (1.0, &[(8, 2)]),
-    (1.0, &[(9, 2)]),
-];
+const SQUARES: &[CasimirTerm] = squares!(0 1 2 3 4 5 6 7 8 9);
 
 /// The second Casimir of 𝔰𝔬(4).
 const PFAFFIAN: &[CasimirTerm] =

@@ -1,6 +1,5 @@
 //! Where charts are charts, for groups given by tables: quadratic forms that bound eigenvalues.
 
-use core::f64::consts::PI;
 use core::ops::Index;
 
 use super::algebra::{BasisEntry, StructureConstant};
@@ -10,7 +9,8 @@ use crate::number::Scalar;
 pub(super) const MAX_DIM: usize = 128;
 
 /// Writes to `form` (n×n, row by row) a quadratic form Q with (Im λ)² ≤ Q(x) for every eigenvalue λ of ad_x, and
-/// returns the nilpotent ideal that was found. `ad` (n×n×n) receives the matrices ad_i, row by row.
+/// returns the nilpotent ideal that was found. `ad` (n×n×n) receives the matrices ad_i, row by row; `inner` (n×n) is room to
+/// work in. All are zero before.
 ///
 /// Basis vectors that span a nilpotent ideal R leave the eigenvalues alone, since R acts as zero on the
 /// composition factors of 𝔤. On 𝔤/R and on R, blocks of at most three dimensions with trace zero have
@@ -21,6 +21,7 @@ pub(super) const fn elliptic_form(
     n: usize,
     structure: &[StructureConstant],
     ad: &mut [f64],
+    inner: &mut [f64],
     form: &mut [f64],
 ) -> u128 {
     let mut at = 0;
@@ -31,52 +32,66 @@ pub(super) const fn elliptic_form(
     }
     let ideal = if n > MAX_DIM { 0 } else { nilpotent_ideal(n, structure, ad) };
     let size = ideal.count_ones() as usize;
-    let small = size <= 3 && n - size <= 3;
-    let traceless =
-        small && traceless(n, structure, ideal, true) && traceless(n, structure, ideal, false);
-    // One form serves both blocks where they agree, or where one of them is zero; else the sum does, if no
-    // form is indefinite.
-    let agreement = agreement(n, structure, ad, ideal, traceless);
-    let exact = traceless && !matches!(agreement, Agreement::None);
-    let mut at = 0;
-    while at < structure.len() {
-        let (a, j, k, c) = structure[at];
-        let inside = holds(ideal, j);
-        let both = matches!(agreement, Agreement::Equal) && inside;
-        if !holds(ideal, a) && holds(ideal, k) == inside && !both {
-            let mut b = 0;
+    let (mut exact, mut a) = (size <= 3 && n - size <= 3, 0);
+    while a < n {
+        let traces = [trace(n, ad, a, ideal, true), trace(n, ad, a, ideal, false)];
+        exact = exact && traces[0] == 0.0 && traces[1] == 0.0;
+        a += 1;
+    }
+    loop {
+        let mut at = 0;
+        while at < n * n {
+            (form[at], inner[at]) = (0.0, 0.0);
+            at += 1;
+        }
+        at = 0;
+        while at < structure.len() {
+            let (a, j, k, c) = structure[at];
+            let inside = holds(ideal, j);
+            let mut b = if holds(ideal, a) || holds(ideal, k) != inside { n } else { 0 };
             while b < n {
+                let block = if inside { &mut *inner } else { &mut *form };
                 if !holds(ideal, b) {
-                    form[a * n + b] += share(n, ad, exact, b, j, k, c);
+                    block[a * n + b] += share(n, ad, exact, b, j, k, c);
                 }
                 b += 1;
             }
+            at += 1;
         }
-        at += 1;
+        // One form serves both blocks where they agree; else their sum does, unless forms may be negative.
+        let (mut equal, mut no_quotient, mut nothing_inside) = (true, true, true);
+        at = 0;
+        while at < n * n {
+            equal = equal && form[at] == inner[at];
+            no_quotient = no_quotient && form[at] == 0.0;
+            nothing_inside = nothing_inside && inner[at] == 0.0;
+            at += 1;
+        }
+        if equal || no_quotient || nothing_inside || !exact {
+            at = 0;
+            while at < n * n {
+                let [a, b] = [at / n, at % n];
+                let whole = trace(n, ad, a, ideal, true) + trace(n, ad, a, ideal, false);
+                let other = trace(n, ad, b, ideal, true) + trace(n, ad, b, ideal, false);
+                form[at] += whole * other + if equal { 0.0 } else { inner[at] };
+                at += 1;
+            }
+            return ideal;
+        }
+        exact = false;
     }
-    let mut at = 0;
-    while at < n * n {
-        form[at] += trace(n, ad, at / n) * trace(n, ad, at % n);
-        at += 1;
-    }
-    ideal
 }
 
-/// tr ad_a.
-const fn trace(n: usize, ad: &[f64], a: usize) -> f64 {
+/// The trace of ad_a on the ideal, or on what is left.
+const fn trace(n: usize, ad: &[f64], a: usize, ideal: u128, inside: bool) -> f64 {
     let (mut sum, mut j) = (0.0, 0);
     while j < n {
-        sum += ad[(a * n + j) * n + j];
+        if holds(ideal, j) == inside {
+            sum += ad[(a * n + j) * n + j];
+        }
         j += 1;
     }
     sum
-}
-
-/// How the forms of the two blocks compare.
-enum Agreement {
-    Equal,
-    OneIsZero,
-    None,
 }
 
 /// The contribution of the entry c at (k, j) of a matrix to its product with ad_b: −½ tr A B, or ½ ⟨skew A, skew B⟩.
@@ -88,45 +103,6 @@ const fn share(n: usize, ad: &[f64], exact: bool, b: usize, j: usize, k: usize, 
 
 const fn holds(set: u128, i: usize) -> bool {
     i < MAX_DIM && set >> i & 1 == 1
-}
-
-const fn agreement(
-    n: usize,
-    structure: &[StructureConstant],
-    ad: &[f64],
-    ideal: u128,
-    exact: bool,
-) -> Agreement {
-    let (mut equal, mut no_quotient, mut nothing_inside) = (true, true, true);
-    let mut a = 0;
-    while a < n && ideal != 0 {
-        let mut b = 0;
-        while b < n && !holds(ideal, a) {
-            let (mut quotient, mut within) = (0.0, 0.0);
-            let mut at = 0;
-            while at < structure.len() && !holds(ideal, b) {
-                let (i, j, k, c) = structure[at];
-                if i == a && holds(ideal, j) && holds(ideal, k) {
-                    within += share(n, ad, exact, b, j, k, c);
-                } else if i == a && !holds(ideal, j) && !holds(ideal, k) {
-                    quotient += share(n, ad, exact, b, j, k, c);
-                }
-                at += 1;
-            }
-            equal = equal && quotient == within;
-            no_quotient = no_quotient && quotient == 0.0;
-            nothing_inside = nothing_inside && within == 0.0;
-            b += 1;
-        }
-        a += 1;
-    }
-    if no_quotient || nothing_inside {
-        Agreement::OneIsZero
-    } else if equal {
-        Agreement::Equal
-    } else {
-        Agreement::None
-    }
 }
 
 /// The largest set of basis vectors in the radical of the Killing form that spans an ideal, if that is nilpotent;
@@ -185,34 +161,14 @@ const fn nilpotent_ideal(n: usize, structure: &[StructureConstant], ad: &[f64]) 
     ideal
 }
 
-/// Whether every ad_i has trace zero on the block.
-const fn traceless(n: usize, structure: &[StructureConstant], ideal: u128, inside: bool) -> bool {
-    let mut a = 0;
-    while a < n {
-        let mut trace = 0.0;
-        let mut at = 0;
-        while at < structure.len() {
-            let (i, j, k, c) = structure[at];
-            if i == a && j == k && holds(ideal, j) == inside {
-                trace += c;
-            }
-            at += 1;
-        }
-        if trace != 0.0 {
-            return false;
-        }
-        a += 1;
-    }
-    true
-}
-
 /// Writes to `form` a quadratic form Q with |λ|² ≤ Q(x) for every eigenvalue λ of the matrix of x: half the square
-/// of its Frobenius norm where all matrices are antisymmetric (eigenvalues come in pairs), else four times that,
-/// which keeps 1 − x/2 well conditioned where Q ≤ 4. Basis vectors in `ideal` whose matrix squares to zero and is
+/// of its Frobenius norm, by the Gram matrix, where all matrices are antisymmetric (eigenvalues come in pairs), else four
+/// times that, which keeps 1 − x/2 well conditioned where Q ≤ 4. Basis vectors in `ideal` whose matrix squares to zero and is
 /// orthogonal to all others under the trace do not count (translations).
 pub(super) const fn cayley_form(
     n: usize,
     entries: &[BasisEntry],
+    gram: &[f64],
     antisymmetric: bool,
     ideal: u128,
     form: &mut [f64],
@@ -223,29 +179,13 @@ pub(super) const fn cayley_form(
         let (a, b) = (i / n, i % n);
         let skip = (holds(ideal, a) && is_null(n, entries, a))
             || (holds(ideal, b) && is_null(n, entries, b));
-        form[i] = if skip { 0.0 } else { factor * matrix_product(entries, a, b, false) };
+        form[i] = if skip { 0.0 } else { factor * gram[i] };
         i += 1;
     }
 }
 
-/// [`LieGroup::exp_extent`](crate::LieGroup::exp_extent) by an elliptic form.
-pub(super) fn exp_extent<T: Scalar, V>(form: &[f64], n: usize, x: &V) -> T
-where
-    V: Index<usize, Output = T>,
-{
-    evaluate(form, n, x) * T::of(1.0 / (PI * PI))
-}
-
-/// [`CayleyGroup::cayley_extent`](crate::CayleyGroup::cayley_extent) by a Cayley form.
-pub(super) fn cayley_extent<T: Scalar, V>(form: &[f64], n: usize, x: &V) -> T
-where
-    V: Index<usize, Output = T>,
-{
-    evaluate(form, n, x) * T::of(0.25)
-}
-
 /// Σ Q_ij x_i x_j over a form as the functions above write it.
-fn evaluate<T: Scalar, V>(form: &[f64], n: usize, x: &V) -> T
+pub(super) fn evaluate<T: Scalar, V>(form: &[f64], n: usize, x: &V) -> T
 where
     V: Index<usize, Output = T>,
 {
@@ -268,51 +208,27 @@ where
 const fn is_null(n: usize, entries: &[BasisEntry], a: usize) -> bool {
     let mut b = 0;
     while b < n {
-        if matrix_product(entries, a, b, true) != 0.0 {
+        let (mut trace, mut first) = (0.0, 0);
+        while first < entries.len() {
+            let (i, row, column, value) = entries[first];
+            let mut second = if i == a { 0 } else { entries.len() };
+            while second < entries.len() {
+                let (j, other_row, other_column, other) = entries[second];
+                let meets = other_row == column;
+                if j == a && meets {
+                    return false;
+                }
+                if j == b && meets && other_column == row {
+                    trace += value * other;
+                }
+                second += 1;
+            }
+            first += 1;
+        }
+        if trace != 0.0 {
             return false;
         }
         b += 1;
     }
-    let mut first = 0;
-    while first < entries.len() {
-        let (i, _, column, _) = entries[first];
-        if i == a {
-            let mut second = 0;
-            while second < entries.len() {
-                let (j, row, _, _) = entries[second];
-                if j == a && row == column {
-                    return false;
-                }
-                second += 1;
-            }
-        }
-        first += 1;
-    }
     true
-}
-
-/// The sum of products of the entries of e_a with those of e_b, or of its transpose.
-const fn matrix_product(entries: &[BasisEntry], a: usize, b: usize, transposed: bool) -> f64 {
-    let mut sum = 0.0;
-    let mut first = 0;
-    while first < entries.len() {
-        let (i, row, column, value) = entries[first];
-        if i == a {
-            let mut second = 0;
-            while second < entries.len() {
-                let (j, other_row, other_column, other) = entries[second];
-                let meet = if transposed {
-                    other_row == column && other_column == row
-                } else {
-                    other_row == row && other_column == column
-                };
-                if j == b && meet {
-                    sum += value * other;
-                }
-                second += 1;
-            }
-        }
-        first += 1;
-    }
-    sum
 }

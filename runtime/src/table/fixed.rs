@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 
 use nalgebra::SVector;
 
-use super::algebra::{Algebra, BasisEntry, CasimirTerm, Facts, StructureConstant, facts};
+use super::algebra::{Algebra, BasisEntry, CasimirTerm, Facts, StructureConstant, facts, invert};
 use super::domain;
 use super::group::TableGroup;
 use super::tables::{Tables, monomial};
@@ -102,24 +102,16 @@ const fn derive<const N: usize, const D: usize>(
     structure: &[StructureConstant],
 ) -> Derived<N> {
     let [mut gram, mut gram_inverse, mut elliptic, mut cayley] = [[[0.0; N]; N]; 4];
-    let mut dense = [[0.0; D]; D];
-    let facts = facts(
-        structure,
-        basis,
-        (N, D),
-        gram.as_flattened_mut(),
-        gram_inverse.as_flattened_mut(),
-        dense.as_flattened_mut(),
-    );
-    let mut ad = [[[0.0; N]; N]; N];
-    let flat = ad.as_flattened_mut().as_flattened_mut();
-    let ideal = domain::elliptic_form(N, structure, flat, elliptic.as_flattened_mut());
+    let (mut dense, mut ad) = ([[0.0; D]; D], [[[0.0; N]; N]; N]);
+    let ad = ad.as_flattened_mut().as_flattened_mut();
+    let [gram, inverse, room] =
+        [gram.as_flattened_mut(), gram_inverse.as_flattened_mut(), cayley.as_flattened_mut()];
+    let ideal = domain::elliptic_form(N, structure, ad, room, elliptic.as_flattened_mut());
+    let mut facts = facts(structure, basis, (N, D), gram, dense.as_flattened_mut());
     if let Some(entries) = basis {
-        domain::cayley_form(N, entries, facts.orthogonal, ideal, cayley.as_flattened_mut());
-    } else {
-        // The adjoint matrices themselves.
-        cayley = elliptic;
+        domain::cayley_form(N, entries, gram, facts.orthogonal, ideal, room);
     }
+    facts.dependent = invert(N, gram, inverse);
     Derived { facts, gram_inverse, elliptic, cayley }
 }
 
@@ -150,11 +142,8 @@ impl<A: StaticAlgebra, const N: usize, const D: usize, T: Scalar> Tables
     }
 
     fn casimir(&self, index: usize, mu: &Self::Vector) -> T {
-        let mut sum = T::of(0.0);
-        for &(c, factors) in A::CASIMIRS.get(index).copied().unwrap_or_default() {
-            sum += monomial(c, factors, mu);
-        }
-        sum
+        let terms = A::CASIMIRS.get(index).copied().unwrap_or_default();
+        terms.iter().fold(T::of(0.0), |sum, &(c, factors)| sum + monomial(c, factors, mu))
     }
 }
 

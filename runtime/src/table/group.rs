@@ -1,8 +1,10 @@
 //! Everything a Lie group must offer, from its tables.
 
+use core::f64::consts::PI;
+
 use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd};
 
-use crate::group::element_error::{ElementError, within};
+use crate::group::element_error::{ElementError, finite, within};
 use crate::group::{CayleyGroup, LieGroup, Rows};
 use crate::linear::coordinates::Coordinates;
 use crate::linear::square;
@@ -82,12 +84,15 @@ impl<K: Tables> TableGroup<K> {
         if facts.diagonal {
             return K::Vector::from_entries(dim, |i| v[i] * entry(i, i));
         }
+        self.applied(entry, v)
+    }
+
+    /// The product of a matrix of this dimension with a vector.
+    fn applied(&self, entry: impl Fn(usize, usize) -> K::Scalar, v: &K::Vector) -> K::Vector {
+        let dim = self.algebra().dim;
         K::Vector::from_entries(dim, |i| {
-            let mut sum = K::Scalar::of(0.0);
-            for j in 0..dim {
-                sum = v[j].times_plus(entry(i, j), sum);
-            }
-            sum
+            let row = |sum, j: usize| v[j].times_plus(entry(i, j), sum);
+            (0..dim).fold(K::Scalar::of(0.0), row)
         })
     }
 
@@ -153,10 +158,6 @@ impl<K: Tables> LieGroup for TableGroup<K> {
         self.algebra().dim
     }
 
-    fn identity(&self) -> Self::Element {
-        self.unit_matrix()
-    }
-
     fn compose(&self, g: &Self::Element, h: &Self::Element) -> Self::Element {
         self.straighten(self.tables.multiply(g, h))
     }
@@ -215,15 +216,8 @@ impl<K: Tables> LieGroup for TableGroup<K> {
     }
 
     fn adjoint(&self, g: &Self::Element, x: &Self::Vector) -> Self::Vector {
-        let size = self.algebra().size;
         if self.is_adjoint() {
-            return K::Vector::from_entries(size, |i| {
-                let mut sum = K::Scalar::of(0.0);
-                for j in 0..size {
-                    sum = g[(i, j)].times_plus(x[j], sum);
-                }
-                sum
-            });
+            return self.applied(|i, j| g[(i, j)], x);
         }
         let moved = self.tables.multiply(g, &self.matrix_of(x));
         self.coordinates_of(&self.tables.multiply(&moved, &self.inverse(g)))
@@ -233,13 +227,7 @@ impl<K: Tables> LieGroup for TableGroup<K> {
         let size = self.algebra().size;
         let back = self.inverse(g);
         if self.is_adjoint() {
-            return K::Vector::from_entries(size, |i| {
-                let mut sum = K::Scalar::of(0.0);
-                for j in 0..size {
-                    sum = back[(j, i)].times_plus(mu[j], sum);
-                }
-                sum
-            });
+            return self.applied(|i, j| back[(j, i)], mu);
         }
         // ⟨Ad*_g μ, eⱼ⟩ = ⟨P, g⁻¹ eⱼ g⟩ = ⟨g⁻ᵀ P gᵀ, eⱼ⟩
         let turned = square::transpose_multiply(size, &back, &self.dual_matrix(mu));
@@ -248,11 +236,12 @@ impl<K: Tables> LieGroup for TableGroup<K> {
 
     fn exp_transport(&self, x: &Self::Vector, mu: &Self::Vector) -> (Self::Element, Self::Vector) {
         // Ad*_{exp(−x)} μ = exp(ad_xᵀ) μ
-        (self.exp(x), self.act(x, mu).exp)
+        (self.exp(x), self.act(x, mu)[1].clone())
     }
 
     fn dexp_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
-        self.act(x, mu).phi
+        let [phi, _] = self.act(x, mu);
+        phi
     }
 
     fn exp_extent(&self, x: &Self::Vector) -> K::Scalar {
@@ -261,24 +250,13 @@ impl<K: Tables> LieGroup for TableGroup<K> {
 
     fn element_defect(&self, g: &Self::Element) -> K::Scalar {
         let size = self.algebra().size;
-        let one = K::Scalar::of(1.0);
-        let mut defect = K::Scalar::of(0.0);
-        if self.algebra().facts.orthogonal {
-            let squared = square::transpose_multiply(size, g, g);
-            for i in 0..size {
-                for j in 0..size {
-                    let unit = if i == j { one } else { K::Scalar::of(0.0) };
-                    defect = defect.worse((squared[(i, j)] - unit).simd_abs());
-                }
-            }
-            return defect;
+        let poison = square::row_sum_norm(size, g) * K::Scalar::of(0.0);
+        if !self.algebra().facts.orthogonal {
+            return poison;
         }
-        for i in 0..size {
-            for j in 0..size {
-                defect += g[(i, j)] * K::Scalar::of(0.0);
-            }
-        }
-        defect
+        let gram = square::transpose_multiply(size, g, g);
+        let rest = square::plus_scaled(size, &gram, K::Scalar::of(-1.0), &self.unit_matrix());
+        square::largest_entry(size, &rest) + poison
     }
 
     fn casimir_count(&self) -> usize {
@@ -324,8 +302,11 @@ impl<K: CayleyTables> CayleyGroup for TableGroup<K> {
     }
 
     fn cayley_extent(&self, x: &Self::Vector) -> Self::Scalar {
-        let Algebra { dim, cayley, .. } = self.algebra();
-        domain::cayley_extent(cayley, dim, x)
+        let Algebra { dim, basis, cayley, .. } = self.algebra();
+        match basis {
+            Some(_) => domain::evaluate(cayley, dim, x) * K::Scalar::of(0.25),
+            None => self.exp_extent(x) * K::Scalar::of(PI * PI / 4.0),
+        }
     }
 
     fn cayley_inverse(&self, g: &Self::Element) -> Option<Self::Vector> {
@@ -363,22 +344,12 @@ impl<K: Tables> TableGroup<K> {
         entry: impl Fn(usize, usize) -> K::Scalar,
     ) -> Result<Element<K>, ElementError> {
         let size = self.algebra().size;
-        let mut g = self.zero_matrix();
-        for row in 0..size {
-            for column in 0..size {
-                let value = entry(row, column);
-                if !value.all_finite() {
-                    return Err(ElementError::NonFinite { row, column });
-                }
-                g[(row, column)] = value;
-            }
-        }
+        finite(size, &entry)?;
+        let g = K::Column::matrix_from_entries(size, entry);
         let one = K::Scalar::of(1.0);
         let scale = square::largest_entry(size, &g);
         if self.algebra().facts.orthogonal {
-            let gram = square::transpose_multiply(size, &g, &g);
-            let difference = square::plus_scaled(size, &gram, -one, &self.unit_matrix());
-            let defect = square::largest_entry(size, &difference);
+            let defect = self.element_defect(&g);
             if !within(defect, one) {
                 return Err(ElementError::NotOrthogonal { defect: defect.largest_lane() });
             }
@@ -418,8 +389,8 @@ impl<K: Tables> TableGroup<K> {
             for i in 0..dim {
                 for j in i + 1..dim {
                     let moved = self.adjoint(g, &self.bracket(&unit(i), &unit(j)));
-                    let bracket =
-                        self.bracket(&self.adjoint(g, &unit(i)), &self.adjoint(g, &unit(j)));
+                    let [first, second] = [i, j].map(|at| self.adjoint(g, &unit(at)));
+                    let bracket = self.bracket(&first, &second);
                     let difference = K::Vector::from_entries(dim, |k| moved[k] - bracket[k]);
                     defect = defect.simd_max(difference.largest_entry());
                 }
@@ -547,20 +518,6 @@ const TAYLOR_TERMS: usize = 30;
 /// Square matrices of the algebra's dimension.
 pub(crate) type Matrix<K> = <<K as Tables>::Vector as Coordinates<<K as Tables>::Scalar>>::Matrix;
 
-/// φ(A)μ and exp(A)μ.
-pub(crate) struct Action<V> {
-    pub phi: V,
-    pub exp: V,
-}
-
-/// How a norm is dealt with.
-enum Regime {
-    /// A number of steps, and the norm of each.
-    SubSteps(u32, f64),
-    Doublings(u32),
-    NotFinite,
-}
-
 impl<K: Tables> TableGroup<K> {
     /// A bound of ‖ad_xᵀ‖ in the maximum norm.
     fn ad_norm(&self, x: &K::Vector) -> K::Scalar {
@@ -574,26 +531,6 @@ impl<K: Tables> TableGroup<K> {
             poison += x[i] * K::Scalar::of(0.0);
         }
         rows.largest_entry() + poison
-    }
-
-    fn regime(&self, x: &K::Vector) -> Regime {
-        let norm = self.ad_norm(x);
-        let largest = norm.largest_lane();
-        if largest <= TAYLOR {
-            Regime::SubSteps(1, largest)
-        } else if largest <= SUBSTEPS {
-            let mut steps = 1;
-            while TAYLOR * f64::from(steps) < largest {
-                steps += 1;
-            }
-            Regime::SubSteps(steps, largest / f64::from(steps))
-        } else {
-            square::halvings(norm, 1.0).map_or(Regime::NotFinite, Regime::Doublings)
-        }
-    }
-
-    fn not_a_number(&self) -> K::Vector {
-        K::Vector::from_entries(self.algebra().dim, |_| K::Scalar::of(f64::NAN))
     }
 
     fn scaled(&self, x: &K::Vector, factor: K::Scalar) -> K::Vector {
@@ -633,28 +570,32 @@ impl<K: Tables> TableGroup<K> {
     }
 
     /// φ(A)μ and exp(A)μ, A = ad_xᵀ.
-    pub(super) fn act(&self, x: &K::Vector, mu: &K::Vector) -> Action<K::Vector> {
+    pub(super) fn act(&self, x: &K::Vector, mu: &K::Vector) -> [K::Vector; 2] {
         let dim = self.algebra().dim;
-        match self.regime(x) {
-            Regime::NotFinite => Action { phi: self.not_a_number(), exp: self.not_a_number() },
-            Regime::Doublings(count) => {
-                let (exp, phi) = self.action_matrices(x, count);
-                Action { phi: mu.left_multiply(&phi), exp: mu.left_multiply(&exp) }
-            }
-            Regime::SubSteps(steps, norm) => {
-                let part = K::Scalar::of(1.0 / f64::from(steps));
-                let x = self.scaled(x, part);
-                let mut phi = K::Vector::zeros(dim);
-                let mut exp = mu.clone();
-                for _ in 0..steps {
-                    let average = self.phi_series(&x, &exp, norm);
-                    let change = self.ad_transpose(&x, &average);
-                    phi = K::Vector::from_entries(dim, |i| average[i].times_plus(part, phi[i]));
-                    exp = K::Vector::from_entries(dim, |i| exp[i] + change[i]);
-                }
-                Action { phi, exp }
-            }
+        let norm = self.ad_norm(x);
+        let largest = norm.largest_lane();
+        if largest.is_nan() || largest > SUBSTEPS {
+            let Some(count) = square::halvings(norm, 1.0) else {
+                let nowhere = self.scaled(mu, K::Scalar::of(f64::NAN));
+                return [nowhere.clone(), nowhere];
+            };
+            let (exp, phi) = self.action_matrices(x, count);
+            return [phi, exp].map(|matrix| mu.left_multiply(&matrix));
         }
+        let mut steps = 1;
+        while TAYLOR * f64::from(steps) < largest {
+            steps += 1;
+        }
+        let (norm, part) = (largest / f64::from(steps), K::Scalar::of(1.0 / f64::from(steps)));
+        let x = self.scaled(x, part);
+        let (mut phi, mut exp) = (K::Vector::zeros(dim), mu.clone());
+        for _ in 0..steps {
+            let average = self.phi_series(&x, &exp, norm);
+            let change = self.ad_transpose(&x, &average);
+            phi = K::Vector::from_entries(dim, |i| average[i].times_plus(part, phi[i]));
+            exp = K::Vector::from_entries(dim, |i| exp[i] + change[i]);
+        }
+        [phi, exp]
     }
 
     /// exp(A) and φ(A) as matrices, by `count` doublings.

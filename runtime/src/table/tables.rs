@@ -1,5 +1,6 @@
 //! Where the tables of an algebra are stored, and with which types of numbers.
 
+use core::f64::consts::PI;
 use core::fmt::Debug;
 
 use super::algebra::Algebra;
@@ -29,7 +30,7 @@ pub trait Tables: Clone + Debug {
     /// See [`LieGroup::exp_extent`](crate::LieGroup::exp_extent).
     fn exp_extent(&self, x: &Self::Vector) -> Self::Scalar {
         let Algebra { dim, elliptic, .. } = self.algebra();
-        domain::exp_extent(elliptic, dim, x)
+        domain::evaluate(elliptic, dim, x) * Self::Scalar::of(1.0 / (PI * PI))
     }
 
     /// The product of two matrices of the representation.

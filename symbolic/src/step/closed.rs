@@ -1,7 +1,7 @@
 //! Groups in closed form, whose formulas are traced.
 
 use std::f64::consts::PI;
-use std::fmt;
+use std::fmt::Debug;
 use std::marker::PhantomData;
 
 use coadjoint_geometry::angle::Length;
@@ -17,6 +17,7 @@ use crate::step::traced::{Traced, matrix, nodes, traced};
 use crate::step::vector::Matrix;
 
 /// The group of formulas G: N coordinates, elements of M numbers, matrices of D rows.
+#[derive(Debug)]
 pub(crate) struct Closed<G, const N: usize, const M: usize, const D: usize> {
     chart: Chart,
     /// [`Part::estimated`]
@@ -35,7 +36,7 @@ pub(crate) fn closed(name: &str, chart: Chart) -> Option<Box<dyn Part>> {
         element_of: fn(&[f64]) -> Vec<f64>,
     ) -> Option<Box<dyn Part>>
     where
-        G: Group<N, M> + Matrices<M, D> + 'static,
+        G: Group<N, M> + Matrices<M, D> + Debug + 'static,
     {
         let group = PhantomData::<fn() -> G>;
         Some(Box::new(Closed::<G, N, M, D> { chart, estimated, about, element_of, group }))
@@ -119,12 +120,6 @@ fn motion_of_plane(matrix: &[f64]) -> Vec<f64> {
     [0, 3, 4, 5].map(|place| element[place]).to_vec()
 }
 
-impl<G, const N: usize, const M: usize, const D: usize> fmt::Debug for Closed<G, N, M, D> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_tuple("Closed").field(&self.about).field(&self.chart).finish()
-    }
-}
-
 impl<G: Group<N, M>, const N: usize, const M: usize, const D: usize> Closed<G, N, M, D> {
     fn moved<'g>(
         graph: &'g Graph,
@@ -140,7 +135,7 @@ impl<G: Group<N, M>, const N: usize, const M: usize, const D: usize> Closed<G, N
 
 impl<G, const N: usize, const M: usize, const D: usize> Part for Closed<G, N, M, D>
 where
-    G: Group<N, M> + Matrices<M, D>,
+    G: Group<N, M> + Matrices<M, D> + Debug,
 {
     fn dim(&self) -> usize {
         N

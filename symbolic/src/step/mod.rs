@@ -33,7 +33,7 @@ use crate::smooth::Smooth;
 use crate::step::solving::Scheme;
 use crate::step::tables::Tables;
 use closed::closed;
-use product::{Memory, Part, Product, Translations};
+use product::{Part, Product, Translations};
 
 pub use drift::{
     Conserved, Drift, Energy, Invariants, PotentialEnergy, Scales, Slopes, Start, nudge,
@@ -135,7 +135,7 @@ impl Step {
         }
         let memory = collocation::memory(smooth);
         if memory > 0 {
-            group.0.push(Box::new(Memory { numbers: memory }));
+            group.0.push(Box::new(Translations { dim: 0, memory }));
         }
         let mut kernel = collocation::kernel(smooth, &group)?.in_precision(precision);
         let symbols = smooth.symbols.iter().map(|symbol| symbol.expr.clone()).collect();
@@ -294,7 +294,7 @@ fn part(algebra: &LieAlgebra, chart: Chart, scheme: Scheme) -> Result<Box<dyn Pa
         }
     }
     if is(&format!("R{}", algebra.dim())) {
-        return Ok(Box::new(Translations { dim: algebra.dim() }));
+        return Ok(Box::new(Translations { dim: algebra.dim(), memory: 0 }));
     }
     tables(algebra, chart, scheme)
 }

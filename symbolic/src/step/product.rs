@@ -30,6 +30,11 @@ impl Product {
         factors.map(|(part, (own, element))| Factor { part: part.as_ref(), own, element }).collect()
     }
 
+    /// Lists of the factors one after the other.
+    fn joined<T>(&self, list: impl FnMut(Factor<'_>) -> Vec<T>) -> Vec<T> {
+        self.factors().into_iter().flat_map(list).collect()
+    }
+
     /// The coordinates of those factors that have one of these, factor by factor.
     pub(crate) fn whole_factors(&self, coordinates: &BTreeSet<usize>) -> Vec<Range<usize>> {
         let factors = self.factors().into_iter().map(|factor| factor.own);
@@ -54,10 +59,7 @@ impl Part for Product {
     }
 
     fn pull_back(&self, graph: &Graph, x: &[Id], mu: &[Id]) -> Vec<Id> {
-        self.factors()
-            .into_iter()
-            .flat_map(|Factor { part, own, .. }| part.pull_back(graph, &x[own.clone()], &mu[own]))
-            .collect()
+        self.joined(|Factor { part, own, .. }| part.pull_back(graph, &x[own.clone()], &mu[own]))
     }
 
     fn pull_back_with_derivative(&self, graph: &Graph, x: &[Id], mu: &[Id]) -> (Vec<Id>, Matrix) {
@@ -78,13 +80,12 @@ impl Part for Product {
     }
 
     fn transport(&self, graph: &Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved {
-        let mut moved = Moved { g: Vec::new(), mu: Vec::new() };
-        for Factor { part, own, element } in self.factors() {
-            let own_moved = part.transport(graph, &g[element], &x[own.clone()], &mu[own]);
-            moved.g.extend(own_moved.g);
-            moved.mu.extend(own_moved.mu);
-        }
-        moved
+        let moved = self.factors().into_iter().map(|Factor { part, own, element }| {
+            let Moved { g, mu } = part.transport(graph, &g[element], &x[own.clone()], &mu[own]);
+            (g, mu)
+        });
+        let (g, mu): (Vec<_>, Vec<_>) = moved.unzip();
+        Moved { g: g.concat(), mu: mu.concat() }
     }
 
     fn move_frame(&self, graph: &Graph, g: &[Id], y: &[Id], mu: &[Id]) -> Option<Moved> {
@@ -102,29 +103,22 @@ impl Part for Product {
     }
 
     fn node_momentum(&self, graph: &Graph, x: &[Id], p: &[Id], degree: usize) -> Vec<Id> {
-        let factors = self.factors().into_iter();
-        let own = |Factor { part, own, .. }: Factor<'_>| {
+        self.joined(|Factor { part, own, .. }| {
             part.node_momentum(graph, &x[own.clone()], &p[own], degree)
-        };
-        factors.flat_map(own).collect()
+        })
     }
 
     fn spatial(&self, graph: &Graph, g: &[Id], back: &[Id], mu: &[Id]) -> Vec<Id> {
-        let factors = self.factors().into_iter();
-        factors
-            .flat_map(|Factor { part, own, element }| {
-                part.spatial(graph, &g[element.clone()], &back[element], &mu[own])
-            })
-            .collect()
+        self.joined(|Factor { part, own, element }| {
+            part.spatial(graph, &g[element.clone()], &back[element], &mu[own])
+        })
     }
 
     fn inverted(&self) -> Vec<(usize, usize)> {
-        let factors = self.factors().into_iter();
-        let shifted = |Factor { part, element, .. }: Factor<'_>| {
+        self.joined(|Factor { part, element, .. }| {
             let places = part.inverted().into_iter();
-            places.map(|(at, rows)| (element.start + at, rows)).collect::<Vec<_>>()
-        };
-        factors.flat_map(shifted).collect()
+            places.map(|(at, rows)| (element.start + at, rows)).collect()
+        })
     }
 
     fn estimated(&self) -> f64 {
@@ -132,21 +126,10 @@ impl Part for Product {
     }
 
     fn extent(&self, graph: &Graph, x: &[Id]) -> Id {
-        let extents: Vec<Id> = self
-            .factors()
-            .into_iter()
-            .map(|factor| factor.part.extent(graph, &x[factor.own]))
-            .collect();
+        let extents = self.joined(|Factor { part, own, .. }| vec![part.extent(graph, &x[own])]);
         // The larger of two may hide what is not a number; their sum does not.
-        let (zero, mut sum) = (graph.zero(), graph.zero());
-        for &extent in &extents {
-            sum = graph.add(sum, extent);
-        }
-        let largest = largest(graph, &extents);
-        let one = graph.constant(1.0);
-        let valid = graph.select(sum, graph.constant(f64::MAX), zero, one);
-        // More than one where any is not a number.
-        graph.add(largest, graph.add(valid, valid))
+        let sum = extents.iter().fold(graph.zero(), |sum, &extent| graph.add(sum, extent));
+        graph.add(largest(graph, &extents), finite(graph, &[sum]))
     }
 
     fn defect(&self, graph: &Graph, g: &[Id]) -> Id {
@@ -183,20 +166,15 @@ impl Part for Product {
     }
 
     fn element_of(&self, matrix: &[f64]) -> Vec<f64> {
-        let sizes: Vec<usize> = self.0.iter().map(|part| Self::size(part.as_ref())).collect();
-        let size: usize = sizes.iter().sum();
-        let mut start = 0;
-        let mut element = Vec::new();
-        for (part, rows) in self.0.iter().zip(sizes) {
-            let entry = |at: usize| {
-                let (row, column) = (start + at / rows, start + at % rows);
-                matrix.get(row * size + column).copied().unwrap_or(0.0)
-            };
+        let (size, mut start) = (matrix.len().isqrt(), 0);
+        self.joined(|Factor { part, .. }| {
+            let rows = Self::size(part);
+            let place = |at: usize| (start + at / rows) * size + start + at % rows;
+            let entry = |at| matrix.get(place(at)).copied().unwrap_or(0.0);
             let block: Vec<f64> = (0..rows * rows).map(entry).collect();
-            element.extend(part.element_of(&block));
             start += rows;
-        }
-        element
+            part.element_of(&block)
+        })
     }
 }
 
@@ -215,7 +193,9 @@ pub(crate) trait Part: std::fmt::Debug + Send + Sync {
     fn element(&self) -> usize;
 
     /// (d^R τ_x)ᵀ μ
-    fn pull_back(&self, graph: &Graph, x: &[Id], mu: &[Id]) -> Vec<Id>;
+    fn pull_back(&self, graph: &Graph, x: &[Id], mu: &[Id]) -> Vec<Id> {
+        self.pull_back_with_derivative(graph, x, mu).0
+    }
 
     /// (d^R τ_x)ᵀ μ and its derivative in x, which Newton's method alone uses.
     fn pull_back_with_derivative(&self, graph: &Graph, x: &[Id], mu: &[Id]) -> (Vec<Id>, Matrix);
@@ -271,12 +251,14 @@ pub(crate) struct Moved {
     pub mu: Vec<Id>,
 }
 
-/// The translations of n dimensions. They commute, so that μ stays, both charts are the same, and a step may be of any
-/// length.
+/// The translations of n dimensions, and beside the vector numbers that steps by collocation leave to the next one. They
+/// commute, so that μ stays, both charts are the same, and a step may be of any length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Translations {
     /// n.
     pub dim: usize,
+    /// How many numbers steps leave.
+    pub memory: usize,
 }
 
 impl Part for Translations {
@@ -285,11 +267,7 @@ impl Part for Translations {
     }
 
     fn element(&self) -> usize {
-        self.dim
-    }
-
-    fn pull_back(&self, _graph: &Graph, _x: &[Id], mu: &[Id]) -> Vec<Id> {
-        mu.to_vec()
+        self.dim + self.memory
     }
 
     fn pull_back_with_derivative(&self, graph: &Graph, _x: &[Id], mu: &[Id]) -> (Vec<Id>, Matrix) {
@@ -297,8 +275,8 @@ impl Part for Translations {
     }
 
     fn transport(&self, graph: &Graph, g: &[Id], x: &[Id], mu: &[Id]) -> Moved {
-        let g = g.iter().zip(x).map(|(&g, &x)| graph.add(g, x)).collect();
-        Moved { g, mu: mu.to_vec() }
+        let moved = g.iter().zip(x).map(|(&g, &x)| graph.add(g, x));
+        Moved { g: moved.chain(g[self.dim..].iter().copied()).collect(), mu: mu.to_vec() }
     }
 
     fn move_frame(&self, graph: &Graph, g: &[Id], y: &[Id], mu: &[Id]) -> Option<Moved> {
@@ -318,12 +296,14 @@ impl Part for Translations {
     }
 
     fn defect(&self, graph: &Graph, g: &[Id]) -> Id {
-        finite(graph, g)
+        finite(graph, &g[..self.dim])
     }
 
     fn matrix(&self, graph: &Graph, g: &[Id]) -> Matrix {
         let (zero, one) = (graph.zero(), graph.constant(1.0));
-        Matrix::new(self.dim + 1, self.dim + 1, |i, j| match (i, j) {
+        // Of numbers alone there is none.
+        let size = self.dim + self.dim.min(1);
+        Matrix::new(size, size, |i, j| match (i, j) {
             _ if i == j => one,
             _ if j == self.dim => g[i],
             _ => zero,
@@ -331,72 +311,14 @@ impl Part for Translations {
     }
 
     fn about(&self) -> String {
-        "the vector".into()
+        match self.memory {
+            0 => "the vector".into(),
+            numbers => format!("{numbers} numbers that steps leave to the next one, at first 0"),
+        }
     }
 
     fn element_of(&self, matrix: &[f64]) -> Vec<f64> {
         let column = matrix.iter().skip(self.dim).step_by(self.dim + 1);
-        column.take(self.dim).copied().collect()
-    }
-}
-
-/// The numbers that steps by collocation leave to the next one, beside the group element: a factor of no dimension.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Memory {
-    /// How many.
-    pub numbers: usize,
-}
-
-impl Part for Memory {
-    fn dim(&self) -> usize {
-        0
-    }
-
-    fn element(&self) -> usize {
-        self.numbers
-    }
-
-    fn pull_back(&self, _graph: &Graph, _x: &[Id], _mu: &[Id]) -> Vec<Id> {
-        Vec::new()
-    }
-
-    fn pull_back_with_derivative(&self, graph: &Graph, _x: &[Id], _mu: &[Id]) -> (Vec<Id>, Matrix) {
-        (Vec::new(), Matrix::zeros(graph, 0, 0))
-    }
-
-    fn transport(&self, _graph: &Graph, g: &[Id], _x: &[Id], _mu: &[Id]) -> Moved {
-        Moved { g: g.to_vec(), mu: Vec::new() }
-    }
-
-    fn move_frame(&self, _graph: &Graph, _g: &[Id], _y: &[Id], _mu: &[Id]) -> Option<Moved> {
-        None
-    }
-
-    fn node_momentum(&self, _graph: &Graph, _x: &[Id], _p: &[Id], _degree: usize) -> Vec<Id> {
-        Vec::new()
-    }
-
-    fn spatial(&self, _graph: &Graph, _g: &[Id], _back: &[Id], _mu: &[Id]) -> Vec<Id> {
-        Vec::new()
-    }
-
-    fn extent(&self, graph: &Graph, _x: &[Id]) -> Id {
-        graph.zero()
-    }
-
-    fn defect(&self, graph: &Graph, _g: &[Id]) -> Id {
-        graph.zero()
-    }
-
-    fn matrix(&self, graph: &Graph, _g: &[Id]) -> Matrix {
-        Matrix::zeros(graph, 0, 0)
-    }
-
-    fn about(&self) -> String {
-        format!("{} numbers that steps leave to the next one, at first 0", self.numbers)
-    }
-
-    fn element_of(&self, _matrix: &[f64]) -> Vec<f64> {
-        vec![0.0; self.numbers]
+        column.take(self.dim).copied().chain((0..self.memory).map(|_| 0.0)).collect()
     }
 }

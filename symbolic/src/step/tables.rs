@@ -7,7 +7,7 @@ use crate::lie::{Chart, LieAlgebra, RationalMatrix};
 use crate::number::nearest_float;
 use crate::step::MOST_OF_TABLES;
 use crate::step::product::{Moved, Part};
-use crate::step::vector::{Matrix, dot, finite, largest, solve};
+use crate::step::vector::{Matrix, finite, largest, solve};
 
 /// The norm of ad_x and of the matrix of x up to which series are exact to rounding: up to it steps are accepted at once.
 const REACH: f64 = std::f64::consts::FRAC_PI_2;
@@ -126,68 +126,47 @@ impl Tables {
         self.combine(graph, &self.basis, x)
     }
 
-    /// φ(A)μ with φ(A) = (exp A − 1)/A, A = ad_xᵀ, by its Taylor series.
-    fn phi(&self, graph: &Graph, a: &Matrix, mu: &[Id]) -> Vec<Id> {
-        let mut term = mu.to_vec();
-        let mut sum = mu.to_vec();
+    /// φ(A)μ with φ(A) = (exp A − 1)/A, A = ad_xᵀ, by its Taylor series, and its derivative in x by this many terms.
+    fn phi(&self, graph: &Graph, x: &[Id], mu: &[Id], slopes: usize) -> (Vec<Id>, Matrix) {
+        let (a, one) = (self.ad_transpose(graph, x), graph.constant(1.0));
+        let (mut term, mut sum) = (mu.to_vec(), mu.to_vec());
+        let mut slope = Matrix::zeros(graph, self.dim, self.dim);
+        let mut derivative = slope.clone();
         for k in 1..=terms(REACH, ROUNDING) {
             let factor = graph.constant(1.0 / (k + 1) as f64);
+            if k <= slopes {
+                let both = a.times_plus(graph, &slope, &self.ad_slope(graph, &term));
+                slope = both.scaled(graph, factor);
+                derivative = derivative.plus(graph, one, &slope);
+            }
             term = a.apply(graph, &term).iter().map(|&entry| graph.mul(entry, factor)).collect();
-            if term.iter().all(|&entry| graph.is_zero(entry)) {
+            let ended = term.iter().all(|&entry| graph.is_zero(entry));
+            if ended && (k >= slopes || slope.is_zero(graph)) {
                 break;
             }
             sum = sum.iter().zip(&term).map(|(&a, &b)| graph.add(a, b)).collect();
         }
-        sum
-    }
-
-    /// The derivative of φ(ad_xᵀ)μ in x.
-    fn phi_slope(&self, graph: &Graph, a: &Matrix, mu: &[Id]) -> Matrix {
-        let one = graph.constant(1.0);
-        let mut term = mu.to_vec();
-        let mut slope = Matrix::zeros(graph, self.dim, self.dim);
-        let mut sum = slope.clone();
-        for k in 1..=terms(REACH, self.slope) {
-            let factor = graph.constant(1.0 / (k + 1) as f64);
-            let carried = a.times(graph, &slope);
-            let both = carried.plus(graph, one, &self.ad_slope(graph, &term));
-            slope = Matrix::new(self.dim, self.dim, |i, j| graph.mul(both.at(i, j), factor));
-            term = a.apply(graph, &term).iter().map(|&entry| graph.mul(entry, factor)).collect();
-            if slope.is_zero(graph) {
-                break;
-            }
-            sum = sum.plus(graph, one, &slope);
-        }
-        sum
+        (sum, derivative)
     }
 
     /// exp X by its Taylor series in powers of a power (M. Paterson and L. Stockmeyer, SIAM J. Comput. 2, 1973).
     fn exponential(&self, graph: &Graph, x: &Matrix) -> Matrix {
         let degree = terms(REACH, ROUNDING) + 1;
         let stride = (degree as f64).sqrt().round() as usize;
-        let mut powers = vec![Matrix::identity(graph, self.size)];
+        let mut powers = vec![Matrix::identity(graph, self.size), x.clone()];
         while powers.len() <= stride {
-            let next = match powers.len() {
-                1 => x.clone(),
-                count => powers[count - 1].times(graph, x),
-            };
-            powers.push(next);
+            powers.push(powers[powers.len() - 1].times(graph, x));
         }
-        let (high, low) = (powers[stride].clone(), &powers[..stride]);
-        let mut sum: Option<Matrix> = None;
+        let mut sum = Matrix::zeros(graph, self.size, self.size);
         for block in (0..=degree / stride).rev() {
-            let mut total = match sum {
-                Some(sum) => sum.times(graph, &high),
-                None => Matrix::zeros(graph, self.size, self.size),
-            };
+            sum = sum.times(graph, &powers[stride]);
             // Small coefficients first.
-            for (i, power) in low.iter().enumerate().rev() {
+            for (i, power) in powers[..stride].iter().enumerate().rev() {
                 let inverse = 1.0 / factorial(block * stride + i);
-                total = total.plus(graph, graph.constant(inverse), power);
+                sum = sum.plus(graph, graph.constant(inverse), power);
             }
-            sum = Some(total);
         }
-        sum.unwrap_or_else(|| Matrix::identity(graph, self.size))
+        sum
     }
 
     /// exp X − 1 for X of any norm up to [`FARTHEST`], by scaling and squaring (N. Higham, *Functions of Matrices*, SIAM
@@ -196,20 +175,17 @@ impl Tables {
         let norm = row_norm(graph, x);
         let (most, scale) = (graph.constant(FARTHEST), graph.constant(0.5_f64.powi(SQUARINGS)));
         let scale = graph.select(norm, most, scale, graph.constant(f64::MAX));
-        let scaled = |graph: &Graph, factor: Id, matrix: &Matrix| {
-            Matrix::zeros(graph, self.size, self.size).plus(graph, factor, matrix)
-        };
-        let x = scaled(graph, scale, x);
+        let x = x.scaled(graph, scale);
         // X (1 + X/2 (1 + X/3 (…))).
         let mut sum = Matrix::zeros(graph, self.size, self.size);
         for k in (1..=TERMS).rev() {
             let inverse = graph.constant(1.0 / f64::from(k));
-            let part = scaled(graph, inverse, &x);
+            let part = x.scaled(graph, inverse);
             sum = part.times_plus(graph, &sum, &part);
         }
         let two = graph.constant(2.0);
         for _ in 0..SQUARINGS {
-            sum = sum.times_plus(graph, &sum, &scaled(graph, two, &sum));
+            sum = sum.times_plus(graph, &sum, &sum.scaled(graph, two));
         }
         sum
     }
@@ -226,46 +202,27 @@ impl Tables {
             return product;
         }
         let (half, three_halves) = (graph.constant(-0.5), graph.constant(1.5));
-        let gram = self.gram(graph, &product);
-        let correction = Matrix::new(self.size, self.size, |i, j| match i == j {
-            true => graph.times_plus(half, gram.at(i, j), three_halves),
-            false => graph.mul(half, gram.at(i, j)),
-        });
+        let gram = product.transposed().times(graph, &product);
+        let whole = Matrix::identity(graph, self.size).scaled(graph, three_halves);
+        let correction = whole.plus(graph, half, &gram);
         product.times(graph, &correction)
-    }
-
-    /// gᵀg
-    fn gram(&self, graph: &Graph, g: &Matrix) -> Matrix {
-        let column = |j: usize| (0..self.size).map(|i| g.at(i, j)).collect::<Vec<_>>();
-        let columns: Vec<Vec<Id>> = (0..self.size).map(column).collect();
-        Matrix::new(self.size, self.size, |i, j| {
-            let (i, j) = (i.min(j), i.max(j));
-            dot(graph, &columns[i], &columns[j])
-        })
     }
 
     /// (1 + s·X/2)⁻¹, s = ±1.
     fn resolvent(&self, graph: &Graph, x: &Matrix, s: f64) -> Matrix {
-        let half = graph.constant(0.5 * s);
         let identity = Matrix::identity(graph, self.size);
-        let matrix = identity.plus(graph, half, x);
-        let columns: Vec<Vec<Id>> = (0..self.size)
-            .map(|j| {
-                let unit: Vec<Id> = (0..self.size).map(|i| identity.at(i, j)).collect();
-                solve(graph, &matrix, &unit)
-            })
-            .collect();
+        let matrix = identity.plus(graph, graph.constant(0.5 * s), x);
+        let units = identity.entries().chunks(self.size);
+        let columns: Vec<Vec<Id>> = units.map(|unit| solve(graph, &matrix, unit)).collect();
         Matrix::new(self.size, self.size, |i, j| columns[j][i])
     }
 
     /// The coordinates ⟨Z, Eᵢ⟩.
     fn coordinates(&self, graph: &Graph, z: &Matrix) -> Vec<Id> {
         let coordinate = |entries: &Entries| {
-            let mut sum = graph.zero();
-            for &(i, j, value) in entries {
-                sum = graph.times_plus(graph.constant(value), z.at(i, j), sum);
-            }
-            sum
+            entries.iter().fold(graph.zero(), |sum, &(i, j, value)| {
+                graph.times_plus(graph.constant(value), z.at(i, j), sum)
+            })
         };
         self.basis.iter().map(coordinate).collect()
     }
@@ -303,17 +260,11 @@ fn terms(norm: f64, accuracy: f64) -> usize {
     200
 }
 
-/// The largest row sum of sizes.
+/// The largest row sum of sizes of a square matrix.
 fn row_norm(graph: &Graph, matrix: &Matrix) -> Id {
-    let rows: Vec<Id> = (0..matrix.rows())
-        .map(|i| {
-            let mut sum = graph.zero();
-            for j in 0..matrix.entries().len() / matrix.rows().max(1) {
-                sum = graph.add(sum, graph.abs(matrix.at(i, j)));
-            }
-            sum
-        })
-        .collect();
+    let size = |sum, &entry: &Id| graph.add(sum, graph.abs(entry));
+    let rows = matrix.entries().chunks(matrix.rows().max(1));
+    let rows: Vec<Id> = rows.map(|row| row.iter().fold(graph.zero(), size)).collect();
     largest(graph, &rows)
 }
 
@@ -348,7 +299,7 @@ impl Part for Tables {
 
     fn pull_back(&self, graph: &Graph, x: &[Id], mu: &[Id]) -> Vec<Id> {
         match self.chart {
-            Chart::Exponential => self.phi(graph, &self.ad_transpose(graph, x), mu),
+            Chart::Exponential => self.phi(graph, x, mu, 0).0,
             Chart::Cayley => {
                 let [.., z] = self.cayley(graph, x, mu);
                 self.coordinates(graph, &z)
@@ -358,23 +309,18 @@ impl Part for Tables {
 
     fn pull_back_with_derivative(&self, graph: &Graph, x: &[Id], mu: &[Id]) -> (Vec<Id>, Matrix) {
         match self.chart {
-            Chart::Exponential => {
-                let a = self.ad_transpose(graph, x);
-                (self.phi(graph, &a, mu), self.phi_slope(graph, &a, mu))
-            }
+            Chart::Exponential => self.phi(graph, x, mu, terms(REACH, self.slope)),
             Chart::Cayley => {
                 let [left, right, z] = self.cayley(graph, x, mu);
                 let value = self.coordinates(graph, &z);
                 // Along Eⱼ: L′ = ½ L Eⱼ L and R′ = −½ R Eⱼ R, so that Z′ = ½ (Lᵀ Eⱼᵀ Z − Z Eⱼᵀ Rᵀ).
                 let half = graph.constant(0.5);
                 let minus = graph.constant(-1.0);
-                let columns: Vec<Vec<Id>> = (0..self.dim)
-                    .map(|j| {
-                        let unit: Vec<Id> = (0..self.dim)
-                            .map(|i| graph.constant(f64::from(u8::from(i == j))))
-                            .collect();
-                        let e = self.represent(graph, &unit);
-                        let e = e.transposed();
+                let units = Matrix::identity(graph, self.dim);
+                let units = units.entries().chunks(self.dim);
+                let columns: Vec<Vec<Id>> = units
+                    .map(|unit| {
+                        let e = self.represent(graph, unit).transposed();
                         let first = left.transposed().times(graph, &e).times(graph, &z);
                         let second = z.times(graph, &e).times(graph, &right.transposed());
                         let change = self.coordinates(graph, &first.plus(graph, minus, &second));
@@ -405,22 +351,18 @@ impl Part for Tables {
             Chart::Exponential => {
                 let a = self.ad_transpose(graph, x);
                 // exp(A)μ = μ + A φ(A) μ
-                let change = a.apply(graph, &self.phi(graph, &a, mu));
+                let change = a.apply(graph, &self.phi(graph, x, mu, 0).0);
                 let mu = mu.iter().zip(change).map(|(&mu, change)| graph.add(mu, change)).collect();
                 let increment = self.exponential(graph, &self.represent(graph, x));
                 Moved { g: self.product(graph, &own, &increment), mu }
             }
             Chart::Cayley => {
-                let x = self.represent(graph, x);
-                let half = graph.constant(0.5);
-                let minus = graph.constant(-0.5);
-                let identity = Matrix::identity(graph, self.size);
-                let (left, right) =
-                    (self.resolvent(graph, &x, -1.0), self.resolvent(graph, &x, 1.0));
-                let forward = identity.plus(graph, half, &x);
-                let back = identity.plus(graph, minus, &x);
-                let increment = left.times(graph, &forward);
-                let inverse = right.times(graph, &back);
+                // (1 − X/2)⁻¹ (1 + X/2) = 2 (1 − X/2)⁻¹ − 1
+                let (x, minus) = (self.represent(graph, x), graph.constant(-1.0));
+                let negative = Matrix::identity(graph, self.size).scaled(graph, minus);
+                let [increment, inverse] = [-1.0, 1.0].map(|s| {
+                    negative.plus(graph, graph.constant(2.0), &self.resolvent(graph, &x, s))
+                });
                 let mu = self.coordinates(graph, &self.between(graph, &increment, mu, &inverse));
                 Moved { g: self.product(graph, &own, &increment), mu }
             }
@@ -446,8 +388,11 @@ impl Part for Tables {
             let inverse = if self.orthogonal {
                 transposed
             } else {
-                let back = Matrix::zeros(graph, self.size, self.size).plus(graph, minus, &y);
-                identity.plus(graph, one, &self.exponential_less_one(graph, &back))
+                identity.plus(
+                    graph,
+                    one,
+                    &self.exponential_less_one(graph, &y.scaled(graph, minus)),
+                )
             };
             self.coordinates(graph, &self.between(graph, &increment, mu, &inverse))
         };
@@ -477,17 +422,12 @@ impl Part for Tables {
                 let a = self.ad_transpose(graph, x);
                 let scale = graph.constant(std::f64::consts::FRAC_1_PI);
                 // Where the series ends by itself there is no limit.
-                let squared = a.times(graph, &a);
-                let inside = match squared.is_zero(graph) {
+                let norm = |matrix: &Matrix, power: Matrix| match power.is_zero(graph) {
                     true => graph.zero(),
-                    false => row_norm(graph, &a),
+                    false => row_norm(graph, matrix),
                 };
-                let squared = matrix.times(graph, &matrix);
-                let cubed = squared.times(graph, &matrix);
-                let own = match cubed.is_zero(graph) {
-                    true => graph.zero(),
-                    false => row_norm(graph, &matrix),
-                };
+                let inside = norm(&a, a.times(graph, &a));
+                let own = norm(&matrix, matrix.times(graph, &matrix).times(graph, &matrix));
                 graph.mul(graph.max(inside, own), scale)
             }
         };
@@ -499,14 +439,12 @@ impl Part for Tables {
         if !self.orthogonal {
             return rest;
         }
-        let (gram, one) = (self.gram(graph, &self.square(g)), graph.constant(1.0));
-        let mut off = Vec::new();
-        for i in 0..self.size {
-            for j in i..self.size {
-                let unit = if i == j { one } else { graph.zero() };
-                off.push(graph.sub(gram.at(i, j), unit));
-            }
-        }
+        let (g, one) = (self.square(g), graph.constant(1.0));
+        let gram = g.transposed().times(graph, &g);
+        let places = (0..self.size).flat_map(|i| (i..self.size).map(move |j| (i, j)));
+        let off =
+            places.map(|(i, j)| graph.sub(gram.at(i, j), if i == j { one } else { graph.zero() }));
+        let off: Vec<Id> = off.collect();
         graph.add(largest(graph, &off), rest)
     }
 

@@ -68,66 +68,39 @@ impl<'g> Traced<'g> {
     }
 }
 
-impl Add for Traced<'_> {
-    type Output = Self;
-
-    fn add(self, b: Self) -> Self {
-        Self::make([self, b], |[a, b]| a + b, |graph, [a, b]| graph.add(a, b))
-    }
+/// Operations by the function of the graph of this name, and for known numbers by a value.
+macro_rules! operations {
+    ($($name:ident($($number:ident),*) = $value:expr;)*) => {$(
+        fn $name(self $(, $number: Self)*) -> Self {
+            let fold = |[s $(, $number)*]: [f64; _]| ($value)(s $(, $number)*);
+            let write = |graph: &Graph, [s $(, $number)*]: [Id; _]| graph.$name(s $(, $number)*);
+            Self::make([self $(, $number)*], fold, write)
+        }
+    )*};
 }
 
-impl Sub for Traced<'_> {
-    type Output = Self;
+macro_rules! operators {
+    ($($operator:ident $name:ident($($number:ident)?);)*) => {$(
+        impl $operator for Traced<'_> {
+            type Output = Self;
 
-    fn sub(self, b: Self) -> Self {
-        Self::make([self, b], |[a, b]| a - b, |graph, [a, b]| graph.sub(a, b))
-    }
+            operations! { $name($($number)?) = $operator::$name; }
+        }
+    )*};
 }
 
-impl Mul for Traced<'_> {
-    type Output = Self;
-
-    fn mul(self, b: Self) -> Self {
-        Self::make([self, b], |[a, b]| a * b, |graph, [a, b]| graph.mul(a, b))
-    }
-}
-
-impl Div for Traced<'_> {
-    type Output = Self;
-
-    fn div(self, b: Self) -> Self {
-        Self::make([self, b], |[a, b]| a / b, |graph, [a, b]| graph.div(a, b))
-    }
-}
-
-impl Neg for Traced<'_> {
-    type Output = Self;
-
-    fn neg(self) -> Self {
-        Self::make([self], |[a]| -a, |graph, [a]| graph.neg(a))
-    }
-}
+operators! { Add add(b); Sub sub(b); Mul mul(b); Div div(b); Neg neg(); }
 
 impl Number for Traced<'_> {
+    operations! {
+        times_plus(a, b) = f64::mul_add;
+        abs() = f64::abs;
+        sqrt() = f64::sqrt;
+        round() = f64::round_ties_even;
+    }
+
     fn of(value: f64) -> Self {
         Constant(value)
-    }
-
-    fn times_plus(self, a: Self, b: Self) -> Self {
-        let fold = |[s, a, b]: [f64; 3]| s.mul_add(a, b);
-        Self::make([self, a, b], fold, |graph, [s, a, b]| graph.times_plus(s, a, b))
-    }
-
-    fn abs(self) -> Self {
-        Self::make([self], |[a]| a.abs(), |graph, [a]| graph.abs(a))
-    }
-
-    fn sqrt(self) -> Self {
-        Self::make([self], |[a]| a.sqrt(), |graph, [a]| graph.sqrt(a))
-    }
-
-    fn round(self) -> Self {
-        Self::make([self], |[a]| a.round_ties_even(), |graph, [a]| graph.round(a))
     }
 
     fn at_most(self, other: Self, then: Self, otherwise: Self) -> Self {

@@ -116,6 +116,12 @@ impl Matrix {
         Self { columns: self.columns, entries }
     }
 
+    /// s·self
+    pub(crate) fn scaled(&self, graph: &Graph, s: Id) -> Self {
+        let entries = self.entries.iter().map(|&a| graph.mul(a, s)).collect();
+        Self { columns: self.columns, entries }
+    }
+
     /// Whether every entry is the number 0, known without any input.
     pub(crate) fn is_zero(&self, graph: &Graph) -> bool {
         self.entries.iter().all(|&entry| graph.is_zero(entry))

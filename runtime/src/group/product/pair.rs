@@ -1,6 +1,5 @@
 //! The product of two groups.
 
-use core::fmt;
 use core::marker::PhantomData;
 
 use nalgebra::SVector;
@@ -23,6 +22,7 @@ use crate::number::Scalar;
 /// let group = Product::<SO3, SE2, 6>::new();
 /// assert_eq!((group.dim(), group.matrix_size(), group.casimir_count()), (6, 6, 2));
 /// ```
+#[derive(Clone, Copy, Debug)]
 pub struct Product<A, B, const N: usize>(PhantomData<(A, B)>);
 
 impl<A: FixedDimension, B: FixedDimension, const N: usize> Product<A, B, N> {
@@ -43,21 +43,6 @@ impl<A: FixedDimension, B: FixedDimension, const N: usize> Default for Product<A
     }
 }
 
-// Derived impls would ask the same of the factors.
-impl<A, B, const N: usize> Clone for Product<A, B, N> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<A, B, const N: usize> Copy for Product<A, B, N> {}
-
-impl<A, B, const N: usize> fmt::Debug for Product<A, B, N> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("Product")
-    }
-}
-
 impl<A, B, const N: usize> FixedDimension for Product<A, B, N> {
     const DIM: usize = N;
 }
@@ -74,14 +59,7 @@ where
 
     fn join((a, b): (A::Vector, B::Vector)) -> SVector<T, N> {
         let n = a.dim();
-        let mut result = SVector::repeat(T::of(0.0));
-        for i in 0..n {
-            result[i] = a[i];
-        }
-        for i in 0..b.dim() {
-            result[n + i] = b[i];
-        }
-        result
+        SVector::from_entries(N, |i| if i < n { a[i] } else { b[i - n] })
     }
 
     /// The coordinates of both factors at each node.
@@ -122,10 +100,6 @@ where
 
     fn dim(&self) -> usize {
         N
-    }
-
-    fn identity(&self) -> Self::Element {
-        (A::default().identity(), B::default().identity())
     }
 
     fn compose(&self, g: &Self::Element, h: &Self::Element) -> Self::Element {

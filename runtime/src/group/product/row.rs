@@ -1,12 +1,11 @@
 //! Products of any number of groups of one type: powers, known to the compiler, and rows known at run time. Spin
 //! chains, clusters of bodies.
 
-use core::borrow::Borrow;
-use core::fmt::{self, Debug};
+use core::fmt::Debug;
 use core::marker::PhantomData;
 
 #[cfg(feature = "alloc")]
-use alloc::{vec, vec::Vec};
+use alloc::vec::Vec;
 
 use nalgebra::SVector;
 
@@ -24,14 +23,8 @@ pub trait Row: Clone + Debug {
     /// Elements of the product: those of the factors.
     type Element: Clone + Debug + AsRef<[<Self::Group as LieGroup>::Element]>;
 
-    /// How many factors there are.
-    fn count(&self) -> usize;
-
-    /// A factor.
-    fn group(&self, at: usize) -> impl Borrow<Self::Group>;
-
-    /// Where a factor begins, or where the last one ends.
-    fn place(&self, at: usize) -> Place;
+    /// The factors, in order.
+    fn groups(&self) -> impl AsRef<[Self::Group]>;
 
     /// The element with these in the factors.
     fn element(
@@ -40,21 +33,32 @@ pub trait Row: Clone + Debug {
     ) -> Self::Element;
 }
 
-/// The first coordinate, the first row of matrices and the first Casimir of a factor.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Place {
-    coordinate: usize,
-    row: usize,
-    casimir: usize,
+/// A factor, its number, and its first coordinate.
+struct Factor<'a, G> {
+    group: &'a G,
+    at: usize,
+    start: usize,
 }
 
-impl Place {
-    /// The place after `count` copies of a group from here.
-    fn after<G: LieGroup>(self, count: usize, group: &G) -> Self {
-        Self {
-            coordinate: self.coordinate + count * group.dim(),
-            row: self.row + count * group.matrix_size(),
-            casimir: self.casimir + count * group.casimir_count(),
+fn factors<G: LieGroup>(groups: &[G]) -> impl Iterator<Item = Factor<'_, G>> {
+    let mut start = 0;
+    groups.iter().enumerate().map(move |(at, group)| {
+        let factor = Factor { group, at, start };
+        start += group.dim();
+        factor
+    })
+}
+
+impl<G: LieGroup> Factor<'_, G> {
+    /// Its own of the coordinates of the product.
+    fn of(&self, x: &impl Coordinates<G::Scalar>) -> G::Vector {
+        G::Vector::from_entries(self.group.dim(), |i| x[self.start + i])
+    }
+
+    /// Puts its own among the coordinates of the product.
+    fn put(&self, x: &mut impl Coordinates<G::Scalar>, part: &G::Vector) {
+        for i in 0..part.dim() {
+            x[self.start + i] = part[i];
         }
     }
 }
@@ -92,6 +96,7 @@ pub type Power<G, const COPIES: usize, const N: usize> = RowProduct<Copies<G, CO
 pub type DirectProduct<G> = RowProduct<Factors<G>>;
 
 /// The factors of a [`Power`].
+#[derive(Clone, Copy, Debug)]
 pub struct Copies<G, const COPIES: usize, const N: usize>(PhantomData<G>);
 
 impl<G: FixedDimension, const COPIES: usize, const N: usize> Power<G, COPIES, N> {
@@ -114,21 +119,6 @@ impl<G: FixedDimension, const COPIES: usize, const N: usize> Default for Power<G
     }
 }
 
-// Derived impls would ask the same of the factors.
-impl<G, const COPIES: usize, const N: usize> Clone for Copies<G, COPIES, N> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<G, const COPIES: usize, const N: usize> Copy for Copies<G, COPIES, N> {}
-
-impl<G, const COPIES: usize, const N: usize> Debug for Copies<G, COPIES, N> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{COPIES} copies")
-    }
-}
-
 impl<G, const COPIES: usize, const N: usize> FixedDimension for Power<G, COPIES, N> {
     const DIM: usize = N;
 }
@@ -142,16 +132,8 @@ where
     type Vector = SVector<T, N>;
     type Element = [G::Element; COPIES];
 
-    fn count(&self) -> usize {
-        COPIES
-    }
-
-    fn group(&self, _at: usize) -> impl Borrow<G> {
-        G::default()
-    }
-
-    fn place(&self, at: usize) -> Place {
-        Place::default().after(at, &G::default())
+    fn groups(&self) -> impl AsRef<[G]> {
+        [(); COPIES].map(|()| G::default())
     }
 
     fn element(&self, make: impl FnMut(usize) -> G::Element) -> Self::Element {
@@ -162,29 +144,19 @@ where
 /// The factors of a [`DirectProduct`].
 #[cfg(feature = "alloc")]
 #[derive(Clone, Debug)]
-pub struct Factors<G> {
-    groups: Vec<G>,
-    /// Where each begins, and where the last one ends.
-    places: Vec<Place>,
-}
+pub struct Factors<G>(Vec<G>);
 
 #[cfg(feature = "alloc")]
 impl<G: LieGroup> DirectProduct<G> {
     /// The product of `factors` in this order.
     #[must_use]
     pub fn new(factors: Vec<G>) -> Self {
-        let mut places = vec![Place::default()];
-        let mut end = Place::default();
-        for group in &factors {
-            end = end.after(1, group);
-            places.push(end);
-        }
-        Self(Factors { groups: factors, places })
+        Self(Factors(factors))
     }
 
     /// The factors, in order.
     pub fn factors(&self) -> impl ExactSizeIterator<Item = &G> {
-        self.0.groups.iter()
+        self.0.0.iter()
     }
 }
 
@@ -194,59 +166,51 @@ impl<G: LieGroup> Row for Factors<G> {
     type Vector = nalgebra::DVector<G::Scalar>;
     type Element = Vec<G::Element>;
 
-    fn count(&self) -> usize {
-        self.groups.len()
-    }
-
-    fn group(&self, at: usize) -> impl Borrow<G> {
-        &self.groups[at]
-    }
-
-    fn place(&self, at: usize) -> Place {
-        self.places[at]
+    fn groups(&self) -> impl AsRef<[G]> {
+        &self.0
     }
 
     fn element(&self, make: impl FnMut(usize) -> G::Element) -> Self::Element {
-        (0..self.groups.len()).map(make).collect()
+        (0..self.0.len()).map(make).collect()
     }
 }
 
 impl<T: Scalar, R: Row<Group: LieGroup<Scalar = T>>> RowProduct<R> {
-    fn end(&self) -> Place {
-        self.0.place(self.0.count())
+    /// The sum of numbers, one for each factor.
+    fn sum(&self, size: impl Fn(&R::Group) -> usize) -> usize {
+        self.0.groups().as_ref().iter().map(size).sum()
     }
 
-    fn part(&self, at: usize, x: &R::Vector) -> VectorOf<R> {
-        let start = self.0.place(at).coordinate;
-        VectorOf::<R>::from_entries(self.0.group(at).borrow().dim(), |i| x[start + i])
+    /// An element, made factor by factor.
+    fn element(&self, mut make: impl FnMut(Factor<'_, R::Group>) -> ElementOf<R>) -> R::Element {
+        let (groups, mut start) = (self.0.groups(), 0);
+        self.0.element(|at| {
+            let group = &groups.as_ref()[at];
+            let factor = Factor { group, at, start };
+            start += group.dim();
+            make(factor)
+        })
     }
 
     /// Coordinates, made factor by factor.
-    fn coordinates(&self, mut make: impl FnMut(usize, &R::Group) -> VectorOf<R>) -> R::Vector {
-        let mut result = R::Vector::zeros(self.end().coordinate);
-        for at in 0..self.0.count() {
-            let part = make(at, self.0.group(at).borrow());
-            let start = self.0.place(at).coordinate;
-            for i in 0..part.dim() {
-                result[start + i] = part[i];
-            }
+    fn coordinates(&self, mut make: impl FnMut(&Factor<'_, R::Group>) -> VectorOf<R>) -> R::Vector {
+        let mut result = R::Vector::zeros(self.dim());
+        for factor in factors(self.0.groups().as_ref()) {
+            factor.put(&mut result, &make(&factor));
         }
         result
     }
 
-    /// The same of coordinates that there may not be.
+    /// Coordinates that there may not be.
     fn coordinates_if_any(
         &self,
-        mut make: impl FnMut(usize, &R::Group) -> Option<VectorOf<R>>,
+        mut make: impl FnMut(&Factor<'_, R::Group>) -> Option<VectorOf<R>>,
     ) -> Option<R::Vector> {
-        let mut known = true;
-        let result = self.coordinates(|at, group| {
-            make(at, group).unwrap_or_else(|| {
-                known = false;
-                VectorOf::<R>::zeros(group.dim())
-            })
-        });
-        known.then_some(result)
+        let mut result = R::Vector::zeros(self.dim());
+        for factor in factors(self.0.groups().as_ref()) {
+            factor.put(&mut result, &make(&factor)?);
+        }
+        Some(result)
     }
 
     /// Coordinates from two others.
@@ -256,7 +220,7 @@ impl<T: Scalar, R: Row<Group: LieGroup<Scalar = T>>> RowProduct<R> {
         y: &R::Vector,
         f: impl Fn(&R::Group, &VectorOf<R>, &VectorOf<R>) -> VectorOf<R>,
     ) -> R::Vector {
-        self.coordinates(|at, group| f(group, &self.part(at, x), &self.part(at, y)))
+        self.coordinates(|factor| f(factor.group, &factor.of(x), &factor.of(y)))
     }
 
     /// Coordinates at each node from others.
@@ -265,16 +229,15 @@ impl<T: Scalar, R: Row<Group: LieGroup<Scalar = T>>> RowProduct<R> {
         from: [&RowsOf<R, M>; A],
         f: impl Fn(&R::Group, [Rows<R::Group, M>; A]) -> [Rows<R::Group, M>; B],
     ) -> [RowsOf<R, M>; B] {
-        let mut result = [(); B].map(|()| R::Vector::zero_rows::<M>(self.end().coordinate));
-        for at in 0..self.0.count() {
-            let (group, start) = (self.0.group(at), self.0.place(at).coordinate);
-            let n = group.borrow().dim();
+        let mut result = [(); B].map(|()| R::Vector::zero_rows::<M>(self.dim()));
+        for Factor { group, start, .. } in factors(self.0.groups().as_ref()) {
+            let n = group.dim();
             let parts = from.map(|rows| {
                 let mut part = VectorOf::<R>::zero_rows::<M>(n);
                 (0..n).for_each(|i| part[i] = rows[start + i]);
                 part
             });
-            for (rows, part) in result.iter_mut().zip(f(group.borrow(), parts)) {
+            for (rows, part) in result.iter_mut().zip(f(group, parts)) {
                 (0..n).for_each(|i| rows[start + i] = part[i]);
             }
         }
@@ -282,27 +245,13 @@ impl<T: Scalar, R: Row<Group: LieGroup<Scalar = T>>> RowProduct<R> {
     }
 
     /// The largest of numbers, one for each factor; NaN if one is.
-    fn largest(&self, f: impl Fn(usize, &R::Group) -> T) -> T {
-        (0..self.0.count())
-            .fold(T::of(0.0), |largest, at| largest.worse(f(at, self.0.group(at).borrow())))
-    }
-
-    /// The factor that owns a row of the matrices, or a Casimir, and where it begins.
-    fn owner(&self, index: usize, first: impl Fn(Place) -> usize) -> Option<(usize, usize)> {
-        // Of factors without Casimirs the last of equal beginnings is the owner.
-        let (mut low, mut high) = (0, self.0.count());
-        while low < high {
-            let middle = low + (high - low) / 2;
-            match first(self.0.place(middle)) <= index {
-                true => low = middle + 1,
-                false => high = middle,
-            }
-        }
-        let owner = low.checked_sub(1)?;
-        Some((owner, first(self.0.place(owner))))
+    fn largest(&self, f: impl Fn(Factor<'_, R::Group>) -> T) -> T {
+        let groups = self.0.groups();
+        factors(groups.as_ref()).map(f).fold(T::of(0.0), Scalar::worse)
     }
 }
 
+type ElementOf<R> = <<R as Row>::Group as LieGroup>::Element;
 type VectorOf<R> = <<R as Row>::Group as LieGroup>::Vector;
 /// Coordinates of the product at each node.
 type RowsOf<R, const M: usize> =
@@ -314,28 +263,24 @@ impl<T: Scalar, R: Row<Group: LieGroup<Scalar = T>>> LieGroup for RowProduct<R> 
     type Element = R::Element;
 
     fn dim(&self) -> usize {
-        self.end().coordinate
-    }
-
-    fn identity(&self) -> Self::Element {
-        self.0.element(|at| self.0.group(at).borrow().identity())
+        self.sum(R::Group::dim)
     }
 
     fn compose(&self, g: &Self::Element, h: &Self::Element) -> Self::Element {
         let (g, h) = (g.as_ref(), h.as_ref());
-        self.0.element(|at| self.0.group(at).borrow().compose(&g[at], &h[at]))
+        self.element(|Factor { group, at, .. }| group.compose(&g[at], &h[at]))
     }
 
     fn inverse(&self, g: &Self::Element) -> Self::Element {
-        self.0.element(|at| self.0.group(at).borrow().inverse(&g.as_ref()[at]))
+        self.element(|factor| factor.group.inverse(&g.as_ref()[factor.at]))
     }
 
     fn exp(&self, x: &Self::Vector) -> Self::Element {
-        self.0.element(|at| self.0.group(at).borrow().exp(&self.part(at, x)))
+        self.element(|factor| factor.group.exp(&factor.of(x)))
     }
 
     fn log(&self, g: &Self::Element) -> Option<Self::Vector> {
-        self.coordinates_if_any(|at, group| group.log(&g.as_ref()[at]))
+        self.coordinates_if_any(|factor| factor.group.log(&g.as_ref()[factor.at]))
     }
 
     fn ad_star(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
@@ -343,17 +288,14 @@ impl<T: Scalar, R: Row<Group: LieGroup<Scalar = T>>> LieGroup for RowProduct<R> 
     }
 
     fn coadjoint(&self, g: &Self::Element, mu: &Self::Vector) -> Self::Vector {
-        self.coordinates(|at, group| group.coadjoint(&g.as_ref()[at], &self.part(at, mu)))
+        self.coordinates(|factor| factor.group.coadjoint(&g.as_ref()[factor.at], &factor.of(mu)))
     }
 
     fn exp_transport(&self, x: &Self::Vector, mu: &Self::Vector) -> (Self::Element, Self::Vector) {
         let mut moved = R::Vector::zeros(mu.dim());
-        let element = self.0.element(|at| {
-            let (group, start) = (self.0.group(at), self.0.place(at).coordinate);
-            let (g, part) = group.borrow().exp_transport(&self.part(at, x), &self.part(at, mu));
-            for i in 0..part.dim() {
-                moved[start + i] = part[i];
-            }
+        let element = self.element(|factor| {
+            let (g, part) = factor.group.exp_transport(&factor.of(x), &factor.of(mu));
+            factor.put(&mut moved, &part);
             g
         });
         (element, moved)
@@ -364,7 +306,7 @@ impl<T: Scalar, R: Row<Group: LieGroup<Scalar = T>>> LieGroup for RowProduct<R> 
     }
 
     fn exp_extent(&self, x: &Self::Vector) -> T {
-        self.largest(|at, group| group.exp_extent(&self.part(at, x)))
+        self.largest(|factor| factor.group.exp_extent(&factor.of(x)))
     }
 
     fn node_momenta<const M: usize>(
@@ -404,35 +346,39 @@ impl<T: Scalar, R: Row<Group: LieGroup<Scalar = T>>> LieGroup for RowProduct<R> 
     }
 
     fn element_defect(&self, g: &Self::Element) -> T {
-        self.largest(|at, group| group.element_defect(&g.as_ref()[at]))
+        self.largest(|factor| factor.group.element_defect(&g.as_ref()[factor.at]))
     }
 
     fn casimir_count(&self) -> usize {
-        self.end().casimir
+        self.sum(R::Group::casimir_count)
     }
 
     fn casimir(&self, index: usize, mu: &Self::Vector) -> T {
-        match self.owner(index, |place| place.casimir) {
-            Some((at, first)) if index < self.casimir_count() => {
-                self.0.group(at).borrow().casimir(index - first, &self.part(at, mu))
+        let mut index = index;
+        for factor in factors(self.0.groups().as_ref()) {
+            let count = factor.group.casimir_count();
+            if index < count {
+                return factor.group.casimir(index, &factor.of(mu));
             }
-            _ => T::of(0.0),
+            index -= count;
         }
+        T::of(0.0)
     }
 
     fn matrix_size(&self) -> usize {
-        self.end().row
+        self.sum(R::Group::matrix_size)
     }
 
     fn matrix_entry(&self, g: &Self::Element, row: usize, column: usize) -> T {
-        let owner = |index| self.owner(index, |place| place.row);
-        match (owner(row), owner(column)) {
-            (Some((at, first)), Some((other, _))) if at == other => {
-                let group = self.0.group(at);
-                group.borrow().matrix_entry(&g.as_ref()[at], row - first, column - first)
+        let mut first = 0;
+        for (group, g) in self.0.groups().as_ref().iter().zip(g.as_ref()) {
+            let block = first..first + group.matrix_size();
+            if block.contains(&row) && block.contains(&column) {
+                return group.matrix_entry(g, row - first, column - first);
             }
-            _ => T::of(0.0),
+            first = block.end;
         }
+        T::of(0.0)
     }
 
     fn element_from_matrix(
@@ -441,23 +387,22 @@ impl<T: Scalar, R: Row<Group: LieGroup<Scalar = T>>> LieGroup for RowProduct<R> 
     ) -> Result<Self::Element, ElementError> {
         let size = self.matrix_size();
         finite(size, &entry)?;
-        let block = |at| self.0.place(at).row..self.0.place(at + 1).row;
-        for at in 0..self.0.count() {
-            for row in block(at) {
-                for column in (0..size).filter(|column| !block(at).contains(column)) {
-                    fixed(&entry, (row, column), 0.0)?;
-                }
-            }
-        }
         // As `dyn`, so that products of products do not nest closure types without end.
         let entry: &dyn Fn(usize, usize) -> T = &entry;
-        let mut error = None;
-        let element = self.0.element(|at| {
-            let (group, first) = (self.0.group(at), self.0.place(at).row);
-            let read = group.borrow().element_from_matrix(|i, j| entry(first + i, first + j));
+        let (mut error, mut first) = (None, 0);
+        let element = self.element(|Factor { group, .. }| {
+            let block = first..first + group.matrix_size();
+            first = block.end;
+            let places = block.clone().flat_map(|row| (0..size).map(move |column| (row, column)));
+            let read = places
+                .filter(|(_, column)| !block.contains(column))
+                .try_for_each(|place| fixed(&entry, place, 0.0))
+                .and_then(|()| {
+                    group.element_from_matrix(|i, j| entry(block.start + i, block.start + j))
+                });
             read.unwrap_or_else(|why| {
                 error.get_or_insert(why);
-                group.borrow().identity()
+                group.identity()
             })
         });
         error.map_or(Ok(element), Err)
@@ -466,15 +411,15 @@ impl<T: Scalar, R: Row<Group: LieGroup<Scalar = T>>> LieGroup for RowProduct<R> 
 
 impl<T: Scalar, R: Row<Group: CayleyGroup<Scalar = T>>> CayleyGroup for RowProduct<R> {
     fn cayley(&self, x: &Self::Vector) -> Self::Element {
-        self.0.element(|at| self.0.group(at).borrow().cayley(&self.part(at, x)))
+        self.element(|factor| factor.group.cayley(&factor.of(x)))
     }
 
     fn cayley_extent(&self, x: &Self::Vector) -> T {
-        self.largest(|at, group| group.cayley_extent(&self.part(at, x)))
+        self.largest(|factor| factor.group.cayley_extent(&factor.of(x)))
     }
 
     fn cayley_inverse(&self, g: &Self::Element) -> Option<Self::Vector> {
-        self.coordinates_if_any(|at, group| group.cayley_inverse(&g.as_ref()[at]))
+        self.coordinates_if_any(|factor| factor.group.cayley_inverse(&g.as_ref()[factor.at]))
     }
 
     fn dcay_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector {
