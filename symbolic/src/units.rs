@@ -20,9 +20,14 @@ fn ideals(algebra: &LieAlgebra) -> Vec<Vec<bool>> {
     for seed in 0..n {
         let mut inside = vec![false; n];
         inside[seed] = true;
-        while let Some(c) = structure.iter().find(|c| (inside[c.i] || inside[c.j]) && !inside[c.k])
-        {
-            inside[c.k] = true;
+        let mut grows = true;
+        while grows {
+            grows = false;
+            for c in structure {
+                if (inside[c.i] || inside[c.j]) && !inside[c.k] {
+                    (inside[c.k], grows) = (true, true);
+                }
+            }
         }
         let splits = structure.iter().all(|c| match (inside[c.i], inside[c.j]) {
             (true, true) => false,
@@ -55,7 +60,7 @@ fn solved(mut equations: Vec<Vec<f64>>) -> Vec<f64> {
 }
 
 impl Problem {
-    /// What each coordinate of a momentum is multiplied by where sizes are compared: 1 outside of all ideals of translations.
+    /// The factor of each coordinate of a momentum where sizes are compared: 1 outside of all ideals of translations.
     /// Coefficients c of the monomials of H in these units and one of the momentum, which are found by least squares of ln |c|,
     /// differ the least from that unit; so another unit of length in H changes nothing but rounding.
     pub fn units(&self) -> Vec<f64> {

@@ -165,7 +165,7 @@ impl Mistake {
         Self::MissingKey(key.to_owned(), owner.to_owned(), example.to_owned())
     }
 
-    /// The same mistake in another function than H, which depends on something else than the momentum.
+    /// This mistake in another function than H, which depends on something else than the momentum.
     pub(crate) fn in_formula(self, [function, of]: [&str; 2]) -> Self {
         let words = |text: &str| {
             text.replace("the momentum's coordinates", "entries of the group element's matrix")

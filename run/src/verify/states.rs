@@ -103,7 +103,7 @@ pub(crate) fn next(table: &mut Table) -> Result<Option<Vec<f64>>, RunError> {
 pub(crate) struct Measured {
     pub state: State,
     pub start: step::Start,
-    /// What rounding of the state moves, in units of it: the spatial momentum, where an element with an inverse is given, each
+    /// The sizes of what rounding of the state moves: the spatial momentum, where an element with an inverse is given, each
     /// Casimir, and the energy.
     spatial: Option<f64>,
     casimirs: Vec<f64>,

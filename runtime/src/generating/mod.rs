@@ -65,8 +65,8 @@ pub trait GeneratingFunction {
         None
     }
 
-    /// What coordinate `i` of a momentum is multiplied by where sizes of coordinates are compared: of a group with translations
-    /// those in a unit of length of the system's own, so that steps do not depend on that of the numbers.
+    /// The factor of coordinate `i` of a momentum where sizes of coordinates are compared: of a group with translations it
+    /// measures in a unit of length of the system's own, so that steps do not depend on that of the numbers.
     #[inline(always)]
     fn unit(&self, i: usize) -> f64 {
         let _ = i;

@@ -51,7 +51,7 @@ pub(super) struct Geometry {
     pub(super) dim: usize,
     /// The direct factor of each coordinate, ascending from 0.
     pub(super) factors: Vec<usize>,
-    /// What sizes of coordinates are multiplied by where they are compared.
+    /// The factors of coordinates where their sizes are compared.
     pub(super) units: Vec<f64>,
     pub(super) chart: Chart,
     /// \[e_i, e_j\] contains c·e_k.

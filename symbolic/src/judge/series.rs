@@ -157,8 +157,8 @@ struct Plan {
     /// The degree of each monomial.
     degrees: Vec<i32>,
     /// For each monomial, and each direct factor of the group that it has coordinates of: a bound on the gradient in these
-    /// where |p| of every factor is one in units of its own, D_f Π_g max |pᵐ|, the maximum over the unit sphere of the part in factor g being
-    /// Π (mᵢ/D_g)^{mᵢ/2} (O. Kellogg, Math. Z. 27 (1928) 55).
+    /// where |p| of every factor is one in comparable units, D_f Π_g max |pᵐ|, the maximum over the unit sphere of the part
+    /// in factor g being Π (mᵢ/D_g)^{mᵢ/2} (O. Kellogg, Math. Z. 27 (1928) 55).
     bounds: Vec<Vec<(usize, f64)>>,
     /// Product k + 1 is an earlier one times a coordinate; product 0 is 1.
     products: Vec<(usize, usize)>,
