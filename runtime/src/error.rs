@@ -30,7 +30,7 @@ pub enum StepError {
     },
     /// The step lies outside the chart.
     #[error(
-        "the step leaves the chart: it is {extent:.2} times as long as the chart reaches; {at}"
+        "the step leaves the chart: it is {:.2} times as long as the chart reaches; {at}", Short(*extent)
     )]
     OutsideChart {
         /// The length of x as a multiple of the chart's reach: the square root of
@@ -40,7 +40,7 @@ pub enum StepError {
         at: Circumstances,
     },
     /// The series of the generating function has stopped to converge at this momentum.
-    #[error("the series means nothing for so long a step: its terms have the ratio {:.2}, and at most 0.5 is accepted; {at}", at.ratio)]
+    #[error("the series means nothing for so long a step: its terms have the ratio {:.2}, and at most 0.5 is accepted; {at}", Short(at.ratio))]
     SeriesDiverges {
         /// The circumstances of the step.
         at: Circumstances,
@@ -60,7 +60,7 @@ pub enum StepError {
     },
     /// The energy, its gradient or a torque is not finite at a momentum that the step needs: outside the domain of a function, or at
     /// a pole.
-    #[error("an expression is not defined at time {time}: {expression} {}{}", Of(*argument), Hint(at))]
+    #[error("an expression is not defined at time {}: {expression} {}{}", Short(*time), Of(*argument), Hint(at))]
     Undefined {
         /// The expression as the Hamiltonian or the torque has it.
         expression: &'static str,
@@ -88,19 +88,31 @@ pub enum StepError {
     )]
     Overflow,
     /// The step size is zero, infinite or not a number.
-    #[error("step size {step} is not usable: give a finite step other than zero")]
+    #[error("step size {} is not usable: give a finite step other than zero", Short(*step))]
     InvalidStep {
         /// The step size given.
         step: f64,
     },
     /// A parameter, or an expression in the parameters, is infinite or not a number.
-    #[error("coefficient {name} is {value}: every parameter expression must be finite")]
+    #[error("coefficient {name} is {}: every parameter expression must be finite", Short(*value))]
     InvalidParameter {
         /// The expression, as written in the Hamiltonian.
         name: &'static str,
         /// Its value.
         value: f64,
     },
+}
+
+/// A number as a decimal fraction, or with an exponent where that would have many zeros.
+struct Short(f64);
+
+impl fmt::Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0.abs() {
+            size if size > 0.0 && !(1e-7..1e9).contains(&size) => fmt::LowerExp::fmt(&self.0, f),
+            _ => fmt::Display::fmt(&self.0, f),
+        }
+    }
 }
 
 /// The argument of an expression that is not defined, where it is known.
@@ -110,7 +122,7 @@ impl fmt::Display for Of {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0.is_nan() {
             true => f.write_str("is not finite"),
-            false => write!(f, "of {}", self.0),
+            false => write!(f, "of {}", Short(self.0)),
         }
     }
 }
@@ -134,7 +146,7 @@ impl fmt::Display for Circumstances {
             write!(f, ", last terms of the series in the ratio {:.1e}", self.ratio)?;
         }
         match self.usable_step {
-            Some(step) => write!(f, "; a step of {step} works here"),
+            Some(step) => write!(f, "; a step of {} works here", Short(step)),
             None => f.write_str("; take a smaller step"),
         }
     }

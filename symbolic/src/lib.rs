@@ -44,3 +44,4 @@ pub mod signal;
 pub mod smooth;
 pub mod step;
 pub mod tolerance;
+mod units;

@@ -32,6 +32,10 @@ impl<S: GeneratingFunction> GeneratingFunction for MatrixFree<S> {
         self.0.frame(motion, mu)
     }
 
+    fn unit(&self, i: usize) -> f64 {
+        self.0.unit(i)
+    }
+
     fn radius(&self) -> ScalarOf<S> {
         self.0.radius()
     }

@@ -165,13 +165,12 @@ impl Mistake {
         Self::MissingKey(key.to_owned(), owner.to_owned(), example.to_owned())
     }
 
-    /// Words the mistake for a potential, which is a polynomial in the group element's matrix as a Hamiltonian is one in the
-    /// momentum.
-    pub(crate) fn in_potential(self) -> Self {
+    /// This mistake in another function than H, which depends on something else than the momentum.
+    pub(crate) fn in_formula(self, [function, of]: [&str; 2]) -> Self {
         let words = |text: &str| {
             text.replace("the momentum's coordinates", "entries of the group element's matrix")
-                .replace("the momentum", "the group element")
-                .replace("Hamiltonian", "potential")
+                .replace("the momentum", of)
+                .replace("Hamiltonian", function)
         };
         let (message, help) = (self.to_string(), self.correction());
         let said = words(&message);

@@ -67,6 +67,16 @@ pub(crate) fn generating_function(
             }
         }
     });
+    let units = integrator.units.iter().any(|unit| *unit != 1.0).then(|| {
+        let units = &integrator.units;
+        quote! {
+            #[inline]
+            fn unit(&self, i: usize) -> f64 {
+                const UNITS: [f64; #n] = [#(#units),*];
+                UNITS[i]
+            }
+        }
+    });
     let largest_rate = integrator.largest_rate.map(|rate| {
         quote! {
             #[inline]
@@ -100,6 +110,8 @@ pub(crate) fn generating_function(
             #frame
 
             #judged
+
+            #units
 
             #largest_rate
         }

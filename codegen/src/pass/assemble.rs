@@ -265,6 +265,11 @@ fn assemble_polynomial(draft: Draft, read: Read, diagnostics: &Diagnostics) -> O
     }
 }
 
+/// Functions that are not H, and what they depend on.
+const POTENTIAL: [&str; 2] = ["potential", "the group element"];
+#[cfg(feature = "system")]
+const TORQUE: [&str; 2] = ["torque", "the state"];
+
 /// The program of a function of coordinates with these names and the time, without parameters, and its slots; `None` where
 /// something is wrong, which has then been reported.
 #[cfg(feature = "system")]
@@ -303,7 +308,7 @@ pub(crate) fn assemble_potential(
     let (of_series, others): (Vec<_>, Vec<_>) =
         found.into_iter().partition(|found| found.mistake.is_of_series());
     for found in others {
-        diagnostics.report(found.span, found.mistake.in_potential());
+        diagnostics.report(found.span, found.mistake.in_formula(POTENTIAL));
     }
     if diagnostics.len() > before {
         return None;
@@ -328,19 +333,31 @@ fn smooth_potential(
 ) -> Option<(Programs, Vec<Symbol>)> {
     let (entries, scalars) = (entries(algebra.matrix_size()), energy.scalar_names());
     let (root, place) = energy.root?;
-    let found = Diagnostics::new();
     let names = [&entries[..], &scalars, &[]];
-    let lowered = lower(&energy.arena, &[root], names, &mut Table::new(), &found);
-    for found in found.list() {
-        diagnostics.report(found.span, found.mistake.in_potential());
-    }
-    let Lowered { value, gradient, watched, expressions, symbols, .. } = lowered?;
+    let Lowered { value, gradient, watched, expressions, symbols, .. } =
+        formula(&energy.arena, &[root], names, POTENTIAL, diagnostics)?;
     if gradient.nodes().iter().all(|node| *node == coadjoint_program::Node::Zero) {
-        diagnostics.report(place, Mistake::NoDependence.in_potential());
+        diagnostics.report(place, Mistake::NoDependence.in_formula(POTENTIAL));
         return None;
     }
     let programs = [&value, &gradient, &watched];
     Some((Programs::of_potential(algebra, programs, expressions), symbols))
+}
+
+/// Lowers expressions that are not H, and says of mistakes what they are in.
+fn formula(
+    arena: &Arena,
+    roots: &[ExprId],
+    names: [&[String]; 3],
+    of: [&str; 2],
+    diagnostics: &Diagnostics,
+) -> Option<Lowered> {
+    let found = Diagnostics::new();
+    let lowered = lower(arena, roots, names, &mut Table::new(), &found);
+    for found in found.list() {
+        diagnostics.report(found.span, found.mistake.in_formula(of));
+    }
+    lowered
 }
 
 pub(crate) fn entries(size: usize) -> Vec<String> {
@@ -362,7 +379,7 @@ pub(crate) fn assemble_torque(
     let names = [entries(size), coordinates.to_vec()].concat();
     let inputs: Vec<String> = signals.iter().map(|signal| signal.name.clone()).collect();
     let names = [&names[..], &energy.scalar_names(), &inputs];
-    let lowered = lower(&energy.arena, &roots, names, &mut Table::new(), diagnostics)?;
+    let lowered = formula(&energy.arena, &roots, names, TORQUE, diagnostics)?;
     let Lowered { value: torque, watched, expressions, mut symbols, .. } = lowered;
     let (entries, moves) = (size * size, energy.moves());
     let of_momentum = energy.arena.iter().any(

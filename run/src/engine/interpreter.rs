@@ -114,6 +114,10 @@ impl<G: Group, C: Chart<G>> GeneratingFunction for Interpreter<'_, G, C> {
         self.integrator.frame.get(motion).map(|program| self.vector(program, mu))
     }
 
+    fn unit(&self, i: usize) -> f64 {
+        self.integrator.units[i]
+    }
+
     fn radius(&self) -> f64 {
         let square = self.of_series().first().copied().unwrap_or(f64::INFINITY);
         if square.is_finite() { square.sqrt() } else { f64::MAX }

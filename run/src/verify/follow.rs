@@ -8,13 +8,12 @@ use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::judge::Judge;
 use coadjoint_codegen::problem::{Parameter, values};
 use coadjoint_codegen::smooth::Hamiltonian;
-use coadjoint_codegen::step::MEASURABLE;
 use coadjoint_learn::table::Table;
 
 use super::course::{Course, Trouble};
 use super::found::Found;
 use super::said::Said;
-use super::states::{Columns, DRIFT, Invariants, State, next, refused};
+use super::states::{Columns, Invariants, Measured, State, next, refused};
 use crate::ensemble::Shape;
 use crate::error::RunError;
 use crate::grid::Grid;
@@ -24,8 +23,6 @@ use crate::number::maximum;
 const SLACK: f64 = 1e-6;
 /// Steps between two rows at most: beyond, the bound on what rounding does says nothing.
 const FARTHEST: u64 = 100_000;
-/// Of matrices with larger entries rounding may leave no inverse.
-const LONG: f64 = 1e5;
 
 /// The exact judge of a system, which is called `file` in messages.
 ///
@@ -118,11 +115,15 @@ impl<'a> Follower<'a> {
         let mut found = Found::default();
         let of = (self.hamiltonian, &self.invariants);
         let mut said = Said::new(of, self.grid, table, &mut found);
-        let mut last: Option<(f64, State)> = None;
+        let mut last: Option<(f64, Measured)> = None;
         while let Some(row) = next(table)? {
-            let (number, now, state) = (table.number(), row[time], columns.state(&row));
-            let place = format!("row {number}, time {now}");
-            said.row((number, now), (&columns, &row), (&*table, &state), &mut found);
+            let (number, now) = (table.number(), row[time]);
+            let known = || self.invariants.at(now, columns.state(&row));
+            let (place, state) = (format!("row {number}, time {now}"), known());
+            if number == 1 && now == self.grid.start {
+                said.begin((table, &self.invariants), known(), &mut found);
+            }
+            said.row((number, now), (&columns, &row), &state, &mut found);
             let mut grid = true;
             if let Some((then, before)) = &last {
                 let step = self.grid.step;
@@ -173,16 +174,18 @@ impl<'a> Follower<'a> {
             let Some(start) = next(starts)? else {
                 return Err(refused(ends, format_args!("row {number} has no start in the input")));
             };
-            let (start, end) = (before.state(&start), after.state(&end));
+            let made = (self.grid.start, steps, 0.0);
+            let start = self.invariants.at(made.0, before.state(&start));
+            let end = self.invariants.at(self.grid.time(steps), after.state(&end));
             // An ensemble refuses a row by NaN in all that the state is made of.
-            let lost = end.momentum.iter().all(|value| value.is_nan())
-                && end.element.as_ref().is_none_or(|g| g.iter().any(|value| value.is_nan()));
+            let State { momentum, element } = &end.state;
+            let lost = momentum.iter().all(|value| value.is_nan())
+                && element.as_ref().is_none_or(|g| g.iter().any(|value| value.is_nan()));
             if lost && listed.contains(&number) {
                 found.refused += 1;
                 continue;
             }
             let place = format!("row {number}");
-            let made = (self.grid.start, steps, 0.0);
             self.row((number, &place), (&start, &end), made, &mut found);
         }
         let rows = ends.number();
@@ -196,7 +199,7 @@ impl<'a> Follower<'a> {
     fn row(
         &self,
         (number, place): (u64, &str),
-        (before, after): (&State, &State),
+        (from, to): (&Measured, &Measured),
         (then, steps, rest): (f64, u64, f64),
         found: &mut Found,
     ) {
@@ -204,6 +207,7 @@ impl<'a> Follower<'a> {
             *found.not_sampled.get_or_insert(0) += 1;
             return;
         }
+        let (before, after) = (&from.state, &to.state);
         let made = found.steps;
         found.rows += 1;
         found.steps += steps + u64::from(rest != 0.0);
@@ -231,7 +235,7 @@ impl<'a> Follower<'a> {
                 }
             }
         }
-        self.judge_invariants(place, (before, after), (&course, steps), found);
+        self.judge_invariants(place, (from, to), (&course, steps), found);
         let deviations = if steps > 0 || rest != 0.0 {
             course.deviations(before, after)
         } else {
@@ -257,35 +261,22 @@ impl<'a> Follower<'a> {
     fn judge_invariants(
         &self,
         place: &str,
-        (before, after): (&State, &State),
+        (before, after): (&Measured, &Measured),
         (course, steps): (&Course, u64),
         found: &mut Found,
     ) {
         // Where the motion stretches by more than numbers tell apart, nothing is measured.
         let Some(stretch) = course.stretch() else { return };
-        let most = DRIFT * (steps + 1) as f64 * (stretch / self.size.max(1) as f64).max(1.0);
-        let casimirs = self.invariants.casimir_drifts(&before.momentum, &after.momentum);
-        for (index, drift) in casimirs.enumerate() {
-            found.casimir = maximum(found.casimir, drift);
-            if !(drift <= most) {
-                found.blame(format!("{place}: Casimir {} drifts by {drift:.2e}", index + 1));
-            }
-        }
-        let (Some(g), Some(next)) = (&before.element, &after.element) else { return };
-        match self.invariants.spatial_drift(before, after) {
-            // Of long elements rounding leaves no inverse: momentum and element are judged all the same.
-            None if g.iter().chain(next).any(|x| x.abs() > LONG) => {}
-            None => found.blame(format!("{place}: the group element has no inverse")),
-            // As in a run, nothing is measured where rounding hides it.
-            Some((_, rounding)) if rounding > MEASURABLE => {}
-            Some((drift, rounding)) => {
-                found.spatial_momentum = maximum(found.spatial_momentum, drift);
-                // Rounding of what numbers are made of, and of these.
-                if !(drift <= most + 64.0 * (steps + 1) as f64 * rounding) {
-                    found.blame(format!("{place}: the spatial momentum drifts by {drift:.2e}"));
-                }
-            }
-        }
+        let more = (steps + 1) as f64 * (stretch / self.size.max(1) as f64).max(1.0);
+        let [spatial, casimirs, _] = before.drifts(after);
+        let judge = |worst: &mut f64, what: &str, drift: Option<(f64, f64)>| {
+            let (drift, bound) = drift?;
+            *worst = maximum(*worst, drift);
+            (!(drift <= more * bound)).then(|| format!("{place}: the {what} by {drift:.2e}"))
+        };
+        let wrong = judge(&mut found.casimir, "Casimirs drift", casimirs);
+        let other = judge(&mut found.spatial_momentum, "spatial momentum drifts", spatial);
+        wrong.into_iter().chain(other).for_each(|what| found.blame(what));
     }
 }
 

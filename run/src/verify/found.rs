@@ -14,7 +14,7 @@ pub struct Found {
     pub momentum: f64,
     /// The same of group elements.
     pub group_element: f64,
-    /// The largest drift of a Casimir from row to row, relative to its terms.
+    /// The largest drift of the Casimirs from row to row, relative to their scales.
     pub casimir: f64,
     /// The same of the spatial momentum.
     pub spatial_momentum: f64,

@@ -13,11 +13,10 @@ use nalgebra::{DMatrix, Quaternion, UnitQuaternion};
 use crate::engine::{entries_of, phase_of, product_group};
 use crate::ensemble::{Attitude, Found, Known, Shape};
 use crate::error::RunError;
-use crate::number::maximum;
 use crate::simulate::DRIFTS;
 
 /// The drift allowed a step, relative to the sum of the absolute values of the invariant's terms.
-pub(crate) const DRIFT: f64 = 64.0 * f64::EPSILON;
+const DRIFT: f64 = 64.0 * f64::EPSILON;
 
 /// A state of a file: the momentum and, where it is given, the matrix of the element, row by row.
 pub(crate) struct State {
@@ -100,6 +99,42 @@ pub(crate) fn next(table: &mut Table) -> Result<Option<Vec<f64>>, RunError> {
     Ok(Some(row.numbers()))
 }
 
+/// A state, what is conserved there, and how large the numbers are that this is made of.
+pub(crate) struct Measured {
+    pub state: State,
+    pub start: step::Start,
+    /// The sizes of what rounding of the state moves: the spatial momentum, where an element with an inverse is given, each
+    /// Casimir, and the energy.
+    spatial: Option<f64>,
+    casimirs: Vec<f64>,
+    energy: Option<f64>,
+}
+
+impl Measured {
+    /// The drifts of the spatial momentum, the Casimirs and the energy from here to another state, where they are known, each
+    /// with what rounding may do to it.
+    pub(crate) fn drifts(&self, to: &Self) -> [Option<(f64, f64)>; 3] {
+        let (scales, drift) = (&self.start.scales, self.start.drift(&to.start.conserved));
+        let over = |size: f64, scale: f64| if scale == 0.0 { size } else { size / scale };
+        let both = |a: Option<f64>, b: Option<f64>, scale| Some(over(a? + b?, scale));
+        let casimirs = self.casimirs.iter().zip(&to.casimirs).zip(&scales.casimirs);
+        let casimirs = casimirs.map(|((a, b), scale)| over(a + b, *scale));
+        let pairs = [
+            (drift.spatial_momentum, both(self.spatial, to.spatial, scales.spatial_momentum)),
+            (drift.casimirs, casimirs.reduce(f64::max)),
+            (drift.energy, both(self.energy, to.energy, scales.energy)),
+        ];
+        pairs.map(|(drift, size)| {
+            drift.zip(size.map(|size| DRIFT * size)).filter(|(drift, _)| drift.is_finite())
+        })
+    }
+
+    /// The energy, and what rounding may do to it; none where it moves in time.
+    pub(crate) fn energy(&self) -> Option<(f64, f64)> {
+        self.start.conserved.energy.zip(self.energy.map(|size| DRIFT * size))
+    }
+}
+
 /// The invariants of a problem, computed from its exact data.
 pub(crate) struct Invariants {
     functions: step::Invariants,
@@ -116,65 +151,23 @@ impl Invariants {
         Ok(Self { functions, group })
     }
 
-    /// The energy of a momentum at this time, and the sum of the absolute values of its terms; none where it moves in time.
-    pub(crate) fn energy(&self, time: f64, mu: &[f64]) -> Option<(f64, f64)> {
-        let energy = self.functions.hamiltonian.as_ref()?;
-        Some((energy.value(time, mu), energy.magnitude(time, mu)))
-    }
-
-    /// By how much each Casimir drifts from one momentum to another, relative to its terms.
-    pub(crate) fn casimir_drifts(
-        &self,
-        before: &[f64],
-        after: &[f64],
-    ) -> impl Iterator<Item = f64> {
-        self.functions.casimirs.iter().map(move |casimir| {
-            let difference = (casimir.value(before) - casimir.value(after)).abs();
-            let [a, b] = [before, after].map(|mu| casimir.magnitude(mu));
-            if difference == 0.0 { 0.0 } else { difference / a.max(b) }
-        })
-    }
-
-    /// The conserved quantities of a state, and the sizes that drifts from them are relative to.
-    pub(crate) fn start(&self, time: f64, state: &State) -> step::Start {
-        let spatial = self.spatial(state).unwrap_or_default();
-        self.functions.start(time, &state.momentum, &spatial, Vec::new)
-    }
-
-    /// The drifts of the spatial momentum, the Casimirs and the energy from the start to another state, where they are known,
-    /// each with what rounding may do to it.
-    pub(crate) fn drifts(
-        &self,
-        (first, start): (&State, &step::Start),
-        (time, state): (f64, &State),
-    ) -> [Option<(f64, f64)>; 3] {
-        let spatial = self.spatial(state).unwrap_or_default();
-        let now = self.functions.conserved(time, &state.momentum, &spatial, Vec::new);
-        let drift = start.drift(&now);
-        let over = |size: f64, scale: f64| if scale == 0.0 { size } else { size / scale };
-        let both = |size: &dyn Fn(&State) -> Option<f64>| Some(size(first)? + size(state)?);
-        let turned = both(&|state| {
-            let length = state.momentum.iter().map(|mu| mu * mu).sum::<f64>().sqrt();
-            Some(condition(state.element.as_ref()?)? * length)
-        });
-        let casimirs = self.functions.casimirs.iter().zip(&start.scales.casimirs);
-        let sizes = casimirs.map(|(casimir, scale)| {
-            let size = casimir.magnitude(&first.momentum) + casimir.magnitude(&state.momentum);
-            over(size, *scale)
-        });
-        let energy = both(&|state| Some(self.energy(time, &state.momentum)?.1));
-        let scales = &start.scales;
-        let sizes = [
-            turned.map(|size| over(size, scales.spatial_momentum)),
-            sizes.reduce(f64::max),
-            energy.map(|size| over(size, scales.energy)),
-        ];
-        let drifts = [drift.spatial_momentum, drift.casimirs, drift.energy];
-        let mut pairs = drifts.into_iter().zip(sizes);
-        std::array::from_fn(|_| {
-            let (drift, size) = pairs.next()?;
-            drift.zip(size.map(|size| DRIFT * size))
-        })
+    /// A state and what is conserved there.
+    pub(crate) fn at(&self, time: f64, state: State) -> Measured {
+        let (functions, mu) = (&self.functions, &state.momentum);
+        let phase = state.element.as_ref().map(|element| phase_of(&self.group, element, mu));
+        let spatial = phase.map(|phase| phase.spatial_momentum(&self.group));
+        let spatial = spatial.as_ref().map_or(&[][..], |spatial| spatial.as_slice());
+        let start = functions.start(time, mu, spatial, Vec::new);
+        let length = mu.iter().map(|mu| mu * mu).sum::<f64>().sqrt();
+        let stretch = state.element.as_ref().and_then(|element| condition(element));
+        let energy = functions.hamiltonian.as_ref();
+        Measured {
+            start,
+            spatial: stretch.map(|stretch| stretch * length),
+            casimirs: functions.casimirs.iter().map(|casimir| casimir.magnitude(mu)).collect(),
+            energy: energy.map(|energy| energy.magnitude(time, mu)),
+            state,
+        }
     }
 
     /// The element of the group that this matrix, row by row, is but for rounding.
@@ -182,44 +175,6 @@ impl Invariants {
         let size = matrix.len().isqrt();
         let element = self.group.element_from_matrix(|i, j| matrix[i * size + j]).ok()?;
         Some(entries_of(&self.group, &element))
-    }
-
-    fn spatial(&self, state: &State) -> Option<Vec<f64>> {
-        let phase = phase_of(&self.group, state.element.as_ref()?, &state.momentum);
-        Some(phase.spatial_momentum(&self.group).as_slice().to_vec())
-    }
-
-    /// By how much the spatial momentum Ad\*_g μ drifts from one state to another, relative to its largest coordinate, as runs
-    /// measure it, and what rounding of the numbers of both states may do to it; none where a matrix has no inverse, or no
-    /// element is given.
-    pub(crate) fn spatial_drift(&self, before: &State, after: &State) -> Option<(f64, f64)> {
-        let largest =
-            |values: &[f64]| values.iter().fold(0.0, |size, value| maximum(size, value.abs()));
-        let apart = |a: &[f64], b: &[f64]| {
-            largest(&a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>())
-        };
-        // Rounding moves it by the sum of what each number moves, to first order.
-        let rounding = |state: &State, here: &[f64]| {
-            let element = state.element.as_ref()?;
-            condition(element)?;
-            let mut moved = vec![0.0; here.len()];
-            for place in 0..state.momentum.len() + element.len() {
-                let (mut momentum, mut element) = (state.momentum.clone(), element.clone());
-                let number = momentum.iter_mut().chain(&mut element).nth(place)?;
-                *number *= 1.0 + step::NUDGE;
-                let beside = self.spatial(&State { momentum, element: Some(element) })?;
-                let apart = here.iter().zip(&beside).map(|(a, b)| (a - b).abs());
-                moved.iter_mut().zip(apart).for_each(|(moved, apart)| *moved += apart);
-            }
-            Some(largest(&moved) * (f64::EPSILON / step::NUDGE))
-        };
-        let (one, other) = (self.spatial(before)?, self.spatial(after)?);
-        let (drift, scale) = (apart(&one, &other), largest(&one));
-        let moved = rounding(before, &one)? + rounding(after, &other)?;
-        let relative = |size: f64| if size == 0.0 { 0.0 } else { size / scale };
-        // The inverse of a long element may overflow.
-        let (drift, moved) = (relative(drift), relative(moved));
-        (!(drift.is_nan() || moved.is_nan())).then_some((drift, moved))
     }
 }
 

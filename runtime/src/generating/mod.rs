@@ -65,7 +65,15 @@ pub trait GeneratingFunction {
         None
     }
 
-    /// The Euclidean norm of μ, in each direct factor of the group, up to which [`GeneratingFunction::series_ratio`] is at
+    /// The factor of coordinate `i` of a momentum where sizes of coordinates are compared: of a group with translations it
+    /// measures in a unit of length of the system's own, so that steps do not depend on that of the numbers.
+    #[inline(always)]
+    fn unit(&self, i: usize) -> f64 {
+        let _ = i;
+        1.0
+    }
+
+    /// The Euclidean norm of μ in these units, in each direct factor of the group, up to which [`GeneratingFunction::series_ratio`] is at
     /// most ½ in every direction; larger momenta are judged one by one. Unbounded where S is no truncated series.
     #[inline(always)]
     fn radius(&self) -> ScalarOf<Self> {
@@ -130,6 +138,10 @@ impl<S: GeneratingFunction + ?Sized> GeneratingFunction for Reversed<'_, S> {
 
     fn frame(&self, motion: usize, mu: &VectorOf<Self>) -> Option<VectorOf<Self>> {
         self.0.frame(motion, mu).map(|y| VectorOf::<S>::from_entries(y.dim(), |i| -y[i]))
+    }
+
+    fn unit(&self, i: usize) -> f64 {
+        self.0.unit(i)
     }
 
     fn radius(&self) -> ScalarOf<Self> {

@@ -13,7 +13,7 @@ use crate::generating::{ScalarOf, VectorOf};
 use crate::group::LieGroup;
 use crate::linear::coordinates::Coordinates;
 use crate::number::Scalar;
-use crate::solve::candidate::{Branch, CandidateOf};
+use crate::solve::candidate::{Branch, CandidateOf, sized};
 use crate::solve::continuation::follow;
 use crate::solve::{Integrator, Solver};
 
@@ -57,7 +57,8 @@ fn check_domain<S: Integrator + ?Sized>(
     let p = S::Chart::default().pull_back(generating.group(), &candidate.x, mu);
     // Of the ratio at p and the bound for all momenta as long as μ the smaller counts.
     let radius = generating.radius();
-    let within = mu.pairing(mu).simd_le(radius * radius);
+    let own = sized(generating, mu);
+    let within = own.pairing(&own).simd_le(radius * radius);
     let of_terms = ScalarOf::<S>::of(0.0).select(within, generating.series_ratio(&p));
     let ratio = of_terms.worse(estimated_ratio(generating, mu, &candidate.x));
     if !ratio.simd_le(ScalarOf::<S>::of(LARGEST_RATIO)).all() {

@@ -54,8 +54,21 @@ impl<V, T: Scalar> Candidate<V, T> {
     }
 }
 
+/// A vector with the coordinates of a momentum in comparable units.
+pub(super) fn sized<S: GeneratingFunction + ?Sized>(
+    generating: &S,
+    vector: &VectorOf<S>,
+) -> VectorOf<S> {
+    let unit = |i| ScalarOf::<S>::of(generating.unit(i));
+    VectorOf::<S>::from_entries(vector.dim(), |i| vector[i] * unit(i))
+}
+
 /// The inverse of the largest coordinate of μ, by which sizes are measured; μ = 0, whose solution is p = 0, must not
 /// divide 0 by 0.
-pub(super) fn inverse_scale<T: Scalar, V: Coordinates<T>>(mu: &V) -> T {
-    T::of(1.0) / (mu.largest_entry() + T::of(f64::from(f32::MIN_POSITIVE)))
+pub(super) fn inverse_scale<S: GeneratingFunction + ?Sized>(
+    generating: &S,
+    mu: &VectorOf<S>,
+) -> ScalarOf<S> {
+    let smallest = ScalarOf::<S>::of(f64::from(f32::MIN_POSITIVE));
+    ScalarOf::<S>::of(1.0) / (sized(generating, mu).largest_entry() + smallest)
 }

@@ -3,7 +3,7 @@
 use coadjoint_program::limits::NEAR;
 use nalgebra::{SimdBool, SimdPartialOrd, SimdValue};
 
-use super::candidate::{Branch, Candidate, CandidateOf, inverse_scale, rounding};
+use super::candidate::{Branch, Candidate, CandidateOf, inverse_scale, rounding, sized};
 use crate::chart::Chart;
 use crate::generating::{GeneratingFunction, ScalarOf, VectorOf};
 use crate::linear::coordinates::Coordinates;
@@ -26,12 +26,12 @@ pub(super) fn fixed_point<S: GeneratingFunction + ?Sized>(
 ) -> CandidateOf<S> {
     let (group, chart, dim) = (generating.group(), S::Chart::default(), mu.dim());
     let (near, zero) = (ScalarOf::<S>::of(NEAR), ScalarOf::<S>::of(0.0));
-    let (inverse_scale, rounding) = (inverse_scale(mu), rounding(generating));
+    let (inverse_scale, rounding) = (inverse_scale(generating, mu), rounding(generating));
 
     let disturbance = ScalarOf::<S>::of(DISTURBANCE) / inverse_scale;
     let mut p = VectorOf::<S>::from_entries(dim, |i| {
         let share = [1.0, -0.7, 0.4][i % 3];
-        disturbance.times_plus(ScalarOf::<S>::of(share), guess[i])
+        disturbance.times_plus(ScalarOf::<S>::of(share / generating.unit(i)), guess[i])
     });
     let mut found = Candidate {
         x: mu.clone(),
@@ -46,8 +46,9 @@ pub(super) fn fixed_point<S: GeneratingFunction + ?Sized>(
         let x = generating.gradient(&p);
         let x = VectorOf::<S>::from_entries(dim, |i| x[i] * scale);
         let next = chart.pull_back(group, &x, mu);
-        let left = next.clone().minus(&p).largest_entry() * inverse_scale;
-        let moved = p.clone().minus(&guess).largest_entry() * inverse_scale;
+        let size = |change: &_| sized(generating, change).largest_entry() * inverse_scale;
+        let left = size(&next.clone().minus(&p));
+        let moved = size(&p.clone().minus(&guess));
         found.x = x.select(open, &found.x);
         found.moved = moved.select(open, found.moved);
         found.residual = left.select(open, found.residual);

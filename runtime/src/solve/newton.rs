@@ -2,7 +2,7 @@
 
 use nalgebra::{SimdBool, SimdComplexField, SimdPartialOrd};
 
-use super::candidate::{Branch, Candidate, CandidateOf, inverse_scale, rounding};
+use super::candidate::{Branch, Candidate, CandidateOf, inverse_scale, rounding, sized};
 use crate::chart::Chart;
 use crate::generating::{GeneratingFunction, MatrixOf, ScalarOf, VectorOf};
 use crate::linear::coordinates::Coordinates;
@@ -27,7 +27,7 @@ pub(super) fn newton<S: GeneratingFunction + ?Sized>(
     guess: VectorOf<S>,
 ) -> CandidateOf<S> {
     let (group, chart, dim) = (generating.group(), S::Chart::default(), mu.dim());
-    let (inverse_scale, rounding) = (inverse_scale(mu), rounding(generating));
+    let (inverse_scale, rounding) = (inverse_scale(generating, mu), rounding(generating));
     let mut p = guess;
     let mut moved = ScalarOf::<S>::of(0.0);
     let mut allowed = ScalarOf::<S>::of(f64::MAX);
@@ -42,18 +42,18 @@ pub(super) fn newton<S: GeneratingFunction + ?Sized>(
         let (pulled, derivative) = chart.pull_back_with_derivative(group, &x, mu);
         let jacobian = VectorOf::<S>::one_minus_product(dim, &derivative, &hessian);
         let left = p.clone().minus(&pulled);
-        let residual = left.largest_entry() * inverse_scale;
+        let residual = sized(generating, &left).largest_entry() * inverse_scale;
         if residual.simd_le(rounding).all() {
-            let apart = first.is_some_and(|first| bends::<S>(dim, &first, &jacobian));
+            let apart = first.is_some_and(|first| bends(generating, dim, &first, &jacobian));
             let branch = match apart {
                 true => Branch::Bent,
-                false => branch::<S>(dim, &derivative, jacobian),
+                false => branch(generating, dim, &derivative, jacobian),
             };
             return Candidate { x, moved, residual, branch, iterations };
         }
         let correction = VectorOf::<S>::solve(&jacobian, &left);
         first.get_or_insert(jacobian);
-        let relative = correction.largest_entry() * inverse_scale;
+        let relative = sized(generating, &correction).largest_entry() * inverse_scale;
         moved += relative;
         if !relative.simd_le(allowed).all() || iterations == MAX_ITERATIONS {
             return Candidate { x, moved, residual, branch: Branch::Unknown, iterations };
@@ -66,27 +66,40 @@ pub(super) fn newton<S: GeneratingFunction + ?Sized>(
 
 /// Whether a lane of one matrix differs by more than [`BENDS`] from another.
 fn bends<S: GeneratingFunction + ?Sized>(
+    generating: &S,
     dim: usize,
     first: &MatrixOf<S>,
     last: &MatrixOf<S>,
 ) -> bool {
     let zero = ScalarOf::<S>::of(0.0);
     (0..dim).any(|i| {
-        let change = |j| (last[(i, j)] - first[(i, j)]).simd_abs();
+        let change = |j| in_units(generating, i, j, last[(i, j)] - first[(i, j)]).simd_abs();
         let sum = (0..dim).fold(zero, |sum, j| sum + change(j));
         !sum.simd_le(ScalarOf::<S>::of(BENDS)).all()
     })
 }
 
+/// The entry (i, j) of a matrix from momenta to momenta, in comparable units.
+fn in_units<S: GeneratingFunction + ?Sized>(
+    generating: &S,
+    i: usize,
+    j: usize,
+    entry: ScalarOf<S>,
+) -> ScalarOf<S> {
+    entry * ScalarOf::<S>::of(generating.unit(i) / generating.unit(j))
+}
+
 /// The branch of the solution, as far as 1 − D·Hess S tells, D = ∂p/∂x.
 fn branch<S: GeneratingFunction + ?Sized>(
+    generating: &S,
     dim: usize,
     derivative: &MatrixOf<S>,
     jacobian: MatrixOf<S>,
 ) -> Branch {
     let [zero, one] = [0.0, 1.0].map(ScalarOf::<S>::of);
     let contracts = (0..dim).all(|i| {
-        let product = |j| jacobian[(i, j)] - if i == j { one } else { zero };
+        let product =
+            |j| in_units(generating, i, j, jacobian[(i, j)] - if i == j { one } else { zero });
         (0..dim).fold(zero, |sum, j| sum + product(j).simd_abs()).simd_lt(one).all()
     });
     match contracts {

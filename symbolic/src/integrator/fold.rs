@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use coadjoint_program::fold::{Fold, FoldError, LastTerm, Values, gradient_bound};
 
 use super::coefficients::Coefficients;
+use super::lower::in_units;
 use super::{Integrator, Kick, Kicks};
 
 /// A [`Fold`] that owns its lists.
@@ -239,6 +240,7 @@ fn last_terms(integrator: &Integrator, place: impl Fn(usize) -> Option<usize>) -
         let monomial = coefficients.monomials().get(base).map_or(&[][..], Vec::as_slice);
         let counts = (0..count).filter_map(|factor| {
             let (degree, weight) = gradient_bound(monomial, factor_of, factor, f64::sqrt)?;
+            let weight = weight / in_units(monomial, &integrator.units);
             Some((0, factor, order == truncation, degree, weight))
         });
         OfSeries { base, order: number(order), place: place(at), counts: counts.collect() }

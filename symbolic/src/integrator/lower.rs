@@ -126,20 +126,27 @@ pub(crate) struct DefectTerm {
 }
 
 /// The part that [`Gradient::with_hessian`] leaves out, bounded by Σ weight |C| |p|^degree in the row-sum norm,
-/// |p| being the Euclidean norm.
+/// |p| being the Euclidean norm in these units.
 pub(crate) fn defect(
     coefficients: &mut Coefficients,
     terms: &[BaseTerm],
     hessian_truncation: u32,
+    units: &[f64],
 ) -> Vec<DefectTerm> {
     let omitted = terms.iter().filter(|term| term.order > hessian_truncation);
     omitted
         .map(|term| DefectTerm {
             slot: coefficients.slot(term.base, 1),
-            weight: hessian_norm(&term.factors.iter().map(|&(_, e)| e).collect::<Vec<_>>()),
+            weight: hessian_norm(&term.factors.iter().map(|&(_, e)| e).collect::<Vec<_>>())
+                / in_units(&term.factors, units),
             degree: term.factors.iter().map(|&(_, e)| e).sum::<u32>().saturating_sub(2),
         })
         .collect()
+}
+
+/// The factor of a monomial's value, given as (coordinate, exponent), where coordinates are multiplied by these.
+pub(super) fn in_units(monomial: &[(u32, u32)], units: &[f64]) -> f64 {
+    monomial.iter().map(|&(i, power)| units[i as usize].powi(power as i32)).product()
 }
 
 /// A bound on the row-sum norm of the Hessian of pᵐ for |p| = 1, from the bound of each entry; m

@@ -66,6 +66,8 @@ pub struct Integrator {
     /// √(maxᵢ Σⱼ |ZᵢⱼZⱼᵢ|). Found by experiments (`docs/measurements/acceptance.md`). None where S₁ is the whole series, and
     /// for learned maps.
     pub largest_rate: Option<f64>,
+    /// [`Problem::units`].
+    pub units: Vec<f64>,
     /// The result of [`Self::fold_table`], kept.
     table: OnceLock<FoldTable>,
     /// The result of [`Self::factors`], kept.
@@ -139,7 +141,8 @@ impl Integrator {
         let truncated = gradient.as_ref().filter(|_| kept < truncation);
         let newton = truncated.map(|gradient| gradient.with_hessian(table, kept));
         let newton = newton.filter(|program| hessian.as_ref() != Some(program));
-        let defect = lower::defect(table, &s, kept);
+        let units = problem.units();
+        let defect = lower::defect(table, &s, kept, &units);
         let predictor = match plan.predictor {
             Predictor::Flow(degree) => flow::increment_program(table, &problem, degree),
             Predictor::Explicit(_) => {
@@ -187,6 +190,7 @@ impl Integrator {
             frame,
             kicks: None,
             largest_rate,
+            units,
             table: OnceLock::new(),
             factors: OnceLock::new(),
         })

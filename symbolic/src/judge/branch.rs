@@ -25,39 +25,52 @@ const LONGEST: f64 = 1.0 / 64.0;
 const SHORTEST: f64 = 1e-6;
 /// Steps in s at most, and corrections of one.
 const STEPS: usize = 2000;
+/// Iterations of x ↦ G(x) from 0 at most, and the change, relative to |x|, from which Newton's method goes on.
+const ITERATIONS: usize = 40;
+const NEXT_TO: f64 = 1e-6;
 const CORRECTIONS: usize = 6;
 /// Solutions nearer than this, relative to |x|, are the same; farther than [`APART`], different.
 const SAME: f64 = 1e-9;
 const APART: f64 = 1e-6;
 
-/// F(x) = x − s G(x), G(x), whether G contracts next to x, a bound on ‖s ∂G/∂x‖, and the factors of ∂F/∂x with the sign of
-/// its determinant.
+/// F(x) = x − s G(x), G(x), whether G contracts next to x, and what solves with ∂F/∂x, with the sign of its determinant.
 struct Model {
     residual: DMatrix<f64>,
     value: DMatrix<f64>,
     contracts: bool,
-    slope: f64,
-    jacobian: LU<f64, Dyn, Dyn>,
+    jacobian: Jacobian,
     sign: f64,
+}
+
+/// ∂F/∂x by its inverse, where G contracts, or by its factors.
+enum Jacobian {
+    Inverse(DMatrix<f64>),
+    Factors(LU<f64, Dyn, Dyn>),
 }
 
 impl Model {
     fn solve(&self, right: &DMatrix<f64>) -> Result<DMatrix<f64>, JudgeError> {
-        let solution = self.jacobian.solve(right).filter(|solution| size(solution).is_finite());
-        solution.ok_or(JudgeError::OutOfRange)
+        let solution = match &self.jacobian {
+            Jacobian::Inverse(inverse) => Some(inverse * right),
+            Jacobian::Factors(factors) => factors.solve(right),
+        };
+        solution.filter(|solution| size(solution).is_finite()).ok_or(JudgeError::OutOfRange)
     }
 
-    /// ‖(∂F/∂x)⁻¹‖, or a bound that is at most twice as large.
+    /// A bound on ‖(∂F/∂x)⁻¹‖.
     fn response(&self) -> f64 {
-        if self.slope <= 0.5 {
-            return 1.0 / (1.0 - self.slope);
+        match &self.jacobian {
+            Jacobian::Inverse(inverse) => spectral(inverse),
+            Jacobian::Factors(factors) => {
+                factors.try_inverse().map_or(f64::INFINITY, |inverse| spectral(&inverse))
+            }
         }
-        self.jacobian.try_inverse().map_or(f64::INFINITY, |inverse| spectral(&inverse))
     }
 
-    /// The smallest pivot over the largest.
+    /// The smallest pivot over the largest; 1 where G contracts.
     fn pivots(&self) -> f64 {
-        let pivots = self.jacobian.u().diagonal().abs();
+        let Jacobian::Factors(factors) = &self.jacobian else { return 1.0 };
+        let pivots = factors.u().diagonal().abs();
         pivots.min() / pivots.max()
     }
 }
@@ -67,25 +80,36 @@ impl Step<'_> {
         let n = x.nrows();
         let value = self.right_side(x)?;
         let slope = self.slope(x, &value)?;
-        let (most, contracts) = (spectral(&slope), contracts(&slope));
-        let jacobian = DMatrix::identity(n, n) - slope * s;
+        let (contracts, slope) = (contracts(&slope), slope * s);
         let residual = x - &value * s;
-        if !(size(&residual).is_finite() && size(&jacobian).is_finite()) {
+        if !(size(&residual).is_finite() && size(&slope).is_finite()) {
             return Err(JudgeError::OutOfRange);
         }
-        let jacobian = jacobian.lu();
-        let sign = jacobian.determinant().signum();
-        Ok(Model { residual, value, contracts, slope: most * s, jacobian, sign })
+        if contracts {
+            let jacobian = Jacobian::Inverse(inverse(slope));
+            return Ok(Model { residual, value, contracts, jacobian, sign: 1.0 });
+        }
+        let factors = (DMatrix::identity(n, n) - slope).lu();
+        let sign = factors.determinant().signum();
+        Ok(Model { residual, value, contracts, jacobian: Jacobian::Factors(factors), sign })
     }
 
-    /// The solution that Newton's method finds from the first guess, where G contracts at 0, there and half way: then it is
-    /// the right one. (Tested at these points, not proven between them.)
+    /// The solution that iteration from the first guess leads to, where G contracts at 0, there and half way: then it is the
+    /// right one. (Tested at these points, not proven between them.)
     fn near(&self) -> Result<Option<RightSolution>, JudgeError> {
-        let start = self.model(&DMatrix::zeros(self.unknowns(), 1), 1.0)?;
-        if !start.contracts {
-            return Ok(None);
+        let mut x = DMatrix::zeros(self.unknowns(), 1);
+        for at in 0..ITERATIONS {
+            let next = self.right_side(&x)?;
+            if at == 0 && !contracts(&self.slope(&x, &next)?) {
+                return Ok(None);
+            }
+            let moved = norm(&(&next - &x));
+            x = next;
+            if moved <= NEXT_TO * norm(&x) {
+                break;
+            }
         }
-        let (solution, there) = self.polished(&start.solve(&start.value)?)?;
+        let (solution, there) = self.polished(&x)?;
         let half = doubles(&solution.x) * 0.5;
         let half_way = || -> Result<bool, JudgeError> {
             Ok(contracts(&self.slope(&half, &self.right_side(&half)?)?))
@@ -230,10 +254,25 @@ impl Step<'_> {
     }
 }
 
-/// True if no eigenvalue of a slope is larger than a half: it is that small itself, or its eighth power is.
+/// True if no eigenvalue of a slope is larger than a half: it is that small itself, or its second, fourth or eighth power is.
 fn contracts(slope: &DMatrix<f64>) -> bool {
-    let eighth = || norm(&(0..3).fold(slope.clone(), |power, _| &power * &power));
-    spectral(slope) < 0.5 || eighth() < 0.5_f64.powi(8)
+    let mut power = slope.clone();
+    spectral(slope) < 0.5
+        || [2, 4, 8].into_iter().any(|exponent| {
+            power = &power * &power;
+            norm(&power) < 0.5_f64.powi(exponent)
+        })
+}
+
+/// (1 − S)⁻¹ = (1 + S)(1 + S²)(1 + S⁴) … of a slope that contracts.
+fn inverse(mut power: DMatrix<f64>) -> DMatrix<f64> {
+    let n = power.nrows();
+    let mut inverse = DMatrix::identity(n, n) + &power;
+    while norm(&power) > f64::EPSILON {
+        power = &power * &power;
+        inverse += &power * &inverse;
+    }
+    inverse
 }
 
 /// |a − b| / |a|; infinite where that is not a number.

@@ -6,8 +6,6 @@
 //! shared with the steps; the reading of H is, as it is with polynomials. So are the numbers that inputs u(t) have at
 //! a time, by their spline.
 
-use std::collections::BTreeMap;
-
 use coadjoint_program::{Function, Id, Node};
 
 use super::JudgeError;
@@ -22,7 +20,7 @@ pub(super) struct Energy {
     /// Marks the nodes that H needs, functions being single operations.
     needed: Vec<bool>,
     /// The functions and arguments of nodes that are functions' values.
-    calls: BTreeMap<usize, (Function, usize)>,
+    calls: Vec<Option<(Function, usize)>>,
 }
 
 /// A node's value, and its derivatives by other nodes.
@@ -36,15 +34,16 @@ impl Energy {
             return Err(JudgeError::Given);
         }
         let program = &smooth.value;
-        let calls = program.calls().iter();
-        let calls: BTreeMap<_, _> =
-            calls.map(|(value, function, a)| (value.index(), (*function, a.index()))).collect();
+        let mut calls = vec![None; program.nodes().len()];
+        for (value, function, a) in program.calls() {
+            calls[value.index()] = Some((*function, a.index()));
+        }
         let mut needed = vec![false; program.nodes().len()];
         program.outputs().iter().for_each(|output| needed[output.index()] = true);
         for (at, node) in program.nodes().iter().enumerate().rev() {
             if needed[at] {
-                match calls.get(&at) {
-                    Some((_, a)) => needed[*a] = true,
+                match calls[at] {
+                    Some((_, a)) => needed[a] = true,
                     None => node.operands().for_each(|operand| needed[operand.index()] = true),
                 }
             }
@@ -59,9 +58,9 @@ impl Energy {
         let nodes = self.smooth.value.nodes();
         let mut tape: Vec<Entry<T>> = Vec::with_capacity(nodes.len());
         for (at, node) in nodes.iter().enumerate() {
-            let entry = match self.calls.get(&at) {
+            let entry = match self.calls[at] {
                 _ if !self.needed[at] => (T::zero(), [(0, T::zero()); 3]),
-                Some(&(function, a)) => {
+                Some((function, a)) => {
                     let [value, slope] = elementary(function, tape[a].0);
                     (value, by([(a, slope)]))
                 }

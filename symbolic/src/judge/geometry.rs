@@ -51,6 +51,8 @@ pub(super) struct Geometry {
     pub(super) dim: usize,
     /// The direct factor of each coordinate, ascending from 0.
     pub(super) factors: Vec<usize>,
+    /// The factors of coordinates where their sizes are compared.
+    pub(super) units: Vec<f64>,
     pub(super) chart: Chart,
     /// \[e_i, e_j\] contains c·e_k.
     structure: Vec<Entry<3>>,
@@ -87,6 +89,7 @@ impl Geometry {
         Ok(Self {
             dim,
             factors: algebra.factor_of_coordinates().iter().map(|&f| f as usize).collect(),
+            units: vec![1.0; dim],
             chart,
             size: algebra.matrix_size(),
             bracket_norm: bracket_norm(dim, &structure),

@@ -93,9 +93,12 @@ impl Judge {
     /// # Errors
     /// [`JudgeError::Chart`] where the algebra has no such chart.
     pub fn new(algebra: &LieAlgebra, series: &GeneratingSeries) -> Result<Self, JudgeError> {
-        let geometry = Geometry::new(algebra, series.chart())?;
+        Self::in_units(Geometry::new(algebra, series.chart())?, series)
+    }
+
+    fn in_units(geometry: Geometry, series: &GeneratingSeries) -> Result<Self, JudgeError> {
         let orders = (1..=series.truncation()).map(|k| (k as u32, series.order(k)));
-        let law = Law::Series(Series::new(&geometry.factors, orders), Vec::new());
+        let law = Law::Series(Series::new(&geometry, orders), Vec::new());
         Ok(Self { geometry, law })
     }
 
@@ -106,10 +109,12 @@ impl Judge {
     pub fn of_problem(problem: &Problem, limit: TermLimit) -> Result<Self, JudgeError> {
         let (algebra, chart) = (&problem.algebra, problem.chart);
         let series = derive(algebra, chart, problem.generated(), problem.truncation, limit)?;
-        let mut judge = Self::new(algebra, &series)?;
+        let mut geometry = Geometry::new(algebra, chart)?;
+        geometry.units = problem.units();
+        let mut judge = Self::in_units(geometry, &series)?;
         if let Law::Series(_, frame) = &mut judge.law {
             let parts = problem.comoving.iter().flat_map(Frame::parts);
-            frame.extend(parts.map(|part| Series::new(&judge.geometry.factors, [(1, part)])));
+            frame.extend(parts.map(|part| Series::new(&judge.geometry, [(1, part)])));
         }
         Ok(judge)
     }

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use nalgebra::DMatrix;
 
 use super::DoubleDouble;
+use super::geometry::Geometry;
 use super::linear::{Real, SPACING, column, derivative, norm, spectral};
 use super::wide::Wide;
 use crate::poly::{Polynomial, split_at};
@@ -36,10 +37,9 @@ struct Term {
 }
 
 impl Series {
-    /// From the polynomials S₁, S₂, … (any orders), whose variables beyond the coordinates are symbols; `factors` has the
-    /// direct factor of each coordinate.
+    /// From the polynomials S₁, S₂, … (any orders), whose variables beyond the coordinates are symbols.
     pub(super) fn new<'a>(
-        factors: &[usize],
+        Geometry { factors, units, .. }: &Geometry,
         orders: impl IntoIterator<Item = (u32, &'a Polynomial)>,
     ) -> Self {
         let dim = factors.len();
@@ -60,7 +60,7 @@ impl Series {
                 terms.push(Term { value: Wide::rational(&value), order, symbols, monomial });
             }
         }
-        Self { terms, plan: Arc::new(Plan::new(factors, &monomials)), last }
+        Self { terms, plan: Arc::new(Plan::new((factors, units), &monomials)), last }
     }
 
     /// S(σq)/σ with σ = 2^scale, whose gradient in q is ∂S/∂p at p = σq.
@@ -157,8 +157,8 @@ struct Plan {
     /// The degree of each monomial.
     degrees: Vec<i32>,
     /// For each monomial, and each direct factor of the group that it has coordinates of: a bound on the gradient in these
-    /// where |p| of every factor is one, D_f Π_g max |pᵐ|, the maximum over the unit sphere of the part in factor g being
-    /// Π (mᵢ/D_g)^{mᵢ/2} (O. Kellogg, Math. Z. 27 (1928) 55).
+    /// where |p| of every factor is one in comparable units, D_f Π_g max |pᵐ|, the maximum over the unit sphere of the part
+    /// in factor g being Π (mᵢ/D_g)^{mᵢ/2} (O. Kellogg, Math. Z. 27 (1928) 55).
     bounds: Vec<Vec<(usize, f64)>>,
     /// Product k + 1 is an earlier one times a coordinate; product 0 is 1.
     products: Vec<(usize, usize)>,
@@ -181,7 +181,7 @@ fn without(powers: &[(usize, u32)], i: usize) -> Powers {
 }
 
 impl Plan {
-    fn new(factors: &[usize], monomials: &[Powers]) -> Self {
+    fn new((factors, units): (&[usize], &[f64]), monomials: &[Powers]) -> Self {
         let mut plan = Self { factors: factors.to_vec(), ..Self::default() };
         let mut known = BTreeMap::new();
         for (monomial, powers) in monomials.iter().enumerate() {
@@ -194,7 +194,7 @@ impl Plan {
             powers.iter().for_each(|&(i, m)| *degrees.entry(factors[i]).or_insert(0) += m);
             let share = |&(i, m): &(usize, u32)| {
                 let degree = f64::from(degrees[&factors[i]]);
-                (f64::from(m) / degree).powf(0.5 * f64::from(m))
+                (f64::from(m) / degree).powf(0.5 * f64::from(m)) / units[i].powi(m as i32)
             };
             let highest: f64 = powers.iter().map(share).product();
             let bounds = degrees.iter().map(|(&own, &degree)| (own, f64::from(degree) * highest));

@@ -132,11 +132,13 @@ impl Step<'_> {
         Ok(doubles(&(x - self.right_side(x)?)))
     }
 
-    /// The length of the longest part of μ in a direct factor of the group.
+    /// The length of the longest part of μ in a direct factor of the group, in units that are comparable.
     pub(super) fn largest_factor(&self) -> f64 {
+        let units = self.geometry.units.iter();
+        let sizes: Vec<f64> = self.double.iter().zip(units).map(|(mu, unit)| mu * unit).collect();
         let parts = self.geometry.factors.chunk_by(|a, b| a == b).scan(0, |start, factor| {
             *start += factor.len();
-            Some(norm(&self.double.as_slice()[*start - factor.len()..*start]))
+            Some(norm(&sizes[*start - factor.len()..*start]))
         });
         parts.fold(0.0, f64::max)
     }

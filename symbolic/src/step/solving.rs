@@ -16,7 +16,7 @@ pub(crate) fn inputs(graph: &Graph, from: usize, count: usize) -> Vec<Id> {
     (from..from + count).map(|i| graph.input(i)).collect()
 }
 
-/// The largest residual accepted, relative to the largest coordinate of μ, in units of rounding.
+/// The largest residual accepted, relative to the largest coordinate of μ in [`Integrator::units`], in units of rounding.
 pub(crate) const ROUNDINGS: f64 = 4.0;
 
 /// The largest residual accepted, relative to the largest coordinate of μ.
@@ -68,6 +68,8 @@ struct Matrices {
     /// The square of the rate and of the largest one that is accepted, where the truncation limits it: see
     /// [`Integrator::largest_rate`].
     rate: Option<(Id, Id)>,
+    /// [`Integrator::units`].
+    units: Vec<f64>,
 }
 
 impl Scheme {
@@ -125,6 +127,7 @@ pub(crate) fn squares_of_series(
     let factors = group.whole_factors(&integrator.coefficients.beyond_first());
     let (all, structure) =
         (integrator.coefficients.of_series(), structure_of(&integrator.problem.algebra));
+    let mu = in_units(graph, mu, &integrator.units, 1);
     let square = |own: Range<usize>| {
         let inside = |i: &usize| own.contains(i) && all.contains(i);
         let closed = structure.iter().all(|(i, j, k, _)| !inside(i) || !inside(j) || inside(k));
@@ -133,6 +136,15 @@ pub(crate) fn squares_of_series(
         dot(graph, &own, &own)
     };
     factors.into_iter().map(square).collect()
+}
+
+/// Coordinates times these numbers to this power.
+fn in_units(graph: &Graph, list: &[Id], units: &[f64], power: i32) -> Vec<Id> {
+    let times = |(&entry, unit): (&Id, &f64)| match unit.powi(power) {
+        1.0 => entry,
+        unit => graph.mul(entry, graph.constant(unit)),
+    };
+    list.iter().zip(units).map(times).collect()
 }
 
 /// The first guess of p, 1/scale, and half the bound on what the Hessian leaves out times the scale, the scale being the
@@ -150,7 +162,8 @@ fn start(
         Predictor::Explicit(_) => found,
     };
     let smallest = graph.constant(f64::from(f32::MIN_POSITIVE));
-    let scale = graph.add(largest(graph, mu), smallest);
+    let scale = largest(graph, &in_units(graph, mu, &integrator.units, 1));
+    let scale = graph.add(scale, smallest);
     let inverse_scale = graph.div(graph.constant(1.0), scale);
     let mut bound = graph.zero();
     if bound_len > 0 {
@@ -205,7 +218,8 @@ fn linearised(
         let rate = square_of_rate(graph, &integrator.problem.algebra, x, &product);
         (rate, graph.constant(largest * largest))
     });
-    (x.to_vec(), residual, Matrices { hessian, jacobian, rate })
+    let units = integrator.units.clone();
+    (x.to_vec(), residual, Matrices { hessian, jacobian, rate, units })
 }
 
 /// maxᵢ Σⱼ |ZᵢⱼZⱼᵢ| of Z = ad_xᵀ + 2 D·Hess S, which to first order is h times the derivative of μ̇ = ad\*_{∂H/∂μ} μ: a
@@ -244,12 +258,13 @@ impl Matrices {
             list.iter().zip(change).map(|(&a, &b)| graph.sub(a, b)).collect()
         };
         let (p, x) = (less(p, &correction), less(x, &shift));
-        let mut relative = graph.mul(largest(graph, &correction), inverse_scale);
+        let sized = largest(graph, &in_units(graph, &correction, &self.units, 1));
+        let mut relative = graph.mul(sized, inverse_scale);
         if let Some((rate, most)) = self.rate {
             // Too long a step is not near anything.
             relative = graph.select(rate, most, relative, graph.constant(f64::from(f32::MAX)));
         }
-        let stretch = largest(graph, &shift);
+        let stretch = largest(graph, &in_units(graph, &shift, &self.units, -1));
         Corrected { p, x, relative, stretch }
     }
 }
@@ -260,7 +275,7 @@ fn bend(graph: &Graph, integrator: &Integrator, x: &[Id]) -> Id {
     if !integrator.problem.is_quadratic() || integrator.problem.comoving.is_some() {
         return graph.constant(1.0);
     }
-    let size = largest(graph, x);
+    let size = largest(graph, &in_units(graph, x, &integrator.units, -1));
     graph.mul(graph.mul(size, size), graph.constant(0.25))
 }
 
@@ -317,7 +332,7 @@ fn chord(integrator: &Integrator, group: &Product, bound: (usize, usize)) -> (Pr
     let hessian = Matrix::new(n, n, |i, j| rename(matrices.hessian.at(i, j)));
     let jacobian = matrices.jacobian.map(&mut rename);
     // The rate has been judged with the guess.
-    let matrices = Matrices { hessian, jacobian, rate: None };
+    let matrices = Matrices { hessian, jacobian, rate: None, units: matrices.units };
     let inputs_of_chord = n + outputs.len();
     let guess = graph.finish(n, &outputs);
     let correct = chord_correction(chord, integrator, group, &matrices, inputs_of_chord);
@@ -381,6 +396,7 @@ fn fixed_point(
     };
     let distance = |graph: &Graph, a: &[Id], b: &[Id]| {
         let change: Vec<Id> = a.iter().zip(b).map(|(&a, &b)| graph.sub(a, b)).collect();
+        let change = in_units(graph, &change, &integrator.units, 1);
         graph.mul(largest(graph, &change), inverse_scale)
     };
     let (_, once) = evaluate(&graph, &p);

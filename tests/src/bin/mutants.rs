@@ -25,8 +25,8 @@ const MUTANTS: &[(&str, &[[&str; 2]])] = &[
                 "select(within, ScalarOf::<S>::of(0.0))",
             ],
             [
-                "mu.pairing(mu).simd_le(radius * radius)",
-                "mu.pairing(mu).simd_lt(ScalarOf::<S>::of(0.0) * radius)",
+                "own.pairing(&own).simd_le(radius * radius)",
+                "own.pairing(&own).simd_lt(ScalarOf::<S>::of(0.0) * radius)",
             ],
             ["any(|i| !mu[i].all_finite())", "any(|i| i > mu.dim())"],
             ["<ScalarOf<S> as SimdValue>::LANES > 1 {", "<ScalarOf<S> as SimdValue>::LANES > 8 {"],
