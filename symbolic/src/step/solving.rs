@@ -147,6 +147,22 @@ fn in_units(graph: &Graph, list: &[Id], units: &[f64], power: i32) -> Vec<Id> {
     list.iter().zip(units).map(times).collect()
 }
 
+/// The largest of coordinates times these numbers to this power, by one multiplication for each number.
+fn largest_in_units(graph: &Graph, list: &[Id], units: &[f64], power: i32) -> Id {
+    let mut parts: Vec<(f64, Vec<Id>)> = Vec::new();
+    for (&entry, &unit) in list.iter().zip(units) {
+        match parts.iter_mut().find(|(own, _)| *own == unit) {
+            Some((_, own)) => own.push(entry),
+            None => parts.push((unit, vec![entry])),
+        }
+    }
+    let units: Vec<f64> = parts.iter().map(|(unit, _)| *unit).collect();
+    let sizes: Vec<Id> = parts.iter().map(|(_, own)| largest(graph, own)).collect();
+    let sizes = in_units(graph, &sizes, &units, power);
+    let first = sizes.first().copied().unwrap_or_else(|| graph.zero());
+    sizes.into_iter().skip(1).fold(first, |all, size| graph.max(all, size))
+}
+
 /// The first guess of p, 1/scale, and half the bound on what the Hessian leaves out times the scale, the scale being the
 /// largest coordinate of μ.
 fn start(
@@ -162,7 +178,7 @@ fn start(
         Predictor::Explicit(_) => found,
     };
     let smallest = graph.constant(f64::from(f32::MIN_POSITIVE));
-    let scale = largest(graph, &in_units(graph, mu, &integrator.units, 1));
+    let scale = largest_in_units(graph, mu, &integrator.units, 1);
     let scale = graph.add(scale, smallest);
     let inverse_scale = graph.div(graph.constant(1.0), scale);
     let mut bound = graph.zero();
@@ -258,13 +274,13 @@ impl Matrices {
             list.iter().zip(change).map(|(&a, &b)| graph.sub(a, b)).collect()
         };
         let (p, x) = (less(p, &correction), less(x, &shift));
-        let sized = largest(graph, &in_units(graph, &correction, &self.units, 1));
+        let sized = largest_in_units(graph, &correction, &self.units, 1);
         let mut relative = graph.mul(sized, inverse_scale);
         if let Some((rate, most)) = self.rate {
             // Too long a step is not near anything.
             relative = graph.select(rate, most, relative, graph.constant(f64::from(f32::MAX)));
         }
-        let stretch = largest(graph, &in_units(graph, &shift, &self.units, -1));
+        let stretch = largest_in_units(graph, &shift, &self.units, -1);
         Corrected { p, x, relative, stretch }
     }
 }
@@ -275,7 +291,7 @@ fn bend(graph: &Graph, integrator: &Integrator, x: &[Id]) -> Id {
     if !integrator.problem.is_quadratic() || integrator.problem.comoving.is_some() {
         return graph.constant(1.0);
     }
-    let size = largest(graph, &in_units(graph, x, &integrator.units, -1));
+    let size = largest_in_units(graph, x, &integrator.units, -1);
     graph.mul(graph.mul(size, size), graph.constant(0.25))
 }
 
