@@ -22,7 +22,7 @@ pub const LARGEST_FORCE: f64 = 0.25;
 /// The largest square of a reach, by the number of nodes, up to which a step is an ordinary one: of the arguments of H's
 /// functions from one node to the next, each in the units in which its function varies. Steps that reach farther are
 /// accepted only where they have been followed between their nodes.
-pub const LARGEST_REACH: [f64; MAX_NODES] = [0.5, 2.25, 2.25, 2.25, 2.25, 2.25, 2.25, 2.25];
+pub const LARGEST_REACH: [f64; MAX_NODES] = [0.25, 2.25, 2.25, 2.25, 2.25, 2.25, 2.25, 2.25];
 
 /// The share of its limit from which on the measure of a step with one node is taken with the Hessian at the solution.
 pub const NEAR_LIMIT: f64 = 0.5;

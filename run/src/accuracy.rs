@@ -20,7 +20,7 @@ use crate::grid::Grid;
 use crate::load::{Derived, System};
 use crate::simulate::error_of;
 
-/// Where a truncation is picked, series may become this large.
+/// The limit of a series while a truncation is chosen.
 const AFFORDABLE: TermLimit = TermLimit { terms: 20_000, products: 2_000_000 };
 
 /// Picks truncation, step and, where the system leaves the choice, frame where a tolerance is asked for, by the settings
@@ -28,7 +28,7 @@ const AFFORDABLE: TermLimit = TermLimit { terms: 20_000, products: 2_000_000 };
 /// that, in a frame that there is for all values.
 ///
 /// # Errors
-/// Where nothing can be picked.
+/// Fails if nothing can be picked.
 pub fn meet_tolerance(
     path: &Path,
     system: &mut System,

@@ -55,7 +55,7 @@ const MOST_FOR_COMPILER: f64 = 40_000.0;
 pub struct Used {
     /// In a few words.
     pub name: String,
-    /// How long it took to be ready, where that took any time.
+    /// The time until it was ready, if it took any.
     pub ready: Option<Duration>,
 }
 
@@ -95,7 +95,7 @@ impl Code {
     /// asked for are interpreted.
     ///
     /// # Errors
-    /// Where the backend that the user named cannot be had.
+    /// Fails if the backend that the user named cannot be had.
     pub(crate) fn new(
         kernel: &Kernel,
         backend: Backend,
@@ -167,12 +167,12 @@ impl Code {
         let _ = thread.map(JoinHandle::join);
     }
 
-    /// Whether a processor runs it as it is.
+    /// True if it is machine code.
     pub(crate) fn is_machine_code(&self) -> bool {
         self.coming.made.get().is_some()
     }
 
-    /// How many steps to make before it is asked again by what.
+    /// The steps to make before the backend is chosen anew.
     pub(crate) fn at_a_time(&self) -> u64 {
         let over = self.is_machine_code() || self.coming.over.load(Ordering::Relaxed);
         if over { u64::MAX } else { FEW }

@@ -89,7 +89,7 @@ impl<'a> Derivatives<'a> {
     }
 
     /// # Errors
-    /// Where a number is not finite after `done` steps.
+    /// Fails if a number is not finite after `done` steps.
     fn finite(&self, done: u64, numbers: [&DMatrix<f64>; 2]) -> Result<(), RunError> {
         if numbers.into_iter().flatten().all(|number| number.is_finite()) {
             return Ok(());
@@ -109,7 +109,7 @@ impl<'a> Derivatives<'a> {
     }
 
     /// # Errors
-    /// Where numbers of steps do not ascend, or the last is not in the run.
+    /// Fails if numbers of steps do not ascend, or the last is not in the run.
     fn ascending(&self, at: impl Iterator<Item = u64> + Clone) -> Result<(), RunError> {
         let in_run = at.clone().all(|step| step <= self.schedule.steps);
         if in_run && at.clone().zip(at.skip(1)).all(|(a, b)| a < b) {
@@ -123,7 +123,7 @@ impl<'a> Derivatives<'a> {
     /// parameters (q×k).
     ///
     /// # Errors
-    /// Where the shapes do not fit, and why the run stopped.
+    /// Fails if the shapes do not fit, and why the run stopped.
     pub fn forward(
         &self,
         tangents: &DMatrix<f64>,
@@ -162,7 +162,7 @@ impl<'a> Derivatives<'a> {
     /// twice.
     ///
     /// # Errors
-    /// Where the shapes do not fit, and why the run stopped.
+    /// Fails if the shapes do not fit, and why the run stopped.
     pub fn backward(&self, cotangents: &[(u64, DMatrix<f64>)]) -> Result<Adjoint, RunError> {
         let q = self.steps()?.parameters();
         let (n, count) = (self.dim(), cotangents.last().map_or(0, |&(last, _)| last));
@@ -215,7 +215,7 @@ impl<'a> Derivatives<'a> {
     /// relatively periodic motion its eigenvalues are the Floquet multipliers.
     ///
     /// # Errors
-    /// Why the run stopped.
+    /// Returns the reason for which the run stopped.
     pub fn monodromy(&self) -> Result<DMatrix<f64>, RunError> {
         let n = 2 * self.dim();
         let none = DMatrix::zeros(self.parameters(), n);
@@ -228,7 +228,7 @@ impl<'a> Derivatives<'a> {
     /// Giorgilli, Strelcyn, *Meccanica* 15 (1980) 9–30). It converges as the logarithm of the time over the time.
     ///
     /// # Errors
-    /// Where no steps are left, and why the run stopped.
+    /// Fails if no steps are left, and why the run stopped.
     pub fn largest_exponent(&self, transient: u64) -> Result<f64, RunError> {
         let Schedule { steps, step, .. } = self.schedule;
         if transient >= steps {

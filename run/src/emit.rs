@@ -26,7 +26,7 @@ pub enum Source {
 /// The Rust module. That of a learned polynomial, built with the model's step, is the model.
 ///
 /// # Errors
-/// Where the series is too large, or the model is no polynomial.
+/// Fails if the series is too large, or the model is no polynomial.
 pub fn rust(path: &Path, source: Source) -> Result<String, RunError> {
     let (system, choice) = match source {
         Source::System(system, choice) => (*system, choice),
@@ -59,7 +59,7 @@ pub fn rust(path: &Path, source: Source) -> Result<String, RunError> {
 /// The header of C or C++; all names in it begin with `prefix`, or with the system's name.
 ///
 /// # Errors
-/// Where the series is too large, or the system is not written as C.
+/// Fails if the series is too large, or the system is not written as C.
 pub fn header(
     path: &Path,
     source: Source,
@@ -111,7 +111,7 @@ fn chosen(choice: &Choice) -> String {
 /// has its own.
 ///
 /// # Errors
-/// Where the step is missing, or the system is not written as a kernel.
+/// Fails if the step is missing, or the system is not written as a kernel.
 pub fn kernel(
     path: &Path,
     source: Source,

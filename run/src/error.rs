@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 
 use coadjoint::StepError;
 
-/// Why a run failed.
+/// Errors of a run.
 ///
 /// Messages name settings as the command does, `--step` and so on; `file` is whatever the system was called.
 #[derive(Debug, thiserror::Error)]
@@ -35,7 +35,7 @@ pub enum RunError {
     System {
         /// The system file.
         file: PathBuf,
-        /// Why.
+        /// The reason.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
     /// A step that could not be made.
@@ -43,7 +43,7 @@ pub enum RunError {
     Step {
         /// When, where steps are not of a system's at all times.
         time: Option<f64>,
-        /// Why.
+        /// The reason.
         source: StepError,
     },
     /// A run that stopped.
@@ -53,7 +53,7 @@ pub enum RunError {
         time: f64,
         /// The number of the step, from 1; 0 for the start.
         step: u64,
-        /// Why.
+        /// The reason.
         what: String,
     },
     /// The outlet asked to stop; it knows why.
@@ -103,7 +103,7 @@ impl RunError {
         Self::Step { time: None, source }
     }
 
-    /// Whether what was given is at fault, not what became of it.
+    /// True if the input is at fault, not the computation.
     pub fn is_input(&self) -> bool {
         match self {
             Self::Input(_) | Self::Option(_) | Self::Missing { .. } | Self::System { .. } => true,

@@ -50,7 +50,7 @@ pub(crate) fn fill(system: &Path, read: &mut System<Hamiltonian>) -> Result<(), 
         Some((Potential { force: Force::Smooth(programs), .. }, _)) => &mut programs.signals[..],
         _ => &mut [],
     };
-    // Those that are given have their numbers.
+    // Given signals have their numbers already.
     let unread = |signal: &&Signal| signal.table()[0].is_empty();
     let mut files: BTreeMap<PathBuf, Read> = BTreeMap::new();
     let signals = of_energy.iter().chain(&*of_torque).filter(unread);

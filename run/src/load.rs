@@ -40,7 +40,7 @@ pub fn read_varying(
     read_given(name, text, options, varied, &Functions::default())
 }
 
-/// The same of a text parts of which are given.
+/// Reads a text of which some parts are given.
 ///
 /// # Errors
 /// All mistakes, rendered.
@@ -61,7 +61,7 @@ pub fn read_given(
 /// there is instead.
 ///
 /// # Errors
-/// Where it is none.
+/// Fails if it is none.
 pub fn polynomial(
     path: &Path,
     system: System,
@@ -102,7 +102,7 @@ pub fn read_group(name: &str, text: &str) -> Result<GroupChoice, RunError> {
 /// A learned polynomial as a system: steps of the model's own size are the learned map.
 ///
 /// # Errors
-/// Where the model is no polynomial.
+/// Fails if the model is no polynomial.
 pub fn learned(model: &ModelFile) -> Result<System, RunError> {
     let run = Run { step: Some(model.step), ..Run::default() };
     let (problem, units) = (coadjoint_learn::problem(model, "learned")?, system::Units::default());
@@ -113,7 +113,7 @@ pub fn learned(model: &ModelFile) -> Result<System, RunError> {
 /// Derives and lowers a problem.
 ///
 /// # Errors
-/// Where the series cannot be derived, or is too large.
+/// Fails if the series cannot be derived, or is too large.
 pub(crate) fn integrator(path: &Path, problem: Problem) -> Result<Integrator, RunError> {
     Integrator::build(problem, TermLimit::default()).map_err(RunError::of(path))
 }
@@ -149,13 +149,13 @@ impl Derived {
     /// Prepares a system, which is called by its name in messages.
     ///
     /// # Errors
-    /// Where the series of a polynomial cannot be derived, or is too large, or the data defines no group.
+    /// Fails if the series of a polynomial cannot be derived, or is too large, or the data defines no group.
     pub fn of(system: System) -> Result<Self, RunError> {
         let file = PathBuf::from(system.problem.facts().name);
         Self::of_file(&file, system)
     }
 
-    /// The same, called by the name of a file in messages.
+    /// As [`Derived::of`], called by the name of a file in messages.
     ///
     /// # Errors
     /// As [`Derived::of`].
@@ -212,7 +212,7 @@ impl Derived {
         self.origin.series()
     }
 
-    /// Whether damping acts before and after each step.
+    /// True if damping acts before and after each step.
     pub fn is_damped(&self) -> bool {
         self.damping.is_some()
     }
@@ -251,7 +251,7 @@ impl Derived {
     /// The programs of steps of this size, about `steps` of which are going to be made, where steps are made of programs.
     ///
     /// # Errors
-    /// Where the step makes no sense, or the backend that the user named cannot be had.
+    /// Fails if the step makes no sense, or the backend that the user named cannot be had.
     pub(crate) fn compiled(
         &self,
         step: f64,
@@ -285,7 +285,7 @@ impl Derived {
     /// Steps of this grid with the parameters as the file has them, by the programs that were compiled, if any.
     ///
     /// # Errors
-    /// Where the step or the parameters make no sense.
+    /// Fails if the step or the parameters make no sense.
     pub(crate) fn steps(
         &self,
         grid: Grid,

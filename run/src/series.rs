@@ -27,7 +27,7 @@ impl Series {
     /// Derives S₁ … S_K of a system, which is called `file` in messages.
     ///
     /// # Errors
-    /// Where the series is too large.
+    /// Fails if the series is too large.
     pub fn derive(file: &Path, problem: Problem) -> Result<Self, RunError> {
         let series = hamilton_jacobi::derive(
             &problem.algebra,
@@ -71,7 +71,7 @@ pub fn polynomial(problem: &Problem, polynomial: &Polynomial) -> String {
 /// S of a learned polynomial in the notation of system files, its coefficients as decimals.
 ///
 /// # Errors
-/// Where the model is no polynomial.
+/// Fails if the model is no polynomial.
 pub fn learned(model: &ModelFile) -> Result<String, RunError> {
     let hamiltonian = coadjoint_learn::problem(model, "learned")?.hamiltonian;
     Ok(joined(hamiltonian.terms().map(|(exponents, value)| {

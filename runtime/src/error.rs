@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-/// Why a step could not be made. The state it was asked to advance is left as it was.
+/// Errors of making a step. The state is left as it was.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StepError {
@@ -23,7 +23,7 @@ pub enum StepError {
         "no step is connected with the identity: the solution of x = s ∂S/∂p was followed up to s = {reached:.3} only; {at}"
     )]
     NotFollowed {
-        /// How far it was followed.
+        /// The s that the continuation reached.
         reached: f64,
         /// The circumstances of the step.
         at: Circumstances,
@@ -162,13 +162,13 @@ impl fmt::Display for Hint<'_> {
 }
 
 impl StepError {
-    /// Whether a smaller step may work where this one failed.
+    /// True if a smaller step may work where this one failed.
     #[must_use]
     pub fn asks_for_smaller_step(&self) -> bool {
         self.circumstances().is_some()
     }
 
-    /// The same error, with a step size that was tried and works.
+    /// Adds a step size that was tried and works.
     #[must_use]
     pub fn with_usable_step(mut self, step: f64) -> Self {
         match &mut self {
@@ -198,13 +198,13 @@ impl StepError {
     }
 }
 
-/// Why a run of several steps stopped early. The state is the one after the last accepted step.
+/// The error that stopped a run of several steps. The state is the one after the last accepted step.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("after {steps} steps: {error}")]
 pub struct Stopped {
     /// Steps made.
     pub steps: u64,
-    /// Why the next one was not.
+    /// The error of the next step.
     pub error: StepError,
 }
 

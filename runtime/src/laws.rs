@@ -30,7 +30,7 @@ pub struct Law {
 }
 
 impl Law {
-    /// Whether the law holds; not if the defect is NaN.
+    /// True if the law holds; not if the defect is NaN.
     #[must_use]
     pub fn pass(&self) -> bool {
         self.value <= self.bound
@@ -186,7 +186,7 @@ fn element_difference<G: LieGroup<Scalar = f64>>(group: &G, a: &G::Element, b: &
     worst / scale
 }
 
-/// Why an order could not be measured.
+/// Reasons for which an order could not be measured.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum OrderError {
@@ -447,12 +447,12 @@ where
     Ok(pairs)
 }
 
-/// How far any map of T\*G, given as what advances a state, is from symplectic: the largest change of the canonical form
+/// The symplectic defect of any map of T\*G that advances a state: the largest change of the canonical form
 /// on pairs of basis vectors, relative to the largest pairing. `None` where the group has no logarithm; not a number where
 /// differences do not settle.
 ///
 /// # Errors
-/// Those that `map` returns.
+/// Returns the errors of `map`.
 pub fn symplectic_defect_of<G: LieGroup<Scalar = f64>>(
     group: &G,
     point: &Phase<G>,

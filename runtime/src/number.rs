@@ -17,7 +17,7 @@ pub trait Number:
     /// A truth value for each lane.
     type Mask: Copy + BitAnd<Output = Self::Mask> + Not<Output = Self::Mask>;
 
-    /// Whether there is one lane only.
+    /// True if there is one lane only.
     const SINGLE: bool;
 
     /// self · a + b, fused where the build target has the instruction.
@@ -32,11 +32,11 @@ pub trait Number:
     fn scale(self, k: Self) -> Self;
     /// The exponent of self, ⌊log₂ |self|⌋ for normal numbers.
     fn exponent(self) -> Self;
-    /// Where self ≤ other.
+    /// The lanes in which self ≤ other.
     fn simd_le(self, other: Self) -> Self::Mask;
     /// self in the lanes of a mask, in others `other`.
     fn select(self, lanes: Self::Mask, other: Self) -> Self;
-    /// Whether a mask has any lane.
+    /// True if a mask has any lane set.
     fn any(lanes: Self::Mask) -> bool;
 }
 
@@ -118,10 +118,10 @@ impl<T: Scalar, const SLOTS: usize> Coefficients<T> for &[T; SLOTS] {
 pub trait Registers: Copy {
     /// Several numbers.
     type Number: Number;
-    /// How many.
+    /// The number of lanes.
     const LANES: usize;
 
-    /// The same coefficients for all lanes.
+    /// One set of coefficients for all lanes.
     fn coefficients<const SLOTS: usize>(
         self,
         coefficients: &[f64; SLOTS],
@@ -181,7 +181,7 @@ pub trait Scalar: SimdRealField<Element: RealField + Copy> + Copy {
         largest
     }
 
-    /// Whether every lane is finite.
+    /// True if every lane is finite.
     #[inline(always)]
     #[must_use]
     fn all_finite(self) -> bool {

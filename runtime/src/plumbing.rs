@@ -80,7 +80,7 @@ pub fn undefined(expressions: &[&'static str], watched: &[f64]) -> Option<Undefi
 /// The monomials of S_K and S_{K−2}, those of S_K marked, and the direct factor of the group that each coordinate belongs to.
 #[derive(Debug)]
 pub struct LastTerms {
-    /// Whether it is one of S_K, and the monomial as pairs of a coordinate and its exponent.
+    /// For each monomial true if it is one of S_K, and its pairs of a coordinate and an exponent.
     pub monomials: &'static [(bool, &'static [(u32, u32)])],
     /// For each coordinate its factor, ascending from 0.
     pub factors: &'static [u32],

@@ -580,7 +580,7 @@ fn waves_shorter_than_a_step_are_refused() {
     for h in [0.3, 0.35, 0.4, 0.45, 0.5] {
         assert!(bent::<1>(&waves(0.05, true), h, mu, 1).is_err(), "{h}");
         assert!(bent::<4>(&waves(0.05, true), h, mu, 1).is_err(), "{h}");
-        // Those that move nothing are followed, and accepted.
+        // Waves that move nothing are followed, and accepted.
         assert!(bent::<4>(&waves(1e-6, true), h, mu, 1).is_ok(), "{h}");
     }
 }

@@ -222,7 +222,7 @@ fn kicked(
         let mut step = |state: &mut _| made(&*there, state, start);
         let defect = laws::symplectic_defect_of(group, point, &mut step);
         let defect = defect.map_err(RunError::at(start))?;
-        // Where differences do not settle, the other points tell.
+        // Differences may not settle; the other points then decide.
         symplectic = match (symplectic, defect) {
             (Some(worst), Some(defect)) => Some(worst.max(defect)),
             (worst, defect) => defect.or(worst),

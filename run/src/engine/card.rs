@@ -37,7 +37,7 @@ fn programs(
 /// Steps of this grid on this device, in numbers of this precision.
 ///
 /// # Errors
-/// Where they are not made of programs, or the device cannot be had.
+/// Fails if they are not made of programs, or the device cannot be had.
 pub(crate) fn card(
     origin: &Origin,
     grid: Grid,
@@ -52,7 +52,7 @@ pub(crate) fn card(
 /// The kernel that makes steps of this size, as a text that says `about` of itself.
 ///
 /// # Errors
-/// Where they are not made of programs.
+/// Fails if they are not made of programs.
 pub(crate) fn device_text(
     origin: &Origin,
     step_size: f64,

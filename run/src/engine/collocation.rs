@@ -25,7 +25,7 @@ use crate::grid::Grid;
 /// The steps of this grid of a smooth system, for these values of the parameters that it keeps.
 ///
 /// # Errors
-/// Where the size makes no sense, or an expression in the parameters is not finite.
+/// Fails if the size makes no sense, or an expression in the parameters is not finite.
 pub(crate) fn collocated<'a>(
     smooth: &'a Smooth,
     elements: Elements<Group>,
@@ -96,7 +96,7 @@ struct Kicked<'a> {
 }
 
 impl<'a> Kicked<'a> {
-    /// Those of a system, for these values of the parameters that it keeps.
+    /// The kicks of a system, for these values of the parameters that it keeps.
     fn new(
         smooth: &'a Smooth,
         group: &Group,

@@ -17,7 +17,7 @@ use crate::number::maximum;
 /// Above this ratio of terms a run says so; above twice this its steps are refused.
 pub const STEEP: f64 = 0.25;
 
-/// Why there are no coefficients for a step size and symbols.
+/// The refusal of coefficients for a step size and symbols.
 pub(super) fn refusal(error: FoldError, step: f64, symbols: &[f64]) -> StepError {
     match error {
         FoldError::Step => StepError::InvalidStep { step },
@@ -134,7 +134,7 @@ impl Kept {
     }
 }
 
-/// What the programs of a step read for one size and one set of parameters.
+/// The numbers that the programs of a step read, for one size and one set of parameters.
 #[derive(Clone, Debug)]
 pub(crate) struct Folded {
     /// The size of a step.
@@ -153,7 +153,7 @@ pub(crate) struct Compiled {
     programs: Arc<Programs>,
     folded: Folded,
     code: Arc<Running>,
-    /// Whether a comoving frame moves: then each step is a block of its own, so that bits do not depend on how a run is
+    /// True if a comoving frame moves: then each step is a block of its own, so that bits do not depend on how a run is
     /// cut into pieces.
     framed: bool,
 }
@@ -179,7 +179,7 @@ impl Compiled {
     /// programs. What is kept of the same integrator is used again.
     ///
     /// # Errors
-    /// Where the backend that the user named cannot be had.
+    /// Fails if the backend that the user named cannot be had.
     pub(crate) fn new(
         origin: &Origin,
         size: f64,
@@ -222,7 +222,7 @@ impl Compiled {
         Ok(Some(Arc::new(Self { programs, folded, code, framed })))
     }
 
-    /// The same steps with what is folded for another size or other values of the parameters.
+    /// Replaces the folded coefficients by those of another size or other parameters.
     pub(crate) fn with(&mut self, folded: Folded) {
         self.folded = folded;
     }
@@ -230,7 +230,7 @@ impl Compiled {
     /// These steps with another size or other values of the parameters.
     ///
     /// # Errors
-    /// Where a coefficient is not finite.
+    /// Fails if a coefficient is not finite.
     pub(crate) fn anew(
         self: &Arc<Self>,
         size: f64,
@@ -243,15 +243,15 @@ impl Compiled {
         Ok(Arc::new(Self { folded, ..(**self).clone() }))
     }
 
-    /// What the programs read for another size or other values of the parameters.
+    /// Folds the coefficients for another size or other values of the parameters.
     ///
     /// # Errors
-    /// Where a coefficient is not finite.
+    /// Fails if a coefficient is not finite.
     pub(crate) fn fold(&self, size: f64, parameters: &[f64]) -> Result<Folded, StepError> {
         fold(&self.programs.step, size, parameters)
     }
 
-    /// The same for at most [`WIDTH`] rows of values of the parameters, side by side.
+    /// Folds for at most [`WIDTH`] rows of parameter values, side by side.
     pub(crate) fn fold_rows(
         &self,
         size: f64,
@@ -282,7 +282,7 @@ impl Compiled {
         }
     }
 
-    /// Whether the ratio of the last two terms of the series is known to be at most [`STEEP`] at this momentum.
+    /// True if the ratio of the last two terms of the series is known to be at most [`STEEP`] at this momentum.
     pub(super) fn is_quiet(&self, mu: &[f64]) -> bool {
         mu.iter().map(|mu| mu * mu).sum::<f64>().sqrt() <= self.folded.quiet
     }
@@ -315,7 +315,7 @@ impl Compiled {
     /// which is given the number of steps before it, and returns its iterations and residual or says why there is no step.
     ///
     /// # Errors
-    /// How many steps were made, and why the next one was not; the state is then that before it.
+    /// Returns the number of steps made and the error of the next one; the state is then the one before it.
     pub(crate) fn advance(
         &self,
         numbers: &mut Numbers,
@@ -405,7 +405,7 @@ impl Compiled {
 /// The coefficients that the programs of a step of this size read.
 ///
 /// # Errors
-/// Where one is not finite.
+/// Fails if one is not finite.
 pub(super) fn coefficients(
     step: &Step,
     size: f64,

@@ -66,7 +66,7 @@ impl<'a, G: Group> Torque<'a, G> {
         Ok(Self { kick, group, slots })
     }
 
-    /// The same for other values; kicks are refused where a coefficient is not finite for them.
+    /// Changes the values; kicks are refused if a coefficient is not finite for them.
     pub(super) fn vary(&mut self, parameters: &[f64]) {
         let varied = Self::new(self.kick, self.group.clone(), parameters).map(|new| new.slots);
         self.slots = varied.unwrap_or_else(|_| vec![f64::NAN; self.slots.len()]);
@@ -75,7 +75,7 @@ impl<'a, G: Group> Torque<'a, G> {
     /// The torque in a state at this time.
     ///
     /// # Errors
-    /// Where an expression in it is not defined.
+    /// Fails if an expression in it is not defined.
     pub(crate) fn torque(
         &self,
         g: &G::Element,

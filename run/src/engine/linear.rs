@@ -26,7 +26,7 @@ pub(crate) trait Differentiable {
     /// The derivative of the next step of a state that `first` steps from the start of the grid have reached.
     ///
     /// # Errors
-    /// Where there is no step.
+    /// Fails if there is no step.
     fn linear(&self, state: &Numbers, first: u64) -> Result<Linear, StepError>;
 }
 
@@ -52,19 +52,19 @@ pub(super) fn meeting(x: &DVector<f64>) -> StepError {
 }
 
 impl Linear {
-    /// That of no step at all.
+    /// The derivative of the identity.
     pub(crate) fn identity(dim: usize, parameters: usize) -> Self {
         let state = DMatrix::identity(2 * dim, 2 * dim);
         Self { state, parameters: DMatrix::zeros(2 * dim, parameters) }
     }
 
-    /// That of this step and the next one.
+    /// The derivative of this step followed by the next one.
     pub(crate) fn then(&self, next: &Self) -> Self {
         let parameters = &next.state * &self.parameters + &next.parameters;
         Self { state: &next.state * &self.state, parameters }
     }
 
-    /// That of μ ↦ μ + l τ(g, θ), given the derivatives of l τ in ξ (n×n) and in θ (n×q).
+    /// The derivative of μ ↦ μ + l τ(g, θ), given the derivatives of l τ in ξ (n×n) and in θ (n×q).
     pub(super) fn of_kick(by_element: &DMatrix<f64>, by_parameters: &DMatrix<f64>) -> Self {
         let dim = by_element.nrows();
         let mut kick = Self::identity(dim, by_parameters.ncols());
@@ -73,7 +73,7 @@ impl Linear {
         kick
     }
 
-    /// That of the motion by τ(x) to the momentum `after`, given ∂x/∂μ (n×n) and ∂x/∂θ (n×q).
+    /// The derivative of the motion by τ(x) to the momentum `after`, given ∂x/∂μ (n×n) and ∂x/∂θ (n×q).
     pub(super) fn of_motion<G: Group, C: Chart<G>>(
         (chart, group): (C, &G),
         x: &DVector<f64>,
@@ -99,7 +99,7 @@ impl Linear {
     /// [∂x/∂μ, ∂x/∂θ] of the solution x = ∂S/∂p(p), p = (d^R τ_x)ᵀ μ, given S_pp (n×n) and S_pθ (n×q) there.
     ///
     /// # Errors
-    /// Where two solutions meet.
+    /// Fails if two solutions meet.
     pub(super) fn response<G: Group, C: Chart<G>>(
         (chart, group): (C, &G),
         x: &DVector<f64>,

@@ -36,7 +36,7 @@ pub(crate) trait Motion: Send + Sync {
     /// that comes of them does not depend on how many are made at a time.
     ///
     /// # Errors
-    /// How many were made, and why the next one was not; the state is then that before it.
+    /// Returns the number of steps made and the error of the next one; the state is then the one before it.
     fn advance(
         &self,
         state: &mut Numbers,
@@ -47,19 +47,19 @@ pub(crate) trait Motion: Send + Sync {
     /// The state after one step of another size from this time.
     ///
     /// # Errors
-    /// Where there is none.
+    /// Fails if there is none.
     fn beside(&self, state: &Numbers, time: f64, size: f64) -> Result<Numbers, StepError>;
 
     /// Makes one step from this time, whatever steps were made before.
     ///
     /// # Errors
-    /// Why there is none.
+    /// Returns the reason for which there is none.
     fn one_at(&self, state: &mut Numbers, time: f64) -> Result<(), StepError>;
 
     /// The ratio of the last two terms of the series at a momentum, where it may be worth a warning; else 0.
     fn ratio(&self, mu: &[f64]) -> f64;
 
-    /// The same steps with their derivatives, where these are known.
+    /// The steps with their derivatives, if these are known.
     fn differentiable(&self) -> Option<&dyn Differentiable> {
         None
     }
@@ -136,7 +136,7 @@ pub(crate) struct Equations<'a> {
 }
 
 impl Equations<'_> {
-    /// Whether steps depend on the time.
+    /// True if steps depend on the time.
     fn moves(&self) -> bool {
         self.integrator.kicks.as_ref().is_some_and(Kicks::moves)
     }
@@ -155,7 +155,7 @@ impl Charted {
     /// The group with this chart; `file` is the name of its system in messages.
     ///
     /// # Errors
-    /// Where the group does not have the chart.
+    /// Fails if the group does not have the chart.
     pub(crate) fn new(
         file: &Path,
         group: DirectProduct<MatrixGroup>,
@@ -209,7 +209,7 @@ struct Steps<'a, G: Restore, C> {
     grid: Grid,
     /// The step of the generic solver, once one was needed.
     generic: OnceLock<Map<'a, G>>,
-    /// Those of half the size, of a quarter, …, as far as they were needed to advise.
+    /// Maps of half the step, of a quarter, …, as far as advice has needed them.
     shorter: Mutex<Vec<Option<Map<'a, G>>>>,
     /// The longest flow of a step, by whose series ratios are measured, once one was asked for.
     flow: OnceLock<Option<Interpreter<'a, G, C>>>,

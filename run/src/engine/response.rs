@@ -56,7 +56,7 @@ impl<'a> Response<'a> {
     /// δxᵢ and δpᵢ from δP and from these as in the equations of a step.
     ///
     /// # Errors
-    /// Where two solutions meet.
+    /// Fails if two solutions meet.
     pub(crate) fn of<G: Group, const M: usize>(
         &self,
         group: &G,

@@ -41,7 +41,7 @@ pub(crate) fn product_group(
     Ok(DirectProduct::new(groups?))
 }
 
-/// The same group with the Cayley map.
+/// The group with the Cayley map.
 pub(crate) fn cayley_group(
     path: &Path,
     group: &DirectProduct<MatrixGroup>,
@@ -104,7 +104,7 @@ pub(crate) trait Space {
     /// The matrix, row by row, of the element that the given one is up to rounding.
     ///
     /// # Errors
-    /// Where it is none.
+    /// Fails if it is none.
     fn nearest(&self, matrix: &[f64]) -> Result<Vec<f64>, ElementError>;
 
     /// The numbers of the element with this matrix, row by row, which is not checked.

@@ -20,7 +20,7 @@ use super::space::Group;
 /// The parts of a step of one size, with what their derivatives need.
 pub(crate) struct Tangent<'a, G, C> {
     flows: Vec<Flow<'a, G, C>>,
-    /// Where there are kicks, how they and flows are composed, the size of a step, and the derivatives of kicks.
+    /// For steps with kicks: their composition with flows, the size of a step, and the derivatives of kicks.
     kicks: Option<(Splitting, f64, KickSlope<'a, G>)>,
     /// p, v ↦ S_pp v.
     hessian: Program,
@@ -63,7 +63,7 @@ impl<'a, G: Group + 'a, C: Chart<G>> Tangent<'a, G, C> {
     /// For a step of this size; arguments as those of [`map`](super::kick::map).
     ///
     /// # Errors
-    /// Where a coefficient is not finite.
+    /// Fails if a coefficient is not finite.
     pub(crate) fn new(
         integrator: &'a Integrator,
         group: &G,
@@ -106,7 +106,7 @@ impl<'a, G: Group + 'a, C: Chart<G>> Tangent<'a, G, C> {
     /// The derivative of the step from a state of this time.
     ///
     /// # Errors
-    /// Where there is no step.
+    /// Fails if there is no step.
     pub(crate) fn linear(&self, mut phase: Phase<G>, time: f64) -> Result<Linear, StepError> {
         let parameters = self.flows.first().map_or(0, |flow| flow.by_parameters.len());
         let mut total = Linear::identity(phase.momentum.len(), parameters);
@@ -168,7 +168,7 @@ impl<'a, G: Group> KickSlope<'a, G> {
     /// For these values of the parameters.
     ///
     /// # Errors
-    /// Where a coefficient is not finite.
+    /// Fails if a coefficient is not finite.
     pub(super) fn new(kick: &'a Kick, group: &G, parameters: &[f64]) -> Result<Self, StepError> {
         let torque = Torque::new(kick, group.clone(), parameters)?;
         let generator = |matrix: &RationalMatrix| {
@@ -199,7 +199,7 @@ impl<'a, G: Group> KickSlope<'a, G> {
     /// Makes a kick at this time, of this length; its derivative.
     ///
     /// # Errors
-    /// Where the torque is not defined.
+    /// Fails if the torque is not defined.
     pub(super) fn linear(
         &self,
         phase: &mut Phase<G>,

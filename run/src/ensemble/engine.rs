@@ -24,7 +24,7 @@ use crate::simulate::{Stop, error_of};
 /// The system as ensembles solve it: in lanes by Newton's method whatever the dimension, since its Hessian is then exact.
 ///
 /// # Errors
-/// Where it has events, which ensembles do not look for.
+/// Fails if it has events, which ensembles do not look for.
 pub fn in_lanes(mut system: System) -> Result<System, RunError> {
     if let Some(event) = system.run.events.first() {
         let name = &event.name;
@@ -45,7 +45,7 @@ pub struct Rejected {
     pub row: u64,
     /// The step that could not be made, from 1; 0 where the row itself is at fault.
     pub step: u64,
-    /// Why.
+    /// The reason.
     pub reason: String,
 }
 
@@ -91,12 +91,12 @@ impl Drift {
     }
 }
 
-/// How far rows go, and where their states are kept.
+/// The steps of each row, and the times at which its states are kept.
 #[derive(Clone, Debug, Default)]
 pub struct Course {
     /// Steps of every row.
     pub steps: u64,
-    /// Where states are kept, in order; at the end alone where there are none.
+    /// The stops at which states are kept, in order; if there are none, only the final state is kept.
     pub stops: Vec<Stop>,
 }
 
@@ -115,7 +115,7 @@ impl Course {
     }
 }
 
-/// Who looks on while rows are advanced.
+/// Callbacks while rows are advanced.
 pub struct Watch<'a> {
     /// Is told, again and again, how many steps every row has made.
     pub made: &'a dyn Fn(u64),
@@ -132,7 +132,7 @@ pub struct Use {
     pub name: String,
     /// Its numbers.
     pub precision: Precision,
-    /// Whether the device is this machine's processor.
+    /// True if the device is this machine's processor.
     pub processor: bool,
     /// Rows of which it has refused steps.
     pub redone: u64,
@@ -178,7 +178,7 @@ impl<'a> Engine<'a> {
     /// Of a system that is meant for [lanes](in_lanes). Parameters that its integrator keeps vary from row to row.
     ///
     /// # Errors
-    /// Where the step makes no sense, or the backend or device that the user named cannot be had.
+    /// Fails if the step makes no sense, or the backend or device that the user named cannot be had.
     pub fn new(system: &'a Derived, grid: Grid, how: How) -> Result<Self, RunError> {
         // Lanes have their coefficients in common.
         let alike = system.facts().parameters.is_empty();
@@ -227,7 +227,7 @@ impl<'a> Engine<'a> {
         Shape { matrix_size: self.motion.space().size(), ..Shape::of(algebra) }
     }
 
-    /// How many Casimirs are watched.
+    /// The number of Casimirs watched.
     pub fn casimirs(&self) -> usize {
         self.invariants.casimirs.len()
     }
@@ -268,7 +268,7 @@ impl<'a> Engine<'a> {
     /// are cut into pieces or on threads.
     ///
     /// # Errors
-    /// Where a device fails, or [`RunError::Halted`] where the watch asks to stop; nothing is known of the rows then.
+    /// Fails if a device fails, or [`RunError::Halted`] where the watch asks to stop; nothing is known of the rows then.
     pub fn advance(
         &self,
         layout: &Layout,

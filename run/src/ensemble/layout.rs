@@ -12,10 +12,10 @@ use nalgebra::UnitQuaternion;
 use crate::error::RunError;
 use crate::load::System;
 
-/// How far an attitude may be from the group, as for `coadjoint learn`: far above rounding in files, far below noise.
+/// The largest distance of an attitude from the group, as for `coadjoint learn`: far above rounding in files, far below noise.
 const TOLERANCE: f64 = 1e-6;
 
-/// How a row gives the attitude.
+/// The form in which a row gives the attitude.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Attitude {
     /// Not at all: momenta only.
@@ -33,7 +33,7 @@ pub struct Shape {
     pub dim: usize,
     /// d, the size of the matrix of a group element.
     pub matrix_size: usize,
-    /// Whether a unit quaternion names an element.
+    /// True if a unit quaternion gives the element.
     pub quaternions: bool,
 }
 
@@ -77,7 +77,7 @@ impl Known {
         }
     }
 
-    /// Whether a column has the values of a parameter. One that is nearly called like a parameter is refused.
+    /// True if a column has the values of a parameter. One that is nearly called like a parameter is refused.
     fn parameter(&self, column: &str) -> Result<bool, String> {
         for parameter in &self.parameters {
             let (name, scalars) = (&parameter.name, parameter.scalar_names());
@@ -103,7 +103,7 @@ impl Known {
         Ok(false)
     }
 
-    /// Whether this entry of the matrix is outside of all blocks, where entries are 0.
+    /// True if this entry of the matrix is outside of all blocks, where entries are 0.
     fn is_zero(&self, entry: usize, size: usize) -> bool {
         let block = |index: usize| {
             let mut end = 0;
@@ -121,7 +121,7 @@ fn plain(name: &str) -> String {
     name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 
-/// Where named columns have the numbers of a state.
+/// The columns that hold the numbers of a state.
 #[derive(Clone, Debug)]
 pub struct Found {
     /// The layout of the state, and of the parameters that vary.
@@ -154,7 +154,7 @@ impl Found {
     /// records of runs do.
     ///
     /// # Errors
-    /// Where a column is missing, is there twice, or is nearly called what the system calls a parameter.
+    /// Fails if a column is missing, is there twice, or is nearly called what the system calls a parameter.
     fn find(shape: Shape, known: &Known, header: &[String]) -> Result<Self, RunError> {
         let refuse = |what: String| Err(RunError::Option(what));
         let mut first = HashMap::new();

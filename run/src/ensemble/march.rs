@@ -15,18 +15,18 @@ use crate::number::maximum;
 /// Steps that all trajectories make before the next: each is then about as far, and what is told of it is true.
 pub(super) const STRETCH: u64 = 256;
 
-/// How steps are made.
+/// The motion of a row, and its limits.
 pub(super) struct March<'a> {
     /// Makes them, and is asked for the ratio of the series after each stretch.
     pub motion: &'a dyn Motion,
-    /// Where it is set, nothing more is made.
+    /// Stops all rows once it is set.
     pub stop: &'a AtomicBool,
 }
 
 /// A trajectory on its way.
 #[derive(Clone, Debug)]
 pub(super) struct Way {
-    /// Where it is.
+    /// The state reached.
     pub state: Numbers,
     /// The number of the step that could not be made, from 1, and why: the state is the one before it; 0 where the row itself
     /// is at fault.
@@ -139,7 +139,7 @@ impl March<'_> {
     /// group before steps are made here, and at the end.
     ///
     /// # Errors
-    /// Where the device fails; the states are lost then.
+    /// Fails if the device fails; the states are lost then.
     pub(super) fn march_on(
         &self,
         card: &mut Card,

@@ -101,7 +101,7 @@ pub(crate) fn off_group(algebra: &LieAlgebra, blocks: &[Block], entries: &[f64])
     places.filter_map(off).reduce(maximum)
 }
 
-/// Whether the elements of a factor's group are orthogonal matrices.
+/// True if the elements of a factor's group are orthogonal matrices.
 fn orthogonal(factor: &LieAlgebra) -> bool {
     factor.basis().is_some_and(|basis| basis.iter().all(RationalMatrix::is_antisymmetric))
 }

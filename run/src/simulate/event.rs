@@ -64,7 +64,7 @@ pub struct Event {
     pub function: Arc<Function>,
     /// The changes of sign that count.
     pub direction: Direction,
-    /// Whether the run ends at the first of them.
+    /// True if the run ends at the first of them.
     pub terminal: bool,
 }
 
@@ -130,7 +130,7 @@ impl Lookout<'_> {
     /// The crossings between two moments of the step that begins at `start`, in the order of time, each with its state.
     ///
     /// # Errors
-    /// Where a state between them cannot be had, or a function has no value there.
+    /// Fails if a state between them cannot be had, or a function has no value there.
     pub(crate) fn between(
         &self,
         start: &Numbers,
@@ -142,7 +142,7 @@ impl Lookout<'_> {
             if !event.direction.counts([before.signs[place], after.signs[place]]) {
                 continue;
             }
-            // Where it was 0 until here, it changes its sign here.
+            // A function that was 0 until here changes its sign here.
             let (share, state) = match a == 0.0 {
                 true => (before.share, before.state.clone()),
                 false => self.root(event, start, (before, a), (after, b))?,
@@ -157,7 +157,7 @@ impl Lookout<'_> {
     /// The state at a share of the step.
     ///
     /// # Errors
-    /// Why there is none.
+    /// Returns the reason for which there is none.
     pub(super) fn state(&self, start: &Numbers, share: f64) -> Result<Numbers, StepError> {
         self.motion.beside(start, self.time, share * self.step)
     }

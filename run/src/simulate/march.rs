@@ -15,7 +15,7 @@ use crate::error::RunError;
 /// The number of moments at which the drift is measured in a run of which no records are kept.
 const LOOKS: u64 = 10_000;
 
-/// How many steps are made at a time: few enough to come back every ten milliseconds.
+/// The number of steps made at a time: few enough to return every ten milliseconds.
 pub(super) struct Pace(u64);
 
 impl Pace {
@@ -66,7 +66,7 @@ struct March<'a> {
     crossings: Vec<Crossing>,
     /// When an event ended the run.
     ended: Option<f64>,
-    /// How many of the times asked for are recorded.
+    /// The number of requested times recorded so far.
     times: usize,
     /// The states kept for the estimate of the error.
     kept: Vec<Milestone>,
@@ -80,7 +80,7 @@ impl Subject<'_> {
     /// that an estimate of the error looks at.
     ///
     /// # Errors
-    /// Why the run stopped.
+    /// Returns the reason for which the run stopped.
     pub(crate) fn run(
         self,
         motion: &dyn Motion,
@@ -199,7 +199,7 @@ impl March<'_> {
         let before = (!self.setup.events.is_empty()).then(|| self.state.clone());
         let count = if before.is_some() { 1 } else { count };
         let ratio = if self.watched() { self.motion.ratio(&self.state.mu) } else { 0.0 };
-        // Where records come more often than the driver must, none of its time goes into clocks.
+        // The clock is read only if records are rarer than the driver's turns.
         let begun = (count == pace.0).then(Instant::now);
         let made = self.motion.advance(&mut self.state, first, count);
         let made = made.map_err(|(done, source)| {
@@ -310,7 +310,7 @@ impl March<'_> {
         }
     }
 
-    /// Whether the drift is measured after the steps made.
+    /// True if the drift is measured after the steps made.
     fn watched(&self) -> bool {
         self.n == self.setup.schedule.steps || self.n.is_multiple_of(self.interval)
     }

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::engine::{Numbers, Space};
 
-/// Where increments repeat, as in a steady rotation, so does their rounding: a momentum leaves its coadjoint orbit, and the
+/// If increments repeat, as in a steady rotation, so does their rounding: a momentum leaves its coadjoint orbit, and the
 /// spatial momentum J = Ad\*_g μ its value, in proportion to the steps. So from time to time μ becomes Ad\*_{g⁻¹} J with
 /// the J of the start: its error is then that of g alone, which returns to its group in every step.
 pub(super) struct Orbit {

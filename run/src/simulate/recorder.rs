@@ -43,15 +43,15 @@ pub struct Outcome {
     pub unmeasured: [Option<f64>; 3],
     /// The reasons for drifts that there are not: of the spatial momentum, the Casimirs, the energy.
     pub unknown: [Option<&'static str>; 3],
-    /// How many Casimirs were watched.
+    /// The number of Casimirs watched.
     pub casimirs: usize,
-    /// Whether a potential breaks the symmetry.
+    /// True if a potential breaks the symmetry.
     pub potential: bool,
-    /// How many independent components of the spatial momentum are conserved, and were watched.
+    /// The number of independent components of the spatial momentum that are conserved and were watched.
     pub momenta: usize,
     /// The events that occurred, in the order of time.
     pub events: Vec<Crossing>,
-    /// How the solves went, where they are ours and one a step.
+    /// Statistics of the solves, if there is one of ours in each step.
     pub solver: Option<Solver>,
     /// An estimate of the error at the end, the larger of the relative errors of μ and of the matrix of g in Euclidean norms;
     /// or why there is none.
@@ -77,7 +77,7 @@ pub(crate) struct Watched<'a> {
     pub coordinates: &'a [String],
     /// The conserved quantities.
     pub invariants: &'a Invariants,
-    /// Whether attitudes mean something; maps learned from momenta alone have none.
+    /// True if attitudes are known; maps learned from momenta alone have none.
     pub attitude: bool,
     /// The effect of damping on the energy, if there is any damping.
     pub damped: Option<&'static str>,

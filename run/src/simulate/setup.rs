@@ -19,9 +19,9 @@ use crate::number::shortest;
 const MOST_STEPS: f64 = 1e12;
 /// T/h may be above a whole number by this, relatively, without another step: decimals of h are rounded.
 const SLACK: f64 = 1e-12;
-/// How far, relatively, a time may be from a whole number of steps whose size is fixed.
+/// The largest relative distance of a time from a whole number of steps of a fixed size.
 const WHOLE: f64 = 1e-9;
-/// How many times are written out in full where a run is described.
+/// The largest number of times written out in the description of a run.
 const LISTED: usize = 16;
 
 /// The steps of a run: a whole number of equal ones, the last of which ends at T.
@@ -31,7 +31,7 @@ pub struct Schedule {
     pub asked: f64,
     /// The step size used: T/⌈T/h⌉ with the sign of h, or h itself where h divides T.
     pub step: f64,
-    /// How many steps.
+    /// The number of steps.
     pub steps: u64,
     /// The time at the start, t₀.
     pub start: f64,
@@ -43,7 +43,7 @@ impl Schedule {
     /// The schedule by what is asked for, else by the file.
     ///
     /// # Errors
-    /// Where the step or the time is missing or makes no sense.
+    /// Fails if the step or the time is missing or makes no sense.
     pub fn new(file: &Path, asked: &Accuracy, run: &Run) -> Result<Self, RunError> {
         let step = asked.step.or(run.step).ok_or_else(|| RunError::no_step(file))?;
         let time = asked.time.or(run.time).ok_or_else(|| RunError::no_time(file))?;
@@ -88,7 +88,7 @@ impl Schedule {
     /// Whole steps of the size that a model was learned for, which end at this time.
     ///
     /// # Errors
-    /// Where none do.
+    /// Fails if none do.
     pub fn of_model(step: f64, time: f64) -> Result<Self, RunError> {
         let steps = (time / step).round();
         if !(steps.is_finite() && (1.0..MOST_STEPS).contains(&steps)) {
@@ -116,7 +116,7 @@ impl Schedule {
         if n == self.steps { self.end } else { self.grid().time(n) }
     }
 
-    /// How many steps end nearest to a time of the run.
+    /// The number of steps that end nearest to a time of the run.
     pub(crate) fn nearest(&self, time: f64) -> u64 {
         ((time - self.start) / self.step).round().min(self.steps as f64) as u64
     }
@@ -156,7 +156,7 @@ impl Times {
     /// begins a comment there.
     ///
     /// # Errors
-    /// Where it is neither, or a time is not in the run.
+    /// Fails if it is neither, or a time is not in the run.
     pub fn read(argument: &str, schedule: &Schedule) -> Result<Self, RunError> {
         let refuse = |what: String| RunError::Option(format!("--at {argument}: {what}"));
         let list = argument.split(',').map(|word| word.trim().parse::<f64>());
@@ -170,7 +170,7 @@ impl Times {
     /// These times, which must be in the run.
     ///
     /// # Errors
-    /// Where there are none, or one is not in the run.
+    /// Fails if there are none, or one is not in the run.
     pub fn new(mut times: Vec<f64>, schedule: &Schedule) -> Result<Self, String> {
         if times.is_empty() {
             return Err("no times are given".into());
@@ -186,7 +186,7 @@ impl Times {
         Ok(Self(times))
     }
 
-    /// Where they are on the grid of the steps, each with the shorter step from the nearest point of it, which may go back.
+    /// The stops of these times: the nearest point of the grid, and the shorter step from it, which may go back.
     pub fn stops(&self, schedule: &Schedule) -> Vec<Stop> {
         let stop = |&time: &f64| {
             let step = schedule.nearest(time);
@@ -228,7 +228,7 @@ fn times_in(path: &Path) -> Result<Vec<f64>, String> {
 pub struct Setup {
     /// In which steps the run reaches its end.
     pub schedule: Schedule,
-    /// Whether records are wanted at all.
+    /// True if the run is recorded.
     pub recording: bool,
     /// Every n-th step is recorded, and the last; `None` where only the times of `at` are. Not 0.
     pub every: Option<u64>,
@@ -274,7 +274,7 @@ impl Setup {
     /// The state at the start.
     ///
     /// # Errors
-    /// Where the matrix given is no element of the group.
+    /// Fails if the matrix given is no element of the group.
     pub(crate) fn start(&self, file: &Path, space: &dyn Space) -> Result<Numbers, RunError> {
         let size = space.size();
         let matrix = match &self.group_element {

@@ -29,7 +29,7 @@ impl<S: AsRef<Derived>> Single<S> {
     /// Prepares steps of this size, about `steps` of which are going to be made.
     ///
     /// # Errors
-    /// Where the step makes no sense, or the backend asked for cannot be had.
+    /// Fails if the step makes no sense, or the backend asked for cannot be had.
     pub fn new(system: S, step: f64, backend: Backend, steps: f64) -> Result<Self, RunError> {
         let compiled = system.as_ref().compiled(step, backend, steps, Trajectories::One)?;
         let mut single = Self { system, step, size: 0, compiled };
@@ -59,7 +59,7 @@ impl<S: AsRef<Derived>> Single<S> {
     /// the last digits stays as it is.
     ///
     /// # Errors
-    /// Where it is none.
+    /// Fails if it is none.
     pub fn element(&self, matrix: &[f64]) -> Result<Vec<f64>, RunError> {
         let found = self.motion(0.0).map_err(RunError::unmade)?.space().nearest(matrix);
         let found = found.map_err(|error| not_an_element(&self.system.as_ref().file, &error))?;

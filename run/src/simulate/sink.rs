@@ -17,9 +17,9 @@ pub struct Begun<'a> {
     pub coordinates: &'a [String],
     /// The blocks of the group's matrices that records hold.
     pub blocks: &'a [Block],
-    /// Whether there are drifts of the spatial momentum, the Casimirs and the energy.
+    /// Marks the drifts that exist: of the spatial momentum, the Casimirs and the energy.
     pub known: [bool; 3],
-    /// Whether there is an energy.
+    /// True if there is an energy.
     pub energy: bool,
     /// The sizes that drifts are relative to.
     pub scales: &'a Scales,
@@ -84,7 +84,7 @@ pub struct Resume {
     pub momentum: Vec<f64>,
     /// The numbers of g, as what makes the steps has them, and those that steps by collocation leave to the next one.
     pub element: Vec<f64>,
-    /// How many of the times asked for are recorded.
+    /// The number of requested times recorded so far.
     pub times: usize,
     /// The maxima so far.
     pub(crate) tally: Tally,

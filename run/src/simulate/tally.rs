@@ -45,13 +45,13 @@ pub(crate) struct Tally {
     pub drift: Drift,
     /// From these times on drifts cannot be measured: of the spatial momentum, the Casimirs, the energy.
     pub unmeasured: [Option<f64>; 3],
-    /// How the solves went, where residuals were measured.
+    /// Statistics of the solves, if residuals were measured.
     pub solver: Option<Solver>,
     /// The first step before which the last terms of the series had a ratio worth a warning.
     pub steep: Option<Steep>,
 }
 
-/// Where the last two terms of the series came near to each other first.
+/// The first step at which the last two terms of the series came near to each other.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Steep {
     /// The number of the step, from 1.

@@ -15,16 +15,16 @@ use crate::number::maximum;
 const UNIT: f64 = f64::EPSILON / 2.0;
 /// Up to this number of steps the bounds on what rounding does are multiplied.
 const PROVEN: u64 = 3;
-/// Where rounding may do more than this, relative to the numbers, nothing is said of them.
+/// The largest relative effect of rounding at which numbers are still judged.
 const VAGUE: f64 = 1e-3;
 /// The ratio of the last two terms of the series up to which a step is accepted, and what rounding may add.
 const LARGEST_RATIO: f64 = 0.5 * (1.0 + 1e-9);
-/// How far beside the motion the others start, relative to it.
+/// The relative distance at which the neighbouring motions start.
 const BESIDE: f64 = 1e-8;
 /// The growth found may be exceeded by this factor.
 const SAFETY: f64 = 10.0;
 
-/// Why the judge stops at a step.
+/// Reasons for which the judge stops at a step.
 pub(crate) enum Trouble {
     /// The step is wrong.
     Wrong(String),
@@ -110,7 +110,7 @@ impl Course {
     /// The deviations of momentum and element over what rounding may have done.
     ///
     /// # Errors
-    /// Where that is so much that nothing can be said.
+    /// Fails if that is so much that nothing can be said.
     pub(crate) fn deviations(
         &self,
         before: &State,

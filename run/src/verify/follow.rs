@@ -27,7 +27,7 @@ const FARTHEST: u64 = 100_000;
 /// The exact judge of a system, which is called `file` in messages.
 ///
 /// # Errors
-/// Where the series is too large, or the Hamiltonian a function without formula.
+/// Fails if the series is too large, or the Hamiltonian a function without formula.
 pub fn judge_of(file: &Path, hamiltonian: &Hamiltonian) -> Result<Judge, RunError> {
     let judge = match hamiltonian {
         Hamiltonian::Polynomial(problem, _) => Judge::of_problem(problem, TermLimit::default()),
@@ -39,14 +39,14 @@ pub fn judge_of(file: &Path, hamiltonian: &Hamiltonian) -> Result<Judge, RunErro
 /// The number of rows of a file that stand for all of them: evenly spread, the last among them.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample {
-    /// How many rows are judged.
+    /// The number of rows judged.
     pub wanted: u64,
-    /// How many rows there are to choose from.
+    /// The number of rows to choose from.
     pub of: u64,
 }
 
 impl Sample {
-    /// Whether it has row `number`, counted from 1.
+    /// True if it has row `number`, counted from 1.
     fn holds(self, number: u64) -> bool {
         let before = |number: u64| {
             u128::from(number) * u128::from(self.wanted.min(self.of)) / u128::from(self.of.max(1))
@@ -76,7 +76,7 @@ impl<'a> Follower<'a> {
     /// For the steps of this grid; the start of rows with times is known by these.
     ///
     /// # Errors
-    /// Where the step makes no sense, or a parameter is not finite.
+    /// Fails if the step makes no sense, or a parameter is not finite.
     pub fn new(
         judge: &'a Judge,
         hamiltonian: &'a Hamiltonian,
@@ -104,7 +104,7 @@ impl<'a> Follower<'a> {
     /// Rows of one motion. Between rows that are not a whole number of steps apart the last step is shorter.
     ///
     /// # Errors
-    /// Where the file cannot be read, or has no states with times.
+    /// Fails if the file cannot be read, or has no states with times.
     pub fn rows(&self, table: &mut Table) -> Result<Found, RunError> {
         let columns = Columns::find(self.hamiltonian, self.parameters, table)?;
         let Some(time) = columns.time else {
@@ -157,7 +157,7 @@ impl<'a> Follower<'a> {
     /// Rows of end states, each with its start; those in `refused` have none, by what the run says.
     ///
     /// # Errors
-    /// Where a file cannot be read, or has fewer rows than the other.
+    /// Fails if a file cannot be read, or has fewer rows than the other.
     pub fn pairs(
         &self,
         starts: &mut Table,
@@ -265,7 +265,7 @@ impl<'a> Follower<'a> {
         (course, steps): (&Course, u64),
         found: &mut Found,
     ) {
-        // Where the motion stretches by more than numbers tell apart, nothing is measured.
+        // Nothing is measured if the motion stretches by more than numbers can resolve.
         let Some(stretch) = course.stretch() else { return };
         let more = (steps + 1) as f64 * (stretch / self.size.max(1) as f64).max(1.0);
         let [spatial, casimirs, _] = before.drifts(after);

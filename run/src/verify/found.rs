@@ -12,11 +12,11 @@ pub struct Found {
     pub steps: u64,
     /// The largest deviation of a momentum over its bound.
     pub momentum: f64,
-    /// The same of group elements.
+    /// The largest deviation of a group element, over its bound.
     pub group_element: f64,
     /// The largest drift of the Casimirs from row to row, relative to their scales.
     pub casimir: f64,
-    /// The same of the spatial momentum.
+    /// The largest drift of the spatial momentum from row to row, relative to its size.
     pub spatial_momentum: f64,
     /// Rows that are not in the sample asked for, where one is.
     pub not_sampled: Option<u64>,
@@ -24,7 +24,7 @@ pub struct Found {
     pub refused: u64,
     /// Rows that could not be judged.
     pub not_judged: u64,
-    /// Why the first of them could not.
+    /// The reason for the first of them.
     pub why_not_judged: Option<String>,
     /// The file's own statement about its end, where it is a part.
     pub part: Option<String>,

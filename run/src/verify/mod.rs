@@ -13,11 +13,11 @@ use coadjoint_codegen::system::System;
 pub use follow::{Follower, Sample, judge_of};
 pub use found::Found;
 
-/// Why runs with kicks are not judged.
+/// The reason for which runs with kicks are not judged.
 pub const KICKED: &str =
     "a system with a potential or a torque is not judged: between its kicks the motion is free";
 
-/// Why the runs of a system are not judged, where they are not.
+/// The reason for which runs of a system are not judged; `None` if they are.
 pub fn unjudged<H>(system: &System<H>) -> Option<&'static str> {
     match (&system.potential, &system.damping) {
         (Some(_), _) => Some(KICKED),

@@ -85,7 +85,7 @@ impl Said {
         let drifts = names.into_iter().zip(columns.drifts).zip(drifts);
         let energy = (("energy".to_owned(), columns.energy), known.energy());
         for ((name, column), right) in drifts.chain([energy]) {
-            // Where a drift cannot be measured the file says that it is not a number.
+            // A drift that cannot be measured is NaN in the file.
             let said = column.map(|column| row[column]).filter(|said| !said.is_nan());
             if let Some((said, (right, bound))) = said.zip(right)
                 && !((said - right).abs() <= bound)

@@ -22,7 +22,7 @@ pub trait Chart<G: LieGroup>: Copy + Debug + Default {
     /// τ(x) and Ad\*_{τ(x)⁻¹} μ: the group increment of a step and the momentum after it.
     fn transport(self, group: &G, x: &G::Vector, mu: &G::Vector) -> (G::Element, G::Vector);
 
-    /// How far x goes into the chart; steps are accepted up to one. See [`LieGroup::exp_extent`] and
+    /// The extent of x in the chart; steps are accepted up to one. See [`LieGroup::exp_extent`] and
     /// [`CayleyGroup::cayley_extent`].
     fn extent(self, group: &G, x: &G::Vector) -> G::Scalar;
 
@@ -48,7 +48,7 @@ pub trait Chart<G: LieGroup>: Copy + Debug + Default {
         (self.pull_back(group, x, mu), derivative)
     }
 
-    /// The same derivative to rounding, at several times the cost: derivatives of steps are made of it. Not a number for x
+    /// The derivative to rounding, at several times the cost: derivatives of steps are made of it. Not a number for x
     /// far beyond the chart.
     fn pull_back_derivative(self, group: &G, x: &G::Vector, mu: &G::Vector) -> Matrix<G>;
 

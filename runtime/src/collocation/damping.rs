@@ -103,7 +103,7 @@ where
         self.advance_with(phase, time, length, |_, _| Ok(none.clone()))
     }
 
-    /// The same beside a potential V(g) with this body torque τ = −g⁻¹dV, which falls with H: x = h Γ (ad\*_ω p + τ), τ in the
+    /// Damps beside a potential V(g) with this body torque τ = −g⁻¹dV, which falls with H: x = h Γ (ad\*_ω p + τ), τ in the
     /// middle g exp(x/2), so that H + V changes by −⟨ad\*_ω p + τ, x⟩, to third order in x.
     ///
     /// # Errors

@@ -42,7 +42,7 @@ pub trait Energy<V: Coordinates<f64>> {
         None
     }
 
-    /// Where the value or the gradient is not finite at (t, μ): the expression in H that is outside its domain there.
+    /// The expression in H that is outside its domain at (t, μ); `None` if value and gradient are finite.
     fn undefined(&self, time: f64, mu: &V) -> Option<Undefined> {
         let _ = (time, mu);
         None

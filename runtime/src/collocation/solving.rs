@@ -38,7 +38,7 @@ pub(super) struct Attempt<V: Coordinates<f64>, const M: usize> {
     pub ending: Ending<V>,
 }
 
-/// How an attempt ended.
+/// The outcome of an attempt.
 pub(super) enum Ending<V> {
     Solved,
     NotConverged,

@@ -51,7 +51,7 @@ pub trait GeneratingFunction {
         (self.gradient(p), hessian_by_differences(self, p))
     }
 
-    /// Where S generates the motion in a comoving frame, the frame's own motion y in one step: a step
+    /// If S generates the motion in a comoving frame: the frame's own motion y in one step: a step
     /// is the map of S, then (g, μ) ↦ (g·exp y, Ad\*_{exp(y)⁻¹} μ) with y of that μ, for motion 0 of
     /// the frame, then motion 1, … up to the first `None`. `None` for motion 0: S generates the
     /// whole step.
@@ -95,7 +95,7 @@ pub trait GeneratingFunction {
         f64::MAX
     }
 
-    /// Where S is a truncated series S₁ + S₃ + … + S_K: the ratio of its last two terms at p, each measured by
+    /// For a truncated series S₁ + S₃ + … + S_K: the ratio of its last two terms at p, each measured by
     /// the sum of the absolute values of all monomials of its gradient, in the direct factor of the group where it is
     /// largest. Steps are refused above ½, where the series has stopped to mean something. Zero for any other S.
     fn series_ratio(&self, p: &VectorOf<Self>) -> ScalarOf<Self> {

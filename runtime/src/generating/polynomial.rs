@@ -39,7 +39,7 @@ pub struct PolynomialFunction<G, C> {
     group: G,
     chart: PhantomData<C>,
     terms: Vec<(f64, Vec<(usize, u32)>)>,
-    /// Where it is a truncated series, how that is judged.
+    /// The data by which a truncated series is judged, if S is one.
     series: Option<TruncatedSeries>,
 }
 

@@ -1,4 +1,4 @@
-//! Whether a truncated series means something: the ratio of its last two terms.
+//! The convergence of a truncated series: the ratio of its last two terms.
 
 use crate::number::Scalar;
 

@@ -1,10 +1,10 @@
-//! Why a user's matrix is not an element of a group.
+//! Errors of reading a user's matrix as an element of a group.
 
 use nalgebra::SimdBool;
 
 use crate::number::Scalar;
 
-/// Why a matrix is not an element of a group.
+/// Reasons for which a matrix is not an element of a group.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ElementError {
@@ -55,10 +55,10 @@ pub enum ElementError {
     },
 }
 
-/// How far a user's matrix may be from the group, in entries of order one.
+/// The largest distance of a user's matrix from the group, in entries of order one.
 pub(crate) const TOLERANCE: f64 = 1e-8;
 
-/// Whether `defect` is small against `scale`, in every lane; not if it is NaN.
+/// True if `defect` is small against `scale`, in every lane; not if it is NaN.
 pub(crate) fn within<T: Scalar>(defect: T, scale: T) -> bool {
     defect.simd_le(scale * T::of(TOLERANCE)).all()
 }

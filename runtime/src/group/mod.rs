@@ -80,12 +80,12 @@ pub trait LieGroup: Clone + Debug {
     /// The canonical momentum of the exponential chart, (d^R exp_x)ᵀ μ = Σₖ (ad_xᵀ)ᵏ μ / (k+1)!, to rounding, where dexp·exp⁻¹ = d^R exp_x dx.
     fn dexp_transpose(&self, x: &Self::Vector, mu: &Self::Vector) -> Self::Vector;
 
-    /// How far x goes into the exponential chart: (max |Im λ|/π)² over the eigenvalues λ of ad_x, or a bound on
+    /// The extent of x in the exponential chart: (max |Im λ|/π)² over the eigenvalues λ of ad_x, or a bound on
     /// it. The chart reaches to one. NaN where x is not finite. The elliptic part alone counts: nilpotent
     /// directions have no limit.
     fn exp_extent(&self, x: &Self::Vector) -> Self::Scalar;
 
-    /// How far g is from the group: the largest entry of what should vanish (gᵀg − 1 for rotations, the norm
+    /// The distance of g from the group: the largest entry of what should vanish (gᵀg − 1 for rotations, the norm
     /// less one for unit quaternions). NaN where g is not finite; zero where there is nothing to check.
     fn element_defect(&self, g: &Self::Element) -> Self::Scalar;
 
@@ -127,7 +127,7 @@ pub trait LieGroup: Clone + Debug {
         Self::Vector::by_node::<M>(self.dim(), |node| self.bracket(&at(x, node), &at(y, node)))
     }
 
-    /// How many Casimirs [`LieGroup::casimir`] knows.
+    /// The number of Casimirs that [`LieGroup::casimir`] knows.
     fn casimir_count(&self) -> usize;
 
     /// The Casimir number `index` (from 0) at μ: a function constant on coadjoint orbits.
@@ -166,7 +166,7 @@ pub trait CayleyGroup: LieGroup {
     /// cay(x).
     fn cayley(&self, x: &Self::Vector) -> Self::Element;
 
-    /// How far x goes into the Cayley chart: max |λ/2|² over the eigenvalues λ of the matrix of x, or a bound on
+    /// The extent of x in the Cayley chart: max |λ/2|² over the eigenvalues λ of the matrix of x, or a bound on
     /// it. The chart is used up to one, its own half turn (|x| = 2 on SO(3)). NaN where x is not finite.
     fn cayley_extent(&self, x: &Self::Vector) -> Self::Scalar;
 

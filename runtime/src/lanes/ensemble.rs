@@ -21,7 +21,7 @@ pub struct Failure {
     pub index: usize,
     /// The step, counted from 0, that could not be made. The state is the one before it.
     pub step: u64,
-    /// Why.
+    /// The reason.
     pub error: StepError,
 }
 

@@ -153,7 +153,7 @@ pub(crate) fn invert<T: Scalar, M: Square<T>>(n: usize, a: &M) -> (M, T) {
     (right, determinant)
 }
 
-/// How often a matrix or vector field of this norm must be halved to come below `limit`, taken
+/// The number of times a matrix or vector field of this norm is halved to come below `limit`, taken
 /// over all lanes; `None` where the norm is not finite.
 pub(crate) fn halvings<T: Scalar>(norm: T, limit: f64) -> Option<u32> {
     let mut norm = norm.largest_lane();

@@ -47,7 +47,7 @@ pub(crate) fn accept<S: Integrator + ?Sized>(
     Ok(followed)
 }
 
-/// Whether x lies in the chart, and p where the series converges.
+/// Checks that x lies in the chart, and p where the series converges.
 fn check_domain<S: Integrator + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,
@@ -67,7 +67,7 @@ fn check_domain<S: Integrator + ?Sized>(
     Ok(())
 }
 
-/// Whether x lies in the chart.
+/// Checks that x lies in the chart.
 fn check_chart<S: Integrator + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,

@@ -12,17 +12,17 @@ use crate::number::Scalar;
 pub struct Candidate<V, T> {
     /// The chart coordinate of the group increment.
     pub x: V,
-    /// How far the solution lies from the first guess of p, relative to the largest coordinate of μ.
+    /// The distance of the solution from the first guess of p, relative to the largest coordinate of μ.
     pub moved: T,
     /// The residual p − (d^R τ_x)ᵀ μ, relative to the largest coordinate of μ.
     pub residual: T,
-    /// Whether the equation may have a fold or a fork at x.
+    /// Folds and forks of the equation at x.
     pub branch: Branch,
     /// Newton iterations, or evaluations of the fixed point (in lanes: until the last lane was done).
     pub iterations: u32,
 }
 
-/// Whether x = s ∂S(p) can have a fold or a fork at a solution for an s from 0 to 1, as far as the matrices there tell.
+/// Folds and forks of x = s ∂S(p) at a solution for an s from 0 to 1, as far as the matrices there tell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Branch {
     /// It has none: ‖∂p/∂x·Hess S‖ < 1, for the sums of rows.
@@ -48,7 +48,7 @@ pub(super) fn rounding<S: GeneratingFunction + ?Sized>(generating: &S) -> Scalar
 }
 
 impl<V, T: Scalar> Candidate<V, T> {
-    /// Whether the candidate solves its equation, as near its first guess as this. A distance that is not a number is not.
+    /// True if the candidate solves its equation within this distance of its first guess; false if the distance is NaN.
     pub(super) fn is_solution_within(&self, distance: f64) -> bool {
         self.branch != Branch::Unknown && self.moved.simd_le(T::of(distance)).all()
     }

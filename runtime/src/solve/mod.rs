@@ -25,7 +25,7 @@ pub(crate) use candidate::{Candidate, CandidateOf};
 /// Up to this dimension Newton's method is faster than the fixed point.
 const LARGEST_DENSE: usize = 24;
 
-/// How a generating function's steps are solved.
+/// The solver of a generating function's steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Solver {
     /// Newton's method with dense matrices: few iterations, each with the Hessian of S and a linear system.
@@ -38,7 +38,7 @@ pub enum Solver {
 /// A generating function whose steps [`advance`](crate::steps::advance) can make. The attribute implements it; for a function of
 /// your own `impl Integrator for Mine {}` does.
 pub trait Integrator: GeneratingFunction {
-    /// How steps are solved: by Newton's method up to 24 dimensions, by the fixed point beyond.
+    /// The solver: Newton's method up to 24 dimensions, the fixed point beyond.
     #[inline]
     fn solver(&self) -> Solver {
         match self.group().dim() {
@@ -135,7 +135,7 @@ pub(crate) fn propose<S: Integrator + ?Sized>(
     propose_scaled(generating, mu, Scalar::of(1.0), guess)
 }
 
-/// The same for `scale`·S, as a continuation asks for it.
+/// Proposes a solution for `scale`·S, as a continuation needs it.
 fn propose_scaled<S: Integrator + ?Sized>(
     generating: &S,
     mu: &VectorOf<S>,

@@ -64,7 +64,7 @@ pub(super) fn newton<S: GeneratingFunction + ?Sized>(
     }
 }
 
-/// Whether a lane of one matrix differs by more than [`BENDS`] from another.
+/// True if a lane of one matrix differs by more than [`BENDS`] from another.
 fn bends<S: GeneratingFunction + ?Sized>(
     generating: &S,
     dim: usize,
@@ -109,7 +109,7 @@ fn branch<S: GeneratingFunction + ?Sized>(
     }
 }
 
-/// Whether the leading minors at the ends of the blocks of D are positive, by elimination with pivots from each block, of
+/// True if the leading minors at the ends of the blocks of D are positive, by elimination with pivots from each block, of
 /// one lane. Blocks belong to the direct factors of the group: the determinants of two like bodies have like signs.
 fn is_oriented<S: GeneratingFunction + ?Sized>(
     dim: usize,

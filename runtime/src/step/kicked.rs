@@ -116,7 +116,7 @@ pub enum Piece {
 /// its length; time advances with the flows.
 ///
 /// # Errors
-/// Those of `make`, and [`StepError::NonFiniteState`]; `phase` is then left as it was.
+/// Errors of `make`, and [`StepError::NonFiniteState`]; `phase` is then left as it was.
 pub fn compose<G: LieGroup>(
     splitting: Splitting,
     phase: &mut Phase<G>,

@@ -16,7 +16,7 @@ use crate::linear::coordinates::Coordinates;
 use crate::number::Scalar;
 use crate::solve::{Candidate, Integrator, accept, propose};
 
-/// How the solve of one step went.
+/// Statistics of the solve of one step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepReport<T> {
     /// Newton iterations, or evaluations of the fixed point.
@@ -164,10 +164,10 @@ fn finite_or_nan<T: Scalar, V: Coordinates<T>>(mu: &V) -> T {
     sum
 }
 
-/// How far a group element may be from the group, in units of √rounding: products keep it at rounding.
+/// The largest distance of a group element from the group, in units of √rounding: products keep it at rounding.
 const OFF_GROUP: f64 = 1.0;
 
-/// Whether a state is finite, and its group element on the group.
+/// Checks that a state is finite, and its group element on the group.
 pub(crate) fn check<G: LieGroup>(group: &G, phase: &Phase<G>) -> Result<(), StepError> {
     let defect = group.element_defect(&phase.group_element) + finite_or_nan(&phase.momentum);
     match defect.simd_le(largest_defect()).all() {

@@ -1,4 +1,4 @@
-//! How far what must be conserved has moved over a run.
+//! Drifts of conserved quantities over a run.
 
 use core::fmt::Debug;
 

@@ -8,7 +8,7 @@ use crate::table::fixed::{StaticAlgebra, StaticMatrixGroup};
 
 /// A group whose elements the programs of a step read and write as a row of numbers; `coadjoint emit` says which.
 pub trait ElementNumbers: LieGroup {
-    /// How many numbers an element has.
+    /// The number of numbers of an element.
     const COUNT: usize;
 
     /// Writes the numbers of g; `numbers` has [`ElementNumbers::COUNT`] places.

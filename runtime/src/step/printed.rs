@@ -133,7 +133,7 @@ impl<V, T: Number> Driven<V, T> {
     }
 }
 
-/// Whether the answer of a program is 1 in all lanes.
+/// True if the answer of a program is 1 in all lanes.
 #[inline(always)]
 pub fn is_one<T: Number, C: Coefficients<T>>(c: C, answer: T) -> bool {
     !T::any(!c.of(1.0).simd_le(answer))

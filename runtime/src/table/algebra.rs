@@ -37,11 +37,11 @@ pub struct Facts {
     /// The first that is a combination of those before it. Only adjoint matrices may have one: that of an algebra with a
     /// centre.
     pub(super) dependent: Option<usize>,
-    /// Whether the Gram matrix is diagonal.
+    /// True if the Gram matrix is diagonal.
     pub(super) diagonal: bool,
-    /// Whether all are antisymmetric, so that elements are orthogonal.
+    /// True if all are antisymmetric, so that elements are orthogonal.
     pub(super) orthogonal: bool,
-    /// Whether all have trace 0, so that elements have determinant 1.
+    /// True if all have trace 0, so that elements have determinant 1.
     pub(super) traceless: bool,
 }
 

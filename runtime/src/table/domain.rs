@@ -1,4 +1,4 @@
-//! Where charts are charts, for groups given by tables: quadratic forms that bound eigenvalues.
+//! Domains of charts for groups given by tables: quadratic forms that bound eigenvalues.
 
 use core::ops::Index;
 
@@ -191,7 +191,7 @@ where
 {
     let mut sum = T::of(0.0);
     for i in 0..n {
-        // Where the form says nothing of x, x must be finite all the same.
+        // A coordinate that the form does not contain must be finite all the same.
         let mut row = x[i] * T::of(0.0);
         for j in 0..n {
             let value = form.get(i * n + j).copied().unwrap_or(0.0);
@@ -204,7 +204,7 @@ where
     sum
 }
 
-/// Whether the matrix of e_a squares to zero and its products with all others have trace zero.
+/// True if the matrix of e_a squares to zero and its products with all others have trace zero.
 const fn is_null(n: usize, entries: &[BasisEntry], a: usize) -> bool {
     let mut b = 0;
     while b < n {

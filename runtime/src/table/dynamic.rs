@@ -95,7 +95,7 @@ impl Data {
     }
 }
 
-/// Why tables do not describe a Lie algebra.
+/// Reasons for which tables do not describe a Lie algebra.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TableError {
@@ -279,7 +279,7 @@ impl TableGroup<DynamicTables<false>> {
         Ok(Self { tables: DynamicTables(Data::new((dim, dim), structure, None)) })
     }
 
-    /// The same group with the Cayley map.
+    /// The group with the Cayley map.
     ///
     /// # Errors
     /// [`TableError::NoCayley`] where xξx leaves the algebra; [`TableError::NotFaithful`] for an
@@ -308,7 +308,7 @@ impl TableGroup<DynamicTables<false>> {
 }
 
 impl<const CAYLEY: bool> TableGroup<DynamicTables<CAYLEY>> {
-    /// The same group with these Casimirs, each a list of terms (c, [(i, power), …]) meaning
+    /// Adds these Casimirs, each a list of terms (c, [(i, power), …]) meaning
     /// c·∏ μᵢ^power.
     ///
     /// # Errors

@@ -46,7 +46,7 @@ impl<K: Tables> TableGroup<K> {
         }
     }
 
-    /// Whether elements are matrices Ad_g.
+    /// True if elements are matrices Ad_g.
     pub(super) fn is_adjoint(&self) -> bool {
         self.algebra().basis.is_none()
     }
@@ -379,7 +379,7 @@ impl<K: Tables> TableGroup<K> {
         Ok(g)
     }
 
-    /// How far g is from acting on 𝔤 by automorphisms.
+    /// The distance of g from acting on 𝔤 by automorphisms.
     fn action_defect(&self, g: &Element<K>) -> K::Scalar {
         let (dim, size) = (self.algebra().dim, self.algebra().size);
         let minus = K::Scalar::of(-1.0);

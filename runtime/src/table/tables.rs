@@ -1,4 +1,4 @@
-//! Where the tables of an algebra are stored, and with which types of numbers.
+//! Storage of the tables of an algebra, and its types of numbers.
 
 use core::f64::consts::PI;
 use core::fmt::Debug;
@@ -43,7 +43,7 @@ pub trait Tables: Clone + Debug {
         square::invert(self.algebra().size, m).0
     }
 
-    /// How many Casimirs are known.
+    /// The number of known Casimirs.
     fn casimir_count(&self) -> usize;
 
     /// The Casimir number `index` at μ; zero for an index out of range.

@@ -66,7 +66,7 @@ pub(super) fn times(nodes: usize) -> Vec<f64> {
     [0.0, 0.5].into_iter().chain(nodes.into_iter().map(|time| 0.5 + time)).collect()
 }
 
-/// How many numbers steps leave to the next one: how many steps there were, as far as they count, and differences of their
+/// Numbers that a step leaves to the next one: the count of steps, as far as they matter, and differences of their
 /// rates. A flow between kicks goes on from none, and leaves none.
 pub(super) fn memory(smooth: &Smooth) -> usize {
     match smooth.kicks {
@@ -212,12 +212,12 @@ impl<'a> Collocation<'a> {
         self.smooth.nodes()
     }
 
-    /// How many rates there are.
+    /// The number of rates.
     fn rates(&self) -> usize {
         2 * self.n * self.nodes()
     }
 
-    /// Whether sweeps are corrected by the linear model.
+    /// True if sweeps are corrected by the linear model.
     fn models(&self) -> bool {
         self.n <= LARGEST_MODEL
     }
@@ -446,7 +446,7 @@ impl<'a> Collocation<'a> {
         linear
     }
 
-    /// How well the nodes resolve the step, as shares of the limits: the highest polynomials through two nodes and more, of
+    /// The resolution of the step by its nodes, as shares of the limits: the highest polynomials through two nodes and more, of
     /// the velocity and of the force; with one node the product of velocity, force, and what that changes.
     fn measures(&self, graph: &Graph, rates: &Rates, mu: &[Id], model: &[Id]) -> [Id; 2] {
         // The gain is that at the guess.

@@ -1,4 +1,4 @@
-//! How far conserved quantities have moved since the start of a run: the one definition of a drift.
+//! Drifts of conserved quantities since the start of a run: their one definition.
 
 use coadjoint_program::Program;
 
@@ -109,7 +109,7 @@ pub struct Invariants {
     pub casimirs: Vec<Numeric>,
     /// H_red(μ), where an energy is known and conserved.
     pub hamiltonian: Option<Energy>,
-    /// Why an energy that is known is not conserved.
+    /// The reason for which a known energy is not conserved.
     pub no_energy: Option<&'static str>,
     /// V(g), as a function of the entries of the matrix of g.
     pub potential: Option<PotentialEnergy>,

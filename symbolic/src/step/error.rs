@@ -1,11 +1,11 @@
-//! Why a step has no programs.
+//! Errors of making the programs of a step.
 
 use coadjoint_program::ProgramError;
 
 /// Groups by tables whose step would have more operations than this have no programs.
 pub(crate) const MOST_OF_TABLES: usize = 1_000_000;
 
-/// Why a step is not made of straight-line programs.
+/// Reasons for which a step is not made of straight-line programs.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StepError {

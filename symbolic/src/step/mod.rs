@@ -53,7 +53,7 @@ pub struct Step {
     fold: FoldTable,
     symbols: Vec<ParameterExpr>,
     radius_at: usize,
-    /// Where there are kicks.
+    /// The splitting, for steps with kicks.
     splitting: Option<Splitting>,
     /// The times among the coefficients, where a step depends on them.
     moving: Option<Moving>,
@@ -79,7 +79,7 @@ impl Step {
         Self::on(integrator, &integrator.problem.algebra.factors())
     }
 
-    /// The same where group elements are matrices in the representation of the basis, also those of a product.
+    /// As [`Step::build`], with group elements as matrices in the representation of the basis, also those of a product.
     ///
     /// # Errors
     /// As [`Step::build`].
@@ -192,7 +192,7 @@ impl Step {
         Ok(all)
     }
 
-    /// Whether a step depends on the time, which [`Step::set_time`] then sets.
+    /// True if a step depends on the time, which [`Step::set_time`] then sets.
     pub fn moves(&self) -> bool {
         self.moving.is_some()
     }
@@ -219,7 +219,7 @@ impl Step {
         }
     }
 
-    /// How many of an element's numbers, the last ones, steps leave to the next one.
+    /// The number of an element's numbers, the last ones, that a step leaves for the next one.
     pub fn memory(&self) -> usize {
         self.memory
     }

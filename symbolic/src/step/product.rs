@@ -219,7 +219,7 @@ pub(crate) trait Part: std::fmt::Debug + Send + Sync {
         Vec::new()
     }
 
-    /// How far x goes into the chart: the square of its share of a half turn, or a bound on it; not a number where x is not
+    /// The extent of x in the chart: the square of its share of a half turn, or a bound on it; not a number where x is not
     /// finite. These formulas hold up to half a half turn.
     fn extent(&self, graph: &Graph, x: &[Id]) -> Id;
 
@@ -229,7 +229,7 @@ pub(crate) trait Part: std::fmt::Debug + Send + Sync {
         ESTIMATED
     }
 
-    /// How far g is from the group; not a number where g is not finite.
+    /// The distance of g from the group; NaN if g is not finite.
     fn defect(&self, graph: &Graph, g: &[Id]) -> Id;
 
     /// The matrix of g.

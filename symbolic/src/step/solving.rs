@@ -39,7 +39,7 @@ const MOST_ROUNDINGS: f64 = 32.0;
 /// The truncation allowed in a chart's derivative where chords correct it.
 const CHORD: f64 = 1e-3;
 
-/// How the equation p = (d^R τ_x)ᵀ μ, x = ∂S/∂p is solved.
+/// The solver of p = (d^R τ_x)ᵀ μ, x = ∂S/∂p.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Scheme {
     /// By Newton's method: each correction has the matrices of its own place.
@@ -285,7 +285,7 @@ impl Matrices {
     }
 }
 
-/// How much faster than with the length of a correction the chart bends what it adds to x. In a comoving frame x is short
+/// The factor by which the chart bends increments of x faster than the length of a correction. In a comoving frame x is short
 /// where S is far from quadratic.
 fn bend(graph: &Graph, integrator: &Integrator, x: &[Id]) -> Id {
     if !integrator.problem.is_quadratic() || integrator.problem.comoving.is_some() {

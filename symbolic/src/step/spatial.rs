@@ -9,7 +9,7 @@ use crate::graph::Program;
 #[derive(Debug)]
 pub struct Spatial {
     program: Program,
-    /// Where matrices begin whose inverses the program reads, and how many rows they have.
+    /// First index and number of rows of each matrix whose inverse the program reads.
     inverted: Vec<(usize, usize)>,
 }
 

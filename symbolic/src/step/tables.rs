@@ -40,7 +40,7 @@ pub(crate) struct Tables {
     dual: Vec<Entries>,
     /// The truncation allowed in the derivative of φ.
     slope: f64,
-    /// Whether elements are orthogonal matrices.
+    /// True if elements are orthogonal matrices.
     orthogonal: bool,
 }
 
@@ -247,7 +247,7 @@ impl Tables {
     }
 }
 
-/// How many terms after the first φ takes, where A has this norm and what is left out is to be below `accuracy`.
+/// The number of terms of φ after the first, for A of this norm and a remainder below `accuracy`.
 fn terms(norm: f64, accuracy: f64) -> usize {
     let mut term = 1.0;
     for k in 1..200 {
@@ -421,7 +421,7 @@ impl Part for Tables {
             Chart::Exponential => {
                 let a = self.ad_transpose(graph, x);
                 let scale = graph.constant(std::f64::consts::FRAC_1_PI);
-                // Where the series ends by itself there is no limit.
+                // A series that ends by itself has no limit.
                 let norm = |matrix: &Matrix, power: Matrix| match power.is_zero(graph) {
                     true => graph.zero(),
                     false => row_norm(graph, matrix),

@@ -53,7 +53,7 @@ impl Matrix {
         self.entries[row * self.columns + column] = value;
     }
 
-    /// How many rows.
+    /// The number of rows.
     pub(crate) fn rows(&self) -> usize {
         self.entries.len() / self.columns.max(1)
     }
@@ -122,7 +122,7 @@ impl Matrix {
         Self { columns: self.columns, entries }
     }
 
-    /// Whether every entry is the number 0, known without any input.
+    /// True if every entry is the number 0, known without any input.
     pub(crate) fn is_zero(&self, graph: &Graph) -> bool {
         self.entries.iter().all(|&entry| graph.is_zero(entry))
     }
@@ -196,7 +196,7 @@ impl Eliminated {
         y
     }
 
-    /// The same with other names for the numbers it is made of.
+    /// Renames the numbers it is made of.
     pub(crate) fn map(&self, mut rename: impl FnMut(Id) -> Id) -> Self {
         let n = self.rows.rows();
         // The pivots are not used.
