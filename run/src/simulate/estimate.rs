@@ -133,7 +133,8 @@ impl<'m> Made<'_, 'm> {
         Ok(states)
     }
 
-    /// Makes steps `first` to `end`, in groups between which it may be stopped, up to one that is refused. What programs refuse is made by other means, which take long, only if `patient`.
+    /// Makes steps `first` to `end`, in groups between which it may be stopped, up to one that is refused. Steps that programs
+    /// refuse are made by other means, which take long, only if `patient`.
     fn go(
         &self,
         (motion, patient): (&dyn Motion, bool),
