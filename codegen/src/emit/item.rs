@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
+use crate::emit::collocation::collocation;
 use crate::emit::generating_function::{
     generating_function, scalar_function, solver, without_programs,
 };
@@ -12,9 +13,7 @@ use crate::emit::group::Types;
 use crate::emit::hygiene::fresh;
 use crate::emit::programs::{MOST_OPERATIONS, programs, step_operations};
 use crate::emit::table::{fold_item, last_item};
-use crate::emit::{
-    Options, TooManyTerms, allow, check_size, collocation, header, identifier, parameter,
-};
+use crate::emit::{Options, TooManyTerms, allow, check_size, header, identifier, parameter};
 use crate::integrator::{FoldTable, Integrator};
 use crate::problem::{Parameter, Shape};
 use crate::step::{Origin, Step};

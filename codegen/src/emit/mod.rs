@@ -24,7 +24,6 @@ use quote::{format_ident, quote};
 
 use crate::integrator::Integrator;
 
-use collocation::collocation;
 pub use file::{file, potential_items};
 pub use group::RUNTIME_TABLES;
 pub use hygiene::{hygienic, identifiers};

@@ -1,27 +1,21 @@
 //! Steps of one size, whatever makes them.
 
-use std::path::Path;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use coadjoint::groups::{
-    Cayley, CayleyMatrixGroup, Chart, DirectProduct, Exponential, MatrixGroup,
-};
+use coadjoint::groups::Chart;
 use coadjoint::{Phase, StepError};
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
+use coadjoint_codegen::in_other_frame;
 use coadjoint_codegen::integrator::{Integrator, Kicks};
 use coadjoint_codegen::potential::Force;
-use coadjoint_codegen::step::Origin;
-use coadjoint_codegen::{in_other_frame, lie};
 use nalgebra::DVector;
 
-use super::collocation::collocated;
 use super::compiled::{Compiled, Folded, Numbers, Solved, Solves};
 use super::interpreter::Interpreter;
 use super::kick::{Map, Torque, longest_flow, map};
 use super::linear::{Differentiable, Linear};
-use super::space::{Elements, Restore, Space, cayley_group};
+use super::space::{Elements, Restore, Space};
 use super::tangent::Tangent;
-use crate::error::RunError;
 use crate::grid::Grid;
 
 /// Moves states by steps of one size.
@@ -142,68 +136,9 @@ impl Equations<'_> {
     }
 }
 
-/// A group known at run time.
-#[derive(Clone, Debug)]
-pub(crate) struct Charted {
-    /// The group with the exponential.
-    pub exponential: Arc<DirectProduct<MatrixGroup>>,
-    /// The group with the Cayley map, if steps are made in that chart.
-    pub cayley: Option<Arc<DirectProduct<CayleyMatrixGroup>>>,
-}
-
-impl Charted {
-    /// The group with this chart; `file` is the name of its system in messages.
-    ///
-    /// # Errors
-    /// Fails if the group does not have the chart.
-    pub(crate) fn new(
-        file: &Path,
-        group: DirectProduct<MatrixGroup>,
-        chart: lie::Chart,
-    ) -> Result<Self, RunError> {
-        let cayley = match chart {
-            lie::Chart::Exponential => None,
-            lie::Chart::Cayley => Some(Arc::new(cayley_group(file, &group)?)),
-        };
-        Ok(Self { exponential: Arc::new(group), cayley })
-    }
-
-    /// The steps of this grid for these values of the parameters that a system keeps: by programs where there are any.
-    ///
-    /// # Errors
-    /// Where the size makes no sense, or a coefficient is not finite.
-    pub(crate) fn steps<'a>(
-        &self,
-        origin: &'a Origin,
-        grid: Grid,
-        parameters: &[f64],
-        compiled: Option<&Arc<Compiled>>,
-    ) -> Result<Box<dyn Varied + 'a>, StepError> {
-        let compiled = compiled.map(|own| own.anew(grid.step, parameters)).transpose()?;
-        let (group, parameters) = (self.exponential.clone(), parameters.to_vec());
-        let integrator = match origin {
-            Origin::Series(integrator) => integrator,
-            Origin::Collocation(smooth) => {
-                return collocated(smooth, Elements { group, compiled }, grid, &parameters);
-            }
-        };
-        let equations = Equations { integrator, parameters };
-        Ok(match self.cayley.clone() {
-            None => Box::new(Steps::<_, Exponential>::new(
-                Elements { group, compiled },
-                equations,
-                grid,
-            )),
-            Some(group) => {
-                Box::new(Steps::<_, Cayley>::new(Elements { group, compiled }, equations, grid))
-            }
-        })
-    }
-}
-
 /// The steps of a system: by programs where there are any, else by the generic solver, which also makes the steps that
 /// programs refuse.
-struct Steps<'a, G: Restore, C> {
+pub(super) struct Steps<'a, G: Restore, C> {
     elements: Elements<G>,
     equations: Equations<'a>,
     grid: Grid,
@@ -220,7 +155,7 @@ struct Steps<'a, G: Restore, C> {
 }
 
 impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Steps<'a, G, C> {
-    fn new(elements: Elements<G>, equations: Equations<'a>, grid: Grid) -> Self {
+    pub(super) fn new(elements: Elements<G>, equations: Equations<'a>, grid: Grid) -> Self {
         let (generic, flow, shorter, tangent, comoving) = Default::default();
         Self { elements, equations, grid, generic, shorter, flow, tangent, comoving }
     }

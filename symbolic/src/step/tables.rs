@@ -357,11 +357,11 @@ impl Part for Tables {
                 Moved { g: self.product(graph, &own, &increment), mu }
             }
             Chart::Cayley => {
-                // (1 − X/2)⁻¹ (1 + X/2) = 2 (1 − X/2)⁻¹ − 1
-                let (x, minus) = (self.represent(graph, x), graph.constant(-1.0));
-                let negative = Matrix::identity(graph, self.size).scaled(graph, minus);
-                let [increment, inverse] = [-1.0, 1.0].map(|s| {
-                    negative.plus(graph, graph.constant(2.0), &self.resolvent(graph, &x, s))
+                // The product (1 − X/2)⁻¹ (1 + X/2) rounds half as much as 2 (1 − X/2)⁻¹ − 1.
+                let (x, identity) = (self.represent(graph, x), Matrix::identity(graph, self.size));
+                let [increment, inverse] = [0.5, -0.5].map(|half| {
+                    let forward = identity.plus(graph, graph.constant(half), &x);
+                    self.resolvent(graph, &x, -2.0 * half).times(graph, &forward)
                 });
                 let mu = self.coordinates(graph, &self.between(graph, &increment, mu, &inverse));
                 Moved { g: self.product(graph, &own, &increment), mu }
