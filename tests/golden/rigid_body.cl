@@ -439,19 +439,18 @@ INLINE void coadjoint_accept(const float *RESTRICT mu, const float *RESTRICT x, 
     const float t14 = fma(x[2], x[2], t13);
     const float t16 = t14 * 0x1.9f02f6p-4f;
     const float t18 = fabs(t16);
-    const float t21 = (t16 <= INFINITY) ? 0.0f : 1.0f;
-    const float t22 = t21 + t21;
-    const float t23 = t18 + t22;
-    const float t27 = (coadjoint_slots[45] <= 0x1.fffffep+127f) ? 4.0f : 9.0f;
-    const float t28 = t23 * t27;
-    const float t29 = mu[0] * mu[0];
-    const float t30 = fma(mu[1], mu[1], t29);
-    const float t31 = fma(mu[2], mu[2], t30);
-    const float t32 = (t31 <= coadjoint_slots[45]) ? 1.0f : 0.0f;
-    const float t33 = (t28 <= 1.0f) ? t32 : 0.0f;
-    const float t34 = (distance <= 0x1.99999ap-5f) ? t33 : 0.0f;
-    const float t35 = (residual_bound <= t10) ? t34 : 0.0f;
-    *right = t35;
+    const float t19 = t16 - t16;
+    const float t20 = t18 + t19;
+    const float t25 = (coadjoint_slots[45] <= 0x1.fffffep+127f) ? 4.0f : 9.0f;
+    const float t26 = t20 * t25;
+    const float t27 = mu[0] * mu[0];
+    const float t28 = fma(mu[1], mu[1], t27);
+    const float t29 = fma(mu[2], mu[2], t28);
+    const float t30 = (t29 <= coadjoint_slots[45]) ? 1.0f : 0.0f;
+    const float t31 = (t26 <= 1.0f) ? t30 : 0.0f;
+    const float t32 = (distance <= 0x1.99999ap-5f) ? t31 : 0.0f;
+    const float t33 = (residual_bound <= t10) ? t32 : 0.0f;
+    *right = t33;
 }
 
 INLINE void coadjoint_transport(const float *RESTRICT g, const float *RESTRICT mu, const float *RESTRICT x, float *RESTRICT g_next, float *RESTRICT mu_next)

@@ -444,19 +444,18 @@ INLINE void coadjoint_accept(const double *RESTRICT mu, const double *RESTRICT x
     const double t14 = __fma_rn(x[2], x[2], t13);
     const double t16 = __dmul_rn(t14, 0x1.9f02f6222c72p-4);
     const double t18 = fabs(t16);
-    const double t21 = (t16 <= 0x1.fffffffffffffp+1023) ? 0.0 : 1.0;
-    const double t22 = __dadd_rn(t21, t21);
-    const double t23 = __dadd_rn(t18, t22);
-    const double t27 = (coadjoint_slots[45] <= 0x1.fffffep+127) ? 4.0 : 9.0;
-    const double t28 = __dmul_rn(t23, t27);
-    const double t29 = __dmul_rn(mu[0], mu[0]);
-    const double t30 = __fma_rn(mu[1], mu[1], t29);
-    const double t31 = __fma_rn(mu[2], mu[2], t30);
-    const double t32 = (t31 <= coadjoint_slots[45]) ? 1.0 : 0.0;
-    const double t33 = (t28 <= 1.0) ? t32 : 0.0;
-    const double t34 = (distance <= 0x1.999999999999ap-5) ? t33 : 0.0;
-    const double t35 = (residual_bound <= t10) ? t34 : 0.0;
-    *right = t35;
+    const double t19 = __dsub_rn(t16, t16);
+    const double t20 = __dadd_rn(t18, t19);
+    const double t25 = (coadjoint_slots[45] <= 0x1.fffffep+127) ? 4.0 : 9.0;
+    const double t26 = __dmul_rn(t20, t25);
+    const double t27 = __dmul_rn(mu[0], mu[0]);
+    const double t28 = __fma_rn(mu[1], mu[1], t27);
+    const double t29 = __fma_rn(mu[2], mu[2], t28);
+    const double t30 = (t29 <= coadjoint_slots[45]) ? 1.0 : 0.0;
+    const double t31 = (t26 <= 1.0) ? t30 : 0.0;
+    const double t32 = (distance <= 0x1.999999999999ap-5) ? t31 : 0.0;
+    const double t33 = (residual_bound <= t10) ? t32 : 0.0;
+    *right = t33;
 }
 
 INLINE void coadjoint_transport(const double *RESTRICT g, const double *RESTRICT mu, const double *RESTRICT x, double *RESTRICT g_next, double *RESTRICT mu_next)

@@ -5,7 +5,6 @@ use std::collections::BTreeSet;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::emit::collocation::collocation;
 use crate::emit::generating_function::{
     generating_function, scalar_function, solver, without_programs,
 };
@@ -13,10 +12,10 @@ use crate::emit::group::Types;
 use crate::emit::hygiene::fresh;
 use crate::emit::programs::{MOST_OPERATIONS, programs, step_operations};
 use crate::emit::table::{fold_item, last_item};
-use crate::emit::{Options, TooManyTerms, allow, check_size, header, identifier, parameter};
+use crate::emit::{Options, allow, header, identifier, parameter};
 use crate::integrator::{FoldTable, Integrator};
 use crate::problem::{Parameter, Shape};
-use crate::step::{Origin, Step};
+use crate::step::Step;
 
 /// An integrator as items.
 #[derive(Debug, Default)]
@@ -29,20 +28,6 @@ pub struct Items {
     pub programs: TokenStream,
     /// A line for each coefficient of the series that programs read.
     pub legend: Vec<String>,
-}
-
-/// The items of a system.
-///
-/// # Errors
-/// [`TooManyTerms`] where a series is too large for a compiler.
-pub fn items_of(origin: &Origin, options: &Options) -> Result<Items, TooManyTerms> {
-    Ok(match origin {
-        Origin::Series(integrator) => {
-            check_size(integrator)?;
-            items(integrator, options)
-        }
-        Origin::Collocation(smooth) => collocation(smooth, options),
-    })
 }
 
 /// The integrator as items, its programs and tables apart.

@@ -13,6 +13,7 @@ mod header;
 mod hygiene;
 mod item;
 mod kick;
+mod origin;
 mod parameter;
 mod program;
 mod programs;
@@ -27,8 +28,9 @@ use crate::integrator::Integrator;
 pub use file::{file, potential_items};
 pub use group::RUNTIME_TABLES;
 pub use hygiene::{hygienic, identifiers};
-pub use item::{Items, items, items_of};
+pub use item::{Items, items};
 pub use kick::kick;
+pub use origin::items_of;
 
 /// Lints that emitted code turns off, since it follows no style.
 fn allow() -> TokenStream {

@@ -27,6 +27,9 @@ const ROUNDING: f64 = 0.125;
 /// An error above this is worth a warning.
 pub const LARGE: f64 = 0.01;
 
+/// The differences of two runs, each after a number of steps of the first.
+type Differences = Vec<(u64, f64)>;
+
 /// A run that has been made.
 pub(crate) struct Made<'a, 'm> {
     /// The steps of the run.
@@ -88,7 +91,7 @@ impl<'m> Made<'_, 'm> {
         &self,
         ratio: f64,
         states: &[Milestone],
-    ) -> Result<Option<(f64, Vec<(u64, f64)>)>, Unknown> {
+    ) -> Result<Option<(f64, Differences)>, Unknown> {
         let mut count = (self.steps / ratio).ceil() as u64;
         let whole = self.steps.fract() == 0.0 && count > 2;
         while whole && common(self.steps as u64, count) > 1 {
