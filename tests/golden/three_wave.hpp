@@ -24,8 +24,8 @@
  * used is known to hold there. Longer steps are refused with a status. The library in Rust then follows the
  * solution from the identity; this header does not: take a smaller step.
  *
- * Cost of a step with one correction, as most have: 293 multiplications, 172 additions, 6 divisions and roots.
- * Cost at most (12 corrections, and a check of the state): 2449 multiplications, 1450 additions, 40 divisions and
+ * Cost of a step with one correction, as most have: 301 multiplications, 176 additions, 6 divisions and roots.
+ * Cost at most (12 corrections, and a check of the state): 2457 multiplications, 1454 additions, 40 divisions and
  * roots.
  * Data: 35 coefficients (280 bytes) in a map, 56 bytes in a state.
  *
@@ -593,75 +593,83 @@ static inline void three_wave_internal_accept(const double *THREE_WAVE_RESTRICT 
 static inline void three_wave_internal_transport(const double *THREE_WAVE_RESTRICT c, const double *THREE_WAVE_RESTRICT g, const double *THREE_WAVE_RESTRICT mu, const double *THREE_WAVE_RESTRICT x, double *THREE_WAVE_RESTRICT g_next, double *THREE_WAVE_RESTRICT mu_next)
 {
     (void)c;
-    const double t12 = -x[0];
-    const double t15 = THREE_WAVE_FMA(x[0], (-0.5), 1.0);
-    const double t16 = x[1] * (-0.5);
-    const double t17 = x[2] * (-0.5);
-    const double t18 = THREE_WAVE_FMA(t12, (-0.5), 1.0);
-    const double t19 = -t16;
-    const double t20 = -t17;
-    const double t21 = t15 * t18;
-    const double t22 = THREE_WAVE_FMA(t16, t20, t21);
-    const double t23 = 1.0 / t22;
-    const double t24 = t18 * t23;
-    const double t25 = t20 * t23;
-    const double t26 = t19 * t23;
-    const double t27 = t15 * t23;
-    const double t28 = THREE_WAVE_FMA(2.0, t24, (-1.0));
-    const double t29 = 2.0 * t26;
-    const double t30 = 2.0 * t25;
-    const double t31 = THREE_WAVE_FMA(2.0, t27, (-1.0));
-    const double t33 = THREE_WAVE_FMA(x[0], 0.5, 1.0);
-    const double t34 = x[1] * 0.5;
-    const double t35 = x[2] * 0.5;
-    const double t36 = THREE_WAVE_FMA(t12, 0.5, 1.0);
-    const double t37 = -t34;
-    const double t38 = -t35;
-    const double t39 = t33 * t36;
-    const double t40 = THREE_WAVE_FMA(t34, t38, t39);
-    const double t41 = 1.0 / t40;
-    const double t42 = t36 * t41;
-    const double t43 = t38 * t41;
-    const double t44 = t37 * t41;
-    const double t45 = t33 * t41;
-    const double t46 = THREE_WAVE_FMA(2.0, t42, (-1.0));
-    const double t47 = 2.0 * t44;
-    const double t48 = 2.0 * t43;
-    const double t49 = THREE_WAVE_FMA(2.0, t45, (-1.0));
-    const double t50 = mu[0] * 0.5;
-    const double t51 = mu[0] * (-0.5);
-    const double t52 = t28 * t50;
-    const double t53 = THREE_WAVE_FMA(mu[2], t30, t52);
-    const double t54 = mu[1] * t28;
-    const double t55 = THREE_WAVE_FMA(t30, t51, t54);
-    const double t56 = t29 * t50;
-    const double t57 = THREE_WAVE_FMA(mu[2], t31, t56);
-    const double t58 = mu[1] * t29;
-    const double t59 = THREE_WAVE_FMA(t31, t51, t58);
-    const double t60 = t46 * t53;
-    const double t61 = THREE_WAVE_FMA(t47, t55, t60);
-    const double t62 = t48 * t53;
-    const double t63 = THREE_WAVE_FMA(t49, t55, t62);
-    const double t64 = t46 * t57;
-    const double t65 = THREE_WAVE_FMA(t47, t59, t64);
-    const double t66 = t48 * t57;
-    const double t67 = THREE_WAVE_FMA(t49, t59, t66);
-    const double t68 = t61 - t67;
-    const double t69 = g[0] * t28;
-    const double t70 = THREE_WAVE_FMA(g[1], t30, t69);
-    const double t71 = g[0] * t29;
-    const double t72 = THREE_WAVE_FMA(g[1], t31, t71);
-    const double t73 = g[2] * t28;
-    const double t74 = THREE_WAVE_FMA(g[3], t30, t73);
-    const double t75 = g[2] * t29;
-    const double t76 = THREE_WAVE_FMA(g[3], t31, t75);
-    g_next[0] = t70;
-    g_next[1] = t72;
-    g_next[2] = t74;
-    g_next[3] = t76;
-    mu_next[0] = t68;
-    mu_next[1] = t63;
-    mu_next[2] = t65;
+    const double t11 = -x[0];
+    const double t13 = THREE_WAVE_FMA(x[0], 0.5, 1.0);
+    const double t14 = x[1] * 0.5;
+    const double t15 = x[2] * 0.5;
+    const double t16 = THREE_WAVE_FMA(t11, 0.5, 1.0);
+    const double t18 = THREE_WAVE_FMA(x[0], (-0.5), 1.0);
+    const double t19 = x[1] * (-0.5);
+    const double t20 = x[2] * (-0.5);
+    const double t21 = THREE_WAVE_FMA(t11, (-0.5), 1.0);
+    const double t22 = -t19;
+    const double t23 = -t20;
+    const double t24 = t18 * t21;
+    const double t25 = THREE_WAVE_FMA(t19, t23, t24);
+    const double t26 = 1.0 / t25;
+    const double t27 = t21 * t26;
+    const double t28 = t23 * t26;
+    const double t29 = t22 * t26;
+    const double t30 = t18 * t26;
+    const double t31 = t13 * t27;
+    const double t32 = THREE_WAVE_FMA(t15, t29, t31);
+    const double t33 = t14 * t27;
+    const double t34 = THREE_WAVE_FMA(t16, t29, t33);
+    const double t35 = t13 * t28;
+    const double t36 = THREE_WAVE_FMA(t15, t30, t35);
+    const double t37 = t14 * t28;
+    const double t38 = THREE_WAVE_FMA(t16, t30, t37);
+    const double t39 = -t14;
+    const double t40 = -t15;
+    const double t41 = t13 * t16;
+    const double t42 = THREE_WAVE_FMA(t14, t40, t41);
+    const double t43 = 1.0 / t42;
+    const double t44 = t16 * t43;
+    const double t45 = t40 * t43;
+    const double t46 = t39 * t43;
+    const double t47 = t13 * t43;
+    const double t48 = t18 * t44;
+    const double t49 = THREE_WAVE_FMA(t20, t46, t48);
+    const double t50 = t19 * t44;
+    const double t51 = THREE_WAVE_FMA(t21, t46, t50);
+    const double t52 = t18 * t45;
+    const double t53 = THREE_WAVE_FMA(t20, t47, t52);
+    const double t54 = t19 * t45;
+    const double t55 = THREE_WAVE_FMA(t21, t47, t54);
+    const double t56 = mu[0] * 0.5;
+    const double t57 = mu[0] * (-0.5);
+    const double t58 = t32 * t56;
+    const double t59 = THREE_WAVE_FMA(mu[2], t36, t58);
+    const double t60 = mu[1] * t32;
+    const double t61 = THREE_WAVE_FMA(t36, t57, t60);
+    const double t62 = t34 * t56;
+    const double t63 = THREE_WAVE_FMA(mu[2], t38, t62);
+    const double t64 = mu[1] * t34;
+    const double t65 = THREE_WAVE_FMA(t38, t57, t64);
+    const double t66 = t49 * t59;
+    const double t67 = THREE_WAVE_FMA(t51, t61, t66);
+    const double t68 = t53 * t59;
+    const double t69 = THREE_WAVE_FMA(t55, t61, t68);
+    const double t70 = t49 * t63;
+    const double t71 = THREE_WAVE_FMA(t51, t65, t70);
+    const double t72 = t53 * t63;
+    const double t73 = THREE_WAVE_FMA(t55, t65, t72);
+    const double t74 = t67 - t73;
+    const double t75 = g[0] * t32;
+    const double t76 = THREE_WAVE_FMA(g[1], t36, t75);
+    const double t77 = g[0] * t34;
+    const double t78 = THREE_WAVE_FMA(g[1], t38, t77);
+    const double t79 = g[2] * t32;
+    const double t80 = THREE_WAVE_FMA(g[3], t36, t79);
+    const double t81 = g[2] * t34;
+    const double t82 = THREE_WAVE_FMA(g[3], t38, t81);
+    g_next[0] = t76;
+    g_next[1] = t78;
+    g_next[2] = t80;
+    g_next[3] = t82;
+    mu_next[0] = t74;
+    mu_next[1] = t69;
+    mu_next[2] = t71;
 }
 
 /* Internal: 1 where a state is finite and on the group. */
