@@ -12,7 +12,7 @@ use coadjoint::steps::advance;
 use coadjoint::{Phase, StepError, laws};
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;
-use coadjoint_codegen::step::rounding;
+use coadjoint_codegen::step::{Convergence, rounding};
 use course::{Course, STARTS};
 use nalgebra::DVector;
 use order::measured;
@@ -109,8 +109,12 @@ fn laws_of<G: Group + Restore, C: Chart<G> + Send + Sync>(
         RunError::at(trial.start)(advise(error, h, works))
     };
     let (points, starts) = course.states(trial, (&group, false), both).map_err(refused)?;
-    let ratios = points.iter().map(|point| there.ratio(&point.momentum));
-    let ratio = Some(ratios.fold(0.0, maximum)).filter(|ratio| *ratio > STEEP);
+    let convergence = Convergence::new(integrator);
+    let ratio = Convergence::fold(integrator, h, &[], STEEP).ok().map(|folded| {
+        let ratio = |point: &Phase<G>| convergence.ratio(&folded, point.momentum.as_slice());
+        points.iter().map(ratio).fold(0.0, maximum)
+    });
+    let ratio = ratio.filter(|ratio| *ratio > STEEP);
     let tried = laws::check(&there, Some(&back), &points).map_err(RunError::at(trial.start))?;
     let mut laws = printed(&tried);
     let expected = integrator.order() as f64;

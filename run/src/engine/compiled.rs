@@ -5,7 +5,8 @@ use std::borrow::Cow;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use coadjoint::StepError;
-use coadjoint_codegen::step::{self, Origin, Spatial, Step};
+use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::step::{self, Convergence, Origin, Spatial, Step};
 use coadjoint_program::fold::FoldError;
 use coadjoint_program::{Kernel, Precision, Trajectories, WIDTH};
 
@@ -84,13 +85,14 @@ pub(crate) struct Kept {
 pub(crate) struct Programs {
     step: Step,
     spatial: Spatial,
+    convergence: OnceLock<Convergence>,
 }
 
 impl Programs {
     fn build(origin: &Origin) -> Result<Arc<Self>, step::StepError> {
         let step = origin.step(Precision::Double)?;
         let spatial = Spatial::new(&step);
-        Ok(Arc::new(Self { step, spatial }))
+        Ok(Arc::new(Self { step, spatial, convergence: OnceLock::new() }))
     }
 }
 
@@ -304,6 +306,11 @@ impl Compiled {
     /// The programs.
     pub(crate) fn kernel(&self) -> &Kernel {
         self.programs.step.kernel()
+    }
+
+    /// The programs of the ratios by which steps of this series are judged.
+    pub(super) fn convergence(&self, integrator: &Integrator) -> &Convergence {
+        self.programs.convergence.get_or_init(|| Convergence::new(integrator))
     }
 
     /// The spatial momentum Ad\*_g μ of a state.

@@ -6,14 +6,14 @@ use coadjoint::generating::hessian_by_differences;
 use coadjoint::groups::Chart;
 use coadjoint::plumbing;
 use coadjoint::solve::Solver;
-use coadjoint::{GeneratingFunction, Scalar, StepError};
+use coadjoint::{GeneratingFunction, StepError};
 use coadjoint_codegen::cancel;
 use coadjoint_codegen::graph::Program;
 use coadjoint_codegen::integrator::{FoldTable, Integrator, Predictor};
 use coadjoint_codegen::problem::{self, Problem};
 use nalgebra::{DMatrix, DVector};
 
-use super::compiled::{STEEP, refusal};
+use super::compiled::refusal;
 use super::space::Group;
 
 /// The values of the symbols of a problem for these values of its parameters.
@@ -28,8 +28,6 @@ pub(crate) struct Interpreter<'a, G, C> {
     pub(super) group: G,
     /// The coefficients for the step size, as programs of it read them; see [`FoldTable::new`].
     pub(super) slots: Vec<f64>,
-    /// The |μ| up to which the ratio of the last two terms of the series is at most [`STEEP`].
-    pub(super) quiet: f64,
     pub(super) chart: PhantomData<C>,
 }
 
@@ -44,29 +42,12 @@ impl<'a, G: Group, C: Chart<G>> Interpreter<'a, G, C> {
         let table = integrator.fold_table();
         let symbols = symbols(&integrator.problem, parameters);
         let slots = table.fold(step, &symbols).map_err(|error| refusal(error, step, &symbols))?;
-        let quiet = table.lists().radius(step, &symbols, STEEP);
-        Ok(Self { integrator, group, slots, quiet, chart: PhantomData })
+        Ok(Self { integrator, group, slots, chart: PhantomData })
     }
 
     /// With these coefficients of [`Integrator::fold_table`].
     pub(crate) fn folded(integrator: &'a Integrator, group: G, slots: Vec<f64>) -> Self {
-        Self { integrator, group, slots, quiet: 0.0, chart: PhantomData }
-    }
-
-    /// The ratio by which steps are judged where it may be above [`STEEP`]: of the last two terms of ∂S at p, or that which
-    /// the rate at which motions part stands for; 0 where it is known to be at most [`STEEP`] and p need not be looked at, and
-    /// where terms are no finite numbers, so that there is no ratio, nor a step.
-    pub(crate) fn ratio(&self, p: &DVector<f64>) -> f64 {
-        Some(self.ratio_of_terms(p)).filter(|ratio| ratio.is_finite()).unwrap_or(0.0)
-    }
-
-    fn ratio_of_terms(&self, p: &DVector<f64>) -> f64 {
-        let quiet = p.norm() <= self.quiet;
-        let of_terms = if quiet { 0.0 } else { self.series_ratio(p) };
-        if self.largest_rate() >= f64::MAX {
-            return of_terms;
-        }
-        of_terms.worse(plumbing::estimated_ratio(self, p, &self.gradient(p)))
+        Self { integrator, group, slots, chart: PhantomData }
     }
 
     /// The coefficients after those of the programs, from the square of the radius on.

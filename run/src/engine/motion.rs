@@ -8,10 +8,9 @@ use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::in_other_frame;
 use coadjoint_codegen::integrator::{Integrator, Kicks};
 use coadjoint_codegen::potential::Force;
-use nalgebra::DVector;
+use coadjoint_codegen::step::{Convergence, Converging};
 
-use super::compiled::{Compiled, Folded, Numbers, Solved, Solves};
-use super::interpreter::Interpreter;
+use super::compiled::{Compiled, Folded, Numbers, STEEP, Solved, Solves};
 use super::kick::{Map, Torque, longest_flow, map};
 use super::linear::{Differentiable, Linear};
 use super::space::{Elements, Restore, Space};
@@ -146,8 +145,10 @@ pub(super) struct Steps<'a, G: Restore, C> {
     generic: OnceLock<Map<'a, G>>,
     /// Maps of half the step, of a quarter, …, as far as advice has needed them.
     shorter: Mutex<Vec<Option<Map<'a, G>>>>,
-    /// The longest flow of a step, by whose series ratios are measured, once one was asked for.
-    flow: OnceLock<Option<Interpreter<'a, G, C>>>,
+    /// The programs of ratios, once one was asked for, where there are no other programs.
+    convergence: OnceLock<Convergence>,
+    /// Their coefficients for the longest flow of a step.
+    converging: OnceLock<Option<Converging>>,
     /// The derivative of a step, once one was asked for.
     tangent: OnceLock<Tangent<'a, G, C>>,
     /// This system in the comoving frame, once advice was asked for, where there is one and the choice is left.
@@ -156,8 +157,19 @@ pub(super) struct Steps<'a, G: Restore, C> {
 
 impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Steps<'a, G, C> {
     pub(super) fn new(elements: Elements<G>, equations: Equations<'a>, grid: Grid) -> Self {
-        let (generic, flow, shorter, tangent, comoving) = Default::default();
-        Self { elements, equations, grid, generic, shorter, flow, tangent, comoving }
+        let (generic, shorter, convergence, converging) = Default::default();
+        let (tangent, comoving) = Default::default();
+        Self {
+            elements,
+            equations,
+            grid,
+            generic,
+            shorter,
+            convergence,
+            converging,
+            tangent,
+            comoving,
+        }
     }
 
     fn map(&self, size: f64) -> Result<Map<'a, G>, StepError> {
@@ -242,13 +254,16 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Motion for Steps<'a, G
         if quiet && integrator.largest_rate.is_none() {
             return 0.0;
         }
-        let flow = self.flow.get_or_init(|| {
+        let fold = || {
             let longest = self.grid.step * integrator.kicks.as_ref().map_or(1.0, longest_flow);
-            let group = (*self.elements.group).clone();
-            Interpreter::new(integrator, group, longest, parameters).ok()
-        });
-        let ratio = |flow: &Interpreter<'a, G, C>| flow.ratio(&DVector::from_column_slice(mu));
-        flow.as_ref().map_or(0.0, ratio)
+            Convergence::fold(integrator, longest, parameters, STEEP).ok()
+        };
+        let convergence = match &self.elements.compiled {
+            Some(compiled) => compiled.convergence(integrator),
+            None => self.convergence.get_or_init(|| Convergence::new(integrator)),
+        };
+        let folded = self.converging.get_or_init(fold).as_ref();
+        folded.map_or(0.0, |folded| convergence.ratio(folded, mu))
     }
 
     fn advice(&self, state: &Numbers, time: f64, error: &StepError) -> Option<&'static str> {
@@ -320,7 +335,7 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Varied for Steps<'a, G
         self.equations.parameters.clear();
         self.equations.parameters.extend_from_slice(parameters);
         // These are of other values.
-        (self.generic, self.flow, self.shorter, self.tangent) = Default::default();
+        (self.generic, self.converging, self.shorter, self.tangent) = Default::default();
         if let (Some(compiled), Some(folded)) = (&mut self.elements.compiled, folded) {
             Arc::make_mut(compiled).with(folded);
         }

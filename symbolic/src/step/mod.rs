@@ -8,6 +8,7 @@
 
 mod closed;
 mod collocation;
+mod convergence;
 mod drift;
 mod error;
 mod origin;
@@ -35,6 +36,7 @@ use crate::step::tables::Tables;
 use closed::closed;
 use product::{Part, Product, Translations};
 
+pub use convergence::{Convergence, Converging};
 pub use drift::{
     Conserved, Drift, Energy, Invariants, PotentialEnergy, Scales, Slopes, Start, nudge,
 };

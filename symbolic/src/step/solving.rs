@@ -206,6 +206,18 @@ fn guess(integrator: &Integrator, group: &Product, bound: (usize, usize)) -> Pro
     graph.finish(n, &outputs)
 }
 
+/// ∂S/∂p and the Hessian of S, which the program gives as the upper triangle row by row.
+pub(crate) fn hessian_of(graph: &Graph, program: &Program, p: &[Id]) -> (Vec<Id>, Matrix) {
+    let n = p.len();
+    let mut x = graph.call(program, p);
+    let triangle = x.split_off(n);
+    let place = |i: usize, j: usize| {
+        let (i, j) = (i.min(j), i.max(j));
+        i * n - i * i.saturating_sub(1) / 2 - i + j
+    };
+    (x, Matrix::new(n, n, |i, j| triangle[place(i, j)]))
+}
+
 /// The equation and its matrices at p: x, the residual F(p) = p − (d^R τ_x)ᵀ μ, ∂F/∂p = 1 − D·Hess S.
 fn linearised(
     graph: &Graph,
@@ -215,15 +227,8 @@ fn linearised(
     mu: &[Id],
 ) -> (Vec<Id>, Vec<Id>, Matrices) {
     let n = group.dim();
-    let outputs = graph.call(integrator.iteration(), p);
-    let (x, triangle) = outputs.split_at(n);
-    // The upper triangle, row by row.
-    let place = |i: usize, j: usize| {
-        let (i, j) = (i.min(j), i.max(j));
-        i * n - i * i.saturating_sub(1) / 2 - i + j
-    };
-    let hessian = Matrix::new(n, n, |i, j| triangle[place(i, j)]);
-    let (pulled, derivative) = group.pull_back_with_derivative(graph, x, mu);
+    let (x, hessian) = hessian_of(graph, integrator.iteration(), p);
+    let (pulled, derivative) = group.pull_back_with_derivative(graph, &x, mu);
     let unit = Matrix::identity(graph, n);
     let back = Matrix::new(n, n, |i, j| graph.neg(derivative.at(i, j)));
     let matrix = back.times_plus(graph, &hessian, &unit);
@@ -231,16 +236,21 @@ fn linearised(
     let jacobian = Eliminated::new(graph, &matrix);
     let rate = integrator.largest_rate.map(|largest| {
         let product = Matrix::new(n, n, |i, j| graph.sub(unit.at(i, j), matrix.at(i, j)));
-        let rate = square_of_rate(graph, &integrator.problem.algebra, x, &product);
+        let rate = square_of_rate(graph, &integrator.problem.algebra, &x, &product);
         (rate, graph.constant(largest * largest))
     });
     let units = integrator.units.clone();
-    (x.to_vec(), residual, Matrices { hessian, jacobian, rate, units })
+    (x, residual, Matrices { hessian, jacobian, rate, units })
 }
 
 /// maxᵢ Σⱼ |ZᵢⱼZⱼᵢ| of Z = ad_xᵀ + 2 D·Hess S, which to first order is h times the derivative of μ̇ = ad\*_{∂H/∂μ} μ: a
 /// bound on how fast motions part that does not depend on the units of the coordinates.
-fn square_of_rate(graph: &Graph, algebra: &LieAlgebra, x: &[Id], product: &Matrix) -> Id {
+pub(crate) fn square_of_rate(
+    graph: &Graph,
+    algebra: &LieAlgebra,
+    x: &[Id],
+    product: &Matrix,
+) -> Id {
     let n = x.len();
     let two = graph.constant(2.0);
     let mut z = Matrix::new(n, n, |i, j| graph.mul(two, product.at(i, j)));
