@@ -2,6 +2,7 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
+use core::array::from_fn;
 
 use crate::bits::{exponent, power_of_two};
 use crate::graph::{Node, Program};
@@ -253,7 +254,7 @@ impl<'k, const L: usize> Walk<'k, L> {
         let distance = self.number(Variable::Distance);
         let right = self.number(Variable::Right);
         let done = self.counts[Variable::Done as usize];
-        core::array::from_fn(|lane| {
+        from_fn(|lane| {
             let test = |&(holds, test): &(bool, Test)| {
                 holds
                     == match test {
@@ -360,5 +361,22 @@ impl Program {
         let mut nodes = Vec::new();
         evaluate(self, |i| read(inputs, i), |i| read(slots, i), &mut nodes);
         self.outputs().iter().map(|id| nodes[id.index()].0[0]).collect()
+    }
+
+    /// The results of [`Program::run`] for each of these lists of inputs, which are evaluated [`WIDTH`] side by side.
+    pub fn run_rows(&self, rows: &[impl AsRef<[f64]>], slots: &[f64]) -> Vec<Vec<f64>> {
+        let slot = |i: usize| Lanes::of(slots.get(i).copied().unwrap_or(f64::NAN));
+        let mut nodes = Vec::new();
+        let mut results = Vec::with_capacity(rows.len());
+        for rows in rows.chunks(WIDTH) {
+            let read = |lane: usize, i| rows.get(lane).and_then(|row| row.as_ref().get(i)).copied();
+            let input = |i| Lanes::<WIDTH>(from_fn(|lane| read(lane, i).unwrap_or(f64::NAN)));
+            evaluate(self, input, slot, &mut nodes);
+            for lane in 0..rows.len() {
+                let own = self.outputs().iter().map(|id| nodes[id.index()].0[lane]);
+                results.push(own.collect());
+            }
+        }
+        results
     }
 }

@@ -111,8 +111,8 @@ fn laws_of<G: Group + Restore, C: Chart<G> + Send + Sync>(
     let (points, starts) = course.states(trial, (&group, false), both).map_err(refused)?;
     let convergence = Convergence::new(integrator);
     let ratio = Convergence::fold(integrator, h, &[], STEEP).ok().map(|folded| {
-        let ratio = |point: &Phase<G>| convergence.ratio(&folded, point.momentum.as_slice());
-        points.iter().map(ratio).fold(0.0, maximum)
+        let momenta: Vec<&[f64]> = points.iter().map(|point| point.momentum.as_slice()).collect();
+        convergence.ratios(&folded, &momenta).into_iter().fold(0.0, maximum)
     });
     let ratio = ratio.filter(|ratio| *ratio > STEEP);
     let tried = laws::check(&there, Some(&back), &points).map_err(RunError::at(trial.start))?;

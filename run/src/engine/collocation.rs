@@ -238,10 +238,6 @@ impl<const M: usize> Motion for Collocated<'_, M> {
     }
 
     /// There is no series.
-    fn ratio(&self, _: &[f64]) -> f64 {
-        0.0
-    }
-
     /// Of a function of the user's there is no Hessian, and of torques without potential no derivatives are known.
     fn differentiable(&self) -> Option<&dyn Differentiable> {
         let Smooth { given, kicks, .. } = self.step().energy().smooth;

@@ -313,9 +313,9 @@ impl Compiled {
         self.programs.convergence.get_or_init(|| Convergence::new(integrator))
     }
 
-    /// The spatial momentum Ad\*_g μ of a state.
-    pub(crate) fn spatial_momentum(&self, state: &Numbers) -> Vec<f64> {
-        self.programs.spatial.momentum(&state.g, &state.mu)
+    /// The spatial momenta Ad\*_g μ of states.
+    pub(crate) fn spatial_momenta(&self, states: &[&Numbers]) -> Vec<Vec<f64>> {
+        self.programs.spatial.momenta(states.iter().map(|state| [&state.g[..], &state.mu[..]]))
     }
 
     /// Makes `steps` steps after the first ones, which began at the time `start`. A step that the programs refuse is made by `rescue`,

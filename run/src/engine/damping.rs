@@ -193,8 +193,8 @@ impl Motion for Damped<'_> {
         self.around(state, [time, self.grid().step], |state| self.motion.one_at(state, time))
     }
 
-    fn ratio(&self, mu: &[f64]) -> f64 {
-        self.motion.ratio(mu)
+    fn ratios(&self, momenta: &[&[f64]]) -> Vec<f64> {
+        self.motion.ratios(momenta)
     }
 
     fn defined(&self, state: &Numbers, time: f64) -> Result<(), StepError> {

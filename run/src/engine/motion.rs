@@ -49,8 +49,15 @@ pub(crate) trait Motion: Send + Sync {
     /// Returns the reason for which there is none.
     fn one_at(&self, state: &mut Numbers, time: f64) -> Result<(), StepError>;
 
-    /// The ratio of the last two terms of the series at a momentum, where it may be worth a warning; else 0.
-    fn ratio(&self, mu: &[f64]) -> f64;
+    /// The ratio of the last two terms of the series at each momentum, where it may be worth a warning; else 0.
+    fn ratios(&self, momenta: &[&[f64]]) -> Vec<f64> {
+        vec![0.0; momenta.len()]
+    }
+
+    /// The ratio at one momentum.
+    fn ratio(&self, mu: &[f64]) -> f64 {
+        self.ratios(&[mu]).into_iter().fold(0.0, f64::max)
+    }
 
     /// The steps with their derivatives, if these are known.
     fn differentiable(&self) -> Option<&dyn Differentiable> {
@@ -248,22 +255,23 @@ impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Motion for Steps<'a, G
         self.advance(state, 0, 1).map(drop).map_err(|(_, error)| error)
     }
 
-    fn ratio(&self, mu: &[f64]) -> f64 {
+    fn ratios(&self, momenta: &[&[f64]]) -> Vec<f64> {
         let Equations { integrator, parameters } = &self.equations;
-        let quiet = self.elements.compiled.as_ref().is_some_and(|compiled| compiled.is_quiet(mu));
-        if quiet && integrator.largest_rate.is_none() {
-            return 0.0;
+        let compiled = self.elements.compiled.as_ref();
+        let quiet = |compiled: &Arc<Compiled>| momenta.iter().all(|mu| compiled.is_quiet(mu));
+        if integrator.largest_rate.is_none() && compiled.is_some_and(quiet) {
+            return vec![0.0; momenta.len()];
         }
         let fold = || {
             let longest = self.grid.step * integrator.kicks.as_ref().map_or(1.0, longest_flow);
             Convergence::fold(integrator, longest, parameters, STEEP).ok()
         };
-        let convergence = match &self.elements.compiled {
+        let convergence = match compiled {
             Some(compiled) => compiled.convergence(integrator),
             None => self.convergence.get_or_init(|| Convergence::new(integrator)),
         };
         let folded = self.converging.get_or_init(fold).as_ref();
-        folded.map_or(0.0, |folded| convergence.ratio(folded, mu))
+        folded.map_or_else(|| vec![0.0; momenta.len()], |own| convergence.ratios(own, momenta))
     }
 
     fn advice(&self, state: &Numbers, time: f64, error: &StepError) -> Option<&'static str> {

@@ -116,8 +116,13 @@ pub(crate) trait Space {
     /// The element with these numbers, rounded in single precision, put onto the group as the group's own products do.
     fn settled(&self, g: &[f64]) -> Vec<f64>;
 
+    /// Ad\*_g μ of each state.
+    fn spatial_momenta(&self, states: &[&Numbers]) -> Vec<Vec<f64>>;
+
     /// Ad\*_g μ.
-    fn spatial_momentum(&self, state: &Numbers) -> Vec<f64>;
+    fn spatial_momentum(&self, state: &Numbers) -> Vec<f64> {
+        self.spatial_momenta(&[state]).pop().unwrap_or_default()
+    }
 }
 
 /// The unit matrix with this number of rows, row by row.
@@ -176,10 +181,12 @@ impl<G: Restore> Space for Elements<G> {
         self.state(&phase).g
     }
 
-    fn spatial_momentum(&self, state: &Numbers) -> Vec<f64> {
+    fn spatial_momenta(&self, states: &[&Numbers]) -> Vec<Vec<f64>> {
+        let of =
+            |state: &&Numbers| self.phase(state).spatial_momentum(&*self.group).as_slice().to_vec();
         match &self.compiled {
-            Some(compiled) => compiled.spatial_momentum(state),
-            None => self.phase(state).spatial_momentum(&*self.group).as_slice().to_vec(),
+            Some(compiled) => compiled.spatial_momenta(states),
+            None => states.iter().map(of).collect(),
         }
     }
 }

@@ -313,7 +313,10 @@ impl<'a> Engine<'a> {
         }
         rows.values = values;
         // The states kept, and the drift, or the step that was not made and why.
-        let end = |(before, way): (&Numbers, &Way)| {
+        let drifts = before.par_chunks(WIDTH).zip(ways.par_chunks(WIDTH));
+        let drifts: Vec<Drift> =
+            drifts.flat_map_iter(|(before, ways)| self.drifts(before, ways)).collect();
+        let end = |(drift, way): (&Drift, &Way)| {
             let kept: Vec<_> = way.kept.iter().map(|kept| self.row(layout, kept)).collect();
             let bad = kept.iter().zip(&course.stops).find_map(|(kept, stop)| {
                 Some((stop.step, format!("{} on the way", kept.as_ref().err()?)))
@@ -322,8 +325,7 @@ impl<'a> Engine<'a> {
             let end = self.row(layout, &way.state);
             let end = end.map_err(|what| (course.steps, format!("{what} at the end")));
             let ended = stopped.map_or(end, Err);
-            let drift = ended.as_ref().map(|_| self.drift(before, &way.state));
-            let drift = drift.map_err(Clone::clone);
+            let drift = ended.as_ref().map(|_| *drift).map_err(Clone::clone);
             let kept = if course.stops.is_empty() {
                 vec![ended.ok()]
             } else {
@@ -331,7 +333,7 @@ impl<'a> Engine<'a> {
             };
             (kept, drift)
         };
-        let ends: Vec<_> = before.par_iter().zip(&ways).map(end).collect();
+        let ends: Vec<_> = drifts.par_iter().zip(&ways).map(end).collect();
         let ratio = ways.iter().map(|way| way.ratio).fold(0.0, maximum);
         let ratio = if ratio <= STEEP { 0.0 } else { ratio };
         let mut largest = Drift { ratio, ..Drift::default() };
@@ -468,23 +470,31 @@ impl<'a> Engine<'a> {
         Ok(Numbers { g, mu: mu.to_vec() })
     }
 
-    /// The drifts of one row.
-    fn drift(&self, before: &Numbers, after: &Numbers) -> Drift {
+    /// The drifts of rows, from their states before and after.
+    fn drifts(&self, before: &[Numbers], ways: &[Way]) -> Vec<Drift> {
         let (invariants, space) = (&self.invariants, self.motion.space());
         // Energies alone depend on the time, and are not measured.
         let time = self.grid.start;
-        let start = invariants.start(time, &before.mu, &space.spatial_momentum(before), Vec::new);
-        let conserved = |state: &Numbers| {
-            invariants.conserved(time, &state.mu, &space.spatial_momentum(state), Vec::new)
-        };
-        let mut beside = after.clone();
-        nudge(&mut beside.g);
-        nudge(&mut beside.mu);
-        let conserved = start.measured(&conserved(after), conserved(&beside));
+        let after = || ways.iter().map(|way| &way.state);
+        let mut beside: Vec<Numbers> = after().cloned().collect();
+        for state in &mut beside {
+            nudge(&mut state.g);
+            nudge(&mut state.mu);
+        }
+        let states: Vec<&Numbers> = before.iter().chain(after()).chain(&beside).collect();
+        let spatial = space.spatial_momenta(&states);
+        let rows = before.len();
+        let conserved =
+            |at: usize| invariants.conserved(time, &states[at].mu, &spatial[at], Vec::new);
         let known = invariants.directions.as_ref().is_none_or(|known| !known.is_empty());
-        let hidden = known && conserved.spatial_momentum.is_none()
-            || !invariants.casimirs.is_empty() && conserved.casimirs.is_none();
-        Drift { conserved, unmeasured: hidden.into(), ratio: 0.0 }
+        let drift = |row: usize| {
+            let start = invariants.start(time, &before[row].mu, &spatial[row], Vec::new);
+            let conserved = start.measured(&conserved(rows + row), conserved(2 * rows + row));
+            let hidden = known && conserved.spatial_momentum.is_none()
+                || !invariants.casimirs.is_empty() && conserved.casimirs.is_none();
+            Drift { conserved, unmeasured: hidden.into(), ratio: 0.0 }
+        };
+        (0..rows).map(drift).collect()
     }
 
     /// Makes the steps of all states.
@@ -497,7 +507,8 @@ impl<'a> Engine<'a> {
         let shorter = self.shorter(course);
         let shorter = shorter.map_err(RunError::unmade)?;
         let march = March { motion: self.motion.as_ref(), stop: watch.stop };
-        let mut ways: Vec<Way> = states.into_par_iter().map(|state| march.way(state)).collect();
+        let mut ways: Vec<Way> = states.into_iter().map(Way::from).collect();
+        ways.par_chunks_mut(WIDTH).for_each(|ways| march.look(ways));
         match &self.card {
             None => {
                 for (first, end, stop) in course.legs() {
@@ -566,8 +577,7 @@ impl<'a> Engine<'a> {
                 }
             }
         };
-        let way = |state| Way { state, stopped: None, ratio: 0.0, kept: Vec::new() };
-        let mut ways: Vec<Way> = states.into_iter().map(way).collect();
+        let mut ways: Vec<Way> = states.into_iter().map(Way::from).collect();
         let (count, mut made) = (ways.len() as u64, 0);
         for (ways, own) in ways.chunks_mut(ROWS).zip(own.chunks(ROWS)) {
             made += ways.len() as u64;
@@ -584,12 +594,13 @@ impl<'a> Engine<'a> {
 fn follow(motions: &[Box<dyn Varied + '_>], way: &mut Way, course: &Course, stop: &AtomicBool) {
     let Some((motion, shorter)) = motions.split_first() else { return };
     let march = March { motion: motion.as_ref(), stop };
-    way.ratio = motion.ratio(&way.state.mu);
+    march.look(std::slice::from_mut(way));
     for (first, end, place) in course.legs() {
         let mut done = first;
         while done < end && way.stopped.is_none() && !stop.load(Ordering::Relaxed) {
             let next = end.min(done + STRETCH);
             march.alone(way, done, next);
+            march.look(std::slice::from_mut(way));
             done = next;
         }
         let Some(place) = place else { continue };

@@ -37,17 +37,24 @@ pub(super) struct Way {
     pub kept: Vec<Numbers>,
 }
 
+impl From<Numbers> for Way {
+    fn from(state: Numbers) -> Self {
+        Self { state, stopped: None, ratio: 0.0, kept: Vec::new() }
+    }
+}
+
 impl March<'_> {
-    /// From here.
-    pub(super) fn way(&self, state: Numbers) -> Way {
-        Way { ratio: self.motion.ratio(&state.mu), state, stopped: None, kept: Vec::new() }
+    /// Takes the ratios of where trajectories are into account.
+    pub(super) fn look(&self, ways: &mut [Way]) {
+        let momenta: Vec<&[f64]> = ways.iter().map(|way| &way.state.mu[..]).collect();
+        let ratios = self.motion.ratios(&momenta);
+        ways.iter_mut().zip(ratios).for_each(|(way, ratio)| way.ratio = maximum(way.ratio, ratio));
     }
 
     /// Makes steps `first` to `end` of a trajectory by itself.
     pub(super) fn alone(&self, way: &mut Way, first: u64, end: u64) {
         let made = self.motion.advance(&mut way.state, first, end - first);
         way.stopped = made.err().map(|(done, error)| (first + done + 1, error.to_string()));
-        way.ratio = maximum(way.ratio, self.motion.ratio(&way.state.mu));
     }
 
     /// Makes steps `first` to `end` of at most [`WIDTH`] trajectories side by side. A trajectory goes alone from the step on
@@ -83,6 +90,7 @@ impl March<'_> {
                 self.alone(way, first + made, end);
             }
         }
+        self.look(ways);
     }
 
     /// Makes steps `first` to `end` of all trajectories, a stretch of each before the next, which is then told to `told`.
@@ -125,7 +133,9 @@ impl March<'_> {
     /// [`march`](Self::march) gives it: to the end of its stretch alone, then in lanes.
     fn redo(&self, way: &mut Way, made: u64, end: u64) {
         let mut done = end.min(made - made % STRETCH + STRETCH);
+        self.look(std::slice::from_mut(way));
         self.alone(way, made, done);
+        self.look(std::slice::from_mut(way));
         while done < end && way.stopped.is_none() {
             let next = end.min(done + STRETCH);
             self.abreast(std::slice::from_mut(way), done, next);
@@ -161,7 +171,7 @@ impl March<'_> {
         let mut redone = BTreeSet::new();
         let mut others = |refused: &mut [Refused<'_>], target: u64| {
             let redo = |Refused { place, row, .. }: &mut Refused<'_>| {
-                let mut way = self.way(Numbers { g: take(&mut row.g), mu: take(&mut row.mu) });
+                let mut way = Way::from(Numbers { g: take(&mut row.g), mu: take(&mut row.mu) });
                 settle(&mut way.state);
                 self.redo(&mut way, row.made, target);
                 (row.g, row.mu) = (take(&mut way.state.g), take(&mut way.state.mu));
@@ -180,8 +190,8 @@ impl March<'_> {
         ways.par_iter_mut().zip(rows).for_each(|(way, row)| {
             way.state = Numbers { g: row.g, mu: row.mu };
             settle(&mut way.state);
-            way.ratio = maximum(way.ratio, self.motion.ratio(&way.state.mu));
         });
+        ways.par_chunks_mut(WIDTH).for_each(|ways| self.look(ways));
         Ok(redone.len() as u64)
     }
 }

@@ -179,8 +179,4 @@ impl<G: Restore, C: Chart<G> + Send + Sync> Motion for Learned<'_, G, C> {
     fn defined(&self, _: &Numbers, _: f64) -> Result<(), StepError> {
         Ok(())
     }
-
-    fn ratio(&self, _: &[f64]) -> f64 {
-        0.0
-    }
 }

@@ -58,13 +58,25 @@ impl Convergence {
         Ok(Converging { slots, quiet })
     }
 
-    /// The larger ratio at μ; 0 where the terms are known to be small, or are no finite numbers: there is no step then.
-    pub fn ratio(&self, folded: &Converging, mu: &[f64]) -> f64 {
-        let size = mu.iter().map(|mu| mu * mu).sum::<f64>().sqrt();
-        let terms = Some(&self.terms).filter(|_| size > folded.quiet);
-        let ratios = terms.into_iter().chain(&self.rate);
-        let ratios = ratios.flat_map(|program| program.run(mu, &folded.slots));
-        ratios.filter(|ratio| ratio.is_finite()).fold(0.0, f64::max)
+    /// The larger ratio at each of these μ; 0 where the terms are known to be small, or are no finite numbers: there is no
+    /// step then.
+    pub fn ratios(&self, folded: &Converging, momenta: &[&[f64]]) -> Vec<f64> {
+        let size = |mu: &[f64]| mu.iter().map(|mu| mu * mu).sum::<f64>().sqrt();
+        let mut largest = vec![0.0; momenta.len()];
+        let loud: Vec<usize> =
+            (0..momenta.len()).filter(|&row| size(momenta[row]) > folded.quiet).collect();
+        let mut raise = |program: &Program, rows: &[usize]| {
+            let own: Vec<&[f64]> = rows.iter().map(|&row| momenta[row]).collect();
+            for (&row, ratios) in rows.iter().zip(program.run_rows(&own, &folded.slots)) {
+                let ratios = ratios.into_iter().filter(|ratio| ratio.is_finite());
+                largest[row] = ratios.fold(largest[row], f64::max);
+            }
+        };
+        raise(&self.terms, &loud);
+        if let Some(rate) = &self.rate {
+            raise(rate, &(0..momenta.len()).collect::<Vec<_>>());
+        }
+        largest
     }
 }
 

@@ -19,18 +19,26 @@ impl Spatial {
         Self { program: step.spatial(), inverted: step.inverted() }
     }
 
-    /// The spatial momentum of the state with these numbers of the group element and this μ; NaN where a matrix has no
-    /// inverse.
+    /// The spatial momentum of one state, as [`Spatial::momenta`].
     pub fn momentum(&self, g: &[f64], mu: &[f64]) -> Vec<f64> {
-        // The program reads of the inverse what has been inverted here, and nothing else.
-        let mut inputs = [g, g, mu].concat();
-        for &(start, rows) in &self.inverted {
-            let block = DMatrix::from_row_slice(rows, rows, &g[start..start + rows * rows]);
-            let inverse = block.try_inverse();
-            let inverse = inverse.unwrap_or_else(|| DMatrix::from_element(rows, rows, f64::NAN));
-            let own = &mut inputs[g.len() + start..][..rows * rows];
-            own.copy_from_slice(inverse.transpose().as_slice());
-        }
-        self.program.run(&inputs, &[])
+        self.momenta(std::iter::once([g, mu])).pop().unwrap_or_default()
+    }
+
+    /// The spatial momenta of the states with these numbers of the group element and these μ; NaN where a matrix has no
+    /// inverse.
+    pub fn momenta<'a>(&self, states: impl Iterator<Item = [&'a [f64]; 2]>) -> Vec<Vec<f64>> {
+        let inputs = states.map(|[g, mu]| {
+            // The program reads of the inverse what has been inverted here, and nothing else.
+            let mut inputs = [g, g, mu].concat();
+            for &(start, rows) in &self.inverted {
+                let block = DMatrix::from_row_slice(rows, rows, &g[start..start + rows * rows]);
+                let inverse = block.try_inverse();
+                let none = || DMatrix::from_element(rows, rows, f64::NAN);
+                let own = &mut inputs[g.len() + start..][..rows * rows];
+                own.copy_from_slice(inverse.unwrap_or_else(none).transpose().as_slice());
+            }
+            inputs
+        });
+        self.program.run_rows(&inputs.collect::<Vec<_>>(), &[])
     }
 }
