@@ -50,13 +50,16 @@ impl Form {
         }
     }
 
-    /// The bytes of rows, each of this many numbers.
-    pub(crate) fn rows(self, values: &[f64], width: usize) -> Vec<u8> {
+    /// Appends the bytes of rows, each of this many numbers.
+    pub(crate) fn append(self, values: &[f64], width: usize, bytes: &mut Vec<u8>) {
         if self != Self::Csv {
-            return values.iter().flat_map(|value| value.to_le_bytes()).collect();
+            bytes.reserve(8 * values.len());
+            return values.iter().for_each(|value| bytes.extend_from_slice(&value.to_le_bytes()));
         }
-        let line = |row: &[f64]| row.iter().copied().map(shortest).collect::<Vec<_>>().join(",");
-        values.chunks(width.max(1)).map(|row| line(row) + "\n").collect::<String>().into_bytes()
+        for (place, &value) in values.iter().enumerate() {
+            bytes.extend_from_slice(shortest(value).as_bytes());
+            bytes.push(if (place + 1) % width.max(1) == 0 { b'\n' } else { b',' });
+        }
     }
 
     /// Gives a file of rows its name. The bare numbers of columns with these names become Parquet before.

@@ -137,6 +137,7 @@ impl States {
         let (form, width, values) = (self.form, self.found.layout.width(), &piece.rows.values);
         // Tables are not shared between threads.
         let written = &self.written;
+        let mut bytes = Vec::new();
         match &self.times {
             Some(times) if form != Form::Npy => {
                 let states = values.chunks(width).enumerate();
@@ -144,9 +145,9 @@ impl States {
                     let row = (piece.rows.first + (place / times.len()) as u64) as f64;
                     [row, times[place % times.len()]].into_iter().chain(state.iter().copied())
                 });
-                form.rows(&numbers.collect::<Vec<_>>(), width + 2)
+                form.append(&numbers.collect::<Vec<_>>(), width + 2, &mut bytes);
             }
-            _ if form != Form::Csv => form.rows(values, width),
+            _ if form != Form::Csv => form.append(values, width, &mut bytes),
             // Pieces of fixed size, joined in order: the same bytes whatever the threads.
             _ => {
                 let pieces = values.par_chunks(PIECE * width).enumerate();
@@ -154,9 +155,10 @@ impl States {
                     let cells = piece.cells.get(number * PIECE..).unwrap_or(&[]);
                     lines(written, values.chunks(width), cells)
                 });
-                pieces.collect::<Vec<_>>().concat()
+                bytes = pieces.collect::<Vec<_>>().concat();
             }
         }
+        bytes
     }
 }
 

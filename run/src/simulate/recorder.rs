@@ -204,21 +204,23 @@ impl<'a> Recorder<'a> {
             finite(&format_args!("the momentum {name}"), *value)?;
         }
         state.g.iter().try_for_each(|number| finite("an entry of the group element", *number))?;
-        let conserved = |state: &Numbers| {
-            let (spatial, matrix) = (space.spatial_momentum(state), || space.matrix(&state.g));
-            self.watched.invariants.conserved(time, &state.mu, &spatial, matrix)
+        let mut beside = state.clone();
+        nudge(&mut beside.g);
+        nudge(&mut beside.mu);
+        let states = [state, &beside];
+        let spatial = space.spatial_momenta(&states);
+        let conserved = |at: usize| {
+            let matrix = || space.matrix(&states[at].g);
+            self.watched.invariants.conserved(time, &states[at].mu, &spatial[at], matrix)
         };
-        let now = conserved(state);
+        let now = conserved(0);
         if let (Some(energy), Some(potential)) = (now.energy, &self.watched.invariants.potential)
             && !energy.is_finite()
         {
             finite("the potential", potential.value(&space.matrix(&state.g)))?;
         }
         finite("the energy", now.energy.unwrap_or(0.0))?;
-        let mut beside = state.clone();
-        nudge(&mut beside.g);
-        nudge(&mut beside.mu);
-        let mut drift = self.start.measured(&now, conserved(&beside)).numbers();
+        let mut drift = self.start.measured(&now, conserved(1)).numbers();
         let unmeasured = self.tally.unmeasured.iter().map(Option::is_some);
         let unknown = self.unknown.iter().map(Option::is_some);
         for (drift, (since, unknown)) in drift.iter_mut().zip(unmeasured.zip(unknown)) {
