@@ -1,6 +1,5 @@
 //! The functions that the page's script calls.
 
-use coadjoint_codegen::step::Origin;
 use serde::Serialize;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -230,11 +229,9 @@ impl Session {
     /// H, and where it is a polynomial S₁, S₃, …, as MathML, a JSON list.
     pub fn formulas(&self) -> String {
         let origin = &self.system.origin;
-        let integrator = match origin {
-            Origin::Collocation(smooth) => {
-                return json(&[formula::written("<mi>H</mi>", &smooth.source)]);
-            }
-            Origin::Series(integrator) => integrator,
+        let Some(integrator) = origin.series() else {
+            let source = origin.smooth().map_or("", |smooth| &smooth.source);
+            return json(&[formula::written("<mi>H</mi>", source)]);
         };
         let problem = &integrator.problem;
         let mut list = vec![formula::equation("<mi>H</mi>", &problem.hamiltonian, origin)];

@@ -177,9 +177,7 @@ impl System {
 
     /// The expression in H that is not defined, or has no derivative, at (t, μ).
     pub fn undefined(&self, time: f64, mu: &[f64]) -> Option<String> {
-        let Energy::Smooth(smooth, symbols) = &self.energy else { return None };
-        let (number, argument) = smooth.undefined(symbols, time, mu)?;
-        let expression = &smooth.expressions[number];
+        let (expression, argument) = self.energy.undefined(time, mu)?;
         Some(format!("an expression is not defined at time {time}: {expression} of {argument}"))
     }
 

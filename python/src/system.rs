@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use coadjoint_codegen::lie;
 use coadjoint_codegen::problem::Problem;
-use coadjoint_codegen::smooth::{Facts, Functions, Hamiltonian};
+use coadjoint_codegen::smooth::{Facts, Functions};
 use coadjoint_codegen::step::Energy;
 use coadjoint_codegen::system::{Options, Run};
 use coadjoint_codegen::tolerance::Choice;
@@ -237,17 +237,12 @@ impl Core {
             }
         }
         facts.set_item("parameters", known)?;
-        let (chart, comoving, hamiltonian) = match problem {
-            Hamiltonian::Polynomial(problem, _) => (
-                Some(problem.chart.name()),
-                problem.comoving.is_some(),
-                series::polynomial(problem, &problem.hamiltonian),
-            ),
-            Hamiltonian::Smooth(smooth) => (None, false, smooth.source.clone()),
-        };
-        facts.set_item("chart", chart)?;
-        facts.set_item("comoving", comoving)?;
-        facts.set_item("hamiltonian", hamiltonian)?;
+        let polynomial = problem.polynomial();
+        let hamiltonian = polynomial.map(|own| series::polynomial(own, &own.hamiltonian));
+        let source = || problem.smooth().map(|smooth| smooth.source.clone());
+        facts.set_item("chart", polynomial.map(|own| own.chart.name()))?;
+        facts.set_item("comoving", polynomial.is_some_and(|own| own.comoving.is_some()))?;
+        facts.set_item("hamiltonian", hamiltonian.or_else(source))?;
         facts.set_item("splitting", potential.as_ref().map(|(_, splitting)| splitting.name()))?;
         facts.set_item("step", run.step)?;
         facts.set_item("tolerance", run.tolerance)?;

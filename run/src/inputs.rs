@@ -42,10 +42,7 @@ type Read = BTreeMap<String, Vec<f64>>;
 /// # Errors
 /// The file, and the row and the column where it is wrong.
 pub(crate) fn fill(system: &Path, read: &mut System<Hamiltonian>) -> Result<(), RunError> {
-    let of_energy = match &mut read.problem {
-        Hamiltonian::Smooth(smooth) => &mut smooth.signals[..],
-        Hamiltonian::Polynomial(..) => &mut [],
-    };
+    let of_energy = read.problem.signals_mut();
     let of_torque = match &mut read.potential {
         Some((Potential { force: Force::Smooth(programs), .. }, _)) => &mut programs.signals[..],
         _ => &mut [],

@@ -219,9 +219,8 @@ impl Derived {
 
     /// The flows by collocation between kicks, where there are kicks, as a system without them.
     pub(crate) fn without_kicks(&self) -> Option<Self> {
-        let Origin::Collocation(smooth) = &self.origin else { return None };
-        smooth.kicks.as_ref()?;
-        let smooth = Smooth { kicks: None, ..(**smooth).clone() };
+        let smooth = self.origin.smooth().filter(|smooth| smooth.kicks.is_some())?;
+        let smooth = Smooth { kicks: None, ..smooth.clone() };
         Some(Self {
             origin: smooth.into(),
             group: self.group.clone(),

@@ -4,7 +4,6 @@ use std::path::Path;
 
 use coadjoint_codegen::integrator::Kicks;
 use coadjoint_codegen::smooth::Smooth;
-use coadjoint_codegen::step::Origin;
 use coadjoint_program::collocation::nodes;
 
 use crate::engine::identity;
@@ -76,10 +75,8 @@ impl Derived {
         let parameters = facts.defaults();
         let any = (0..facts.algebra.dim()).map(|i| 1.0 / (i + 1) as f64);
         let momentum = momentum.map_or_else(|| any.collect(), <[f64]>::to_vec);
-        let velocity = match &self.origin {
-            Origin::Collocation(smooth) => Moving::velocity(smooth, &parameters, &momentum),
-            Origin::Series(_) => None,
-        };
+        let velocity = self.origin.smooth();
+        let velocity = velocity.and_then(|smooth| Moving::velocity(smooth, &parameters, &momentum));
         let start = (identity(facts.algebra.matrix_size()), &momentum[..]);
         let torque = self.kicks().and_then(|kicks| Moving::torque(kicks, &parameters, start));
         let moving: Vec<Moving<'_>> = velocity.into_iter().chain(torque).collect();

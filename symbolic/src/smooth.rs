@@ -9,7 +9,7 @@ use num_traits::ToPrimitive;
 use crate::integrator::{Kick, Kicks};
 use crate::lie::LieAlgebra;
 use crate::potential::undefined;
-use crate::problem::{Parameter, Problem, Symbol};
+use crate::problem::{Parameter, Problem, Symbol, values};
 use crate::signal::{self, Signal};
 
 /// A smooth Hamiltonian H(t, μ) on the dual of a Lie algebra, as straight-line programs.
@@ -215,6 +215,30 @@ impl Hamiltonian {
         match self {
             Self::Polynomial(problem, _) => problem.is_quadratic(),
             Self::Smooth(smooth) => smooth.is_quadratic(),
+        }
+    }
+
+    /// The smooth function, where it is taken as one.
+    pub fn smooth(&self) -> Option<&Smooth> {
+        match self {
+            Self::Polynomial(..) => None,
+            Self::Smooth(smooth) => Some(smooth),
+        }
+    }
+
+    /// The inputs u(t) that it reads.
+    pub fn signals_mut(&mut self) -> &mut [Signal] {
+        match self {
+            Self::Polynomial(..) => &mut [],
+            Self::Smooth(smooth) => &mut smooth.signals,
+        }
+    }
+
+    /// The values of its symbols for those that the input gives the parameters.
+    pub fn symbols(&self) -> Vec<f64> {
+        match self {
+            Self::Polynomial(problem, _) => values(&problem.symbols),
+            Self::Smooth(smooth) => smooth.symbols_at(&smooth.facts().defaults()),
         }
     }
 

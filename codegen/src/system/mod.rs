@@ -71,7 +71,7 @@ use crate::pass::{
 use crate::potential::Potential;
 use crate::problem::{Parameter, Problem};
 use crate::signal::Signal;
-use crate::smooth::{Functions, Hamiltonian};
+use crate::smooth::{Functions, Hamiltonian, Smooth};
 use table::Table;
 
 pub use coadjoint_program::splitting::Splitting;
@@ -104,10 +104,10 @@ impl System<Hamiltonian> {
     /// The inputs u(t) of the Hamiltonian or of the torque.
     #[must_use]
     pub fn signals(&self) -> &[Signal] {
-        match (&self.problem, &self.potential) {
-            (Hamiltonian::Smooth(smooth), _) => &smooth.signals,
-            (_, Some((potential, _))) => potential.alone().map_or(&[], |alone| &alone.signals),
-            _ => &[],
+        let torque = || self.potential.as_ref().and_then(|(potential, _)| potential.alone());
+        match self.problem.smooth() {
+            Some(smooth) => &smooth.signals,
+            None => torque().map_or(&[], |torque| &torque.signals),
         }
     }
 
@@ -115,8 +115,8 @@ impl System<Hamiltonian> {
     #[must_use]
     pub fn depends_on_time(&self) -> bool {
         let torque = self.potential.as_ref().and_then(|(potential, _)| potential.alone());
-        let energy = matches!(&self.problem, Hamiltonian::Smooth(smooth) if smooth.moves);
-        energy || torque.is_some_and(|torque| torque.moves)
+        self.problem.smooth().is_some_and(|smooth| smooth.moves)
+            || torque.is_some_and(|torque| torque.moves)
     }
 
     /// Checks that it can be written as code.
@@ -213,7 +213,7 @@ pub fn read_given(
         Hamiltonian::Smooth(smooth) => initial::of_smooth(smooth, time),
     };
     let quadratic = Hamiltonian::is_quadratic;
-    let moves = |system: &Hamiltonian| matches!(system, Hamiltonian::Smooth(smooth) if smooth.depends_on_time());
+    let moves = |system: &Hamiltonian| system.smooth().is_some_and(Smooth::depends_on_time);
     let kind = Kind { assemble: &assemble, gradient, moves, quadratic, given };
     read_by(text, |document, diagnostics| {
         system((document, text), (options, varied), &kind, diagnostics)

@@ -6,7 +6,7 @@ use std::path::Path;
 use coadjoint_codegen::cancel;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::judge::Judge;
-use coadjoint_codegen::problem::{Parameter, values};
+use coadjoint_codegen::problem::Parameter;
 use coadjoint_codegen::smooth::Hamiltonian;
 use coadjoint_learn::table::Table;
 
@@ -90,10 +90,7 @@ impl<'a> Follower<'a> {
             return Err(RunError::Option("--step must be finite and other than zero".into()));
         }
         // Parameters are substituted; what symbols are left (sqrt(2)) need none.
-        let symbols: Vec<f64> = match hamiltonian {
-            Hamiltonian::Polynomial(problem, _) => values(&problem.symbols),
-            Hamiltonian::Smooth(smooth) => smooth.symbols_at(&hamiltonian.facts().defaults()),
-        };
+        let symbols = hamiltonian.symbols();
         judge.at(step, &symbols).map_err(|error| RunError::Option(error.to_string()))?;
         let invariants = Invariants::new(hamiltonian)?;
         let size = Shape::of(hamiltonian.facts().algebra).matrix_size;

@@ -83,6 +83,13 @@ impl Energy {
         }
     }
 
+    /// The expression that is not defined, or has no derivative, at (t, μ), and its argument there.
+    pub fn undefined(&self, time: f64, mu: &[f64]) -> Option<(&str, f64)> {
+        let Self::Smooth(smooth, symbols) = self else { return None };
+        let (number, argument) = smooth.undefined(symbols, time, mu)?;
+        Some((&smooth.expressions[number], argument))
+    }
+
     /// ∂H/∂μ in `dim` coordinates.
     pub fn gradient(&self, dim: usize) -> Slopes<'_> {
         match self {

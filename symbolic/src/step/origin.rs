@@ -86,6 +86,14 @@ impl Origin {
         }
     }
 
+    /// The equations of collocation, if steps are made by it.
+    pub fn smooth(&self) -> Option<&Smooth> {
+        match self {
+            Self::Series(_) => None,
+            Self::Collocation(smooth) => Some(smooth),
+        }
+    }
+
     /// The expressions in parameters that coefficients are made of.
     pub fn symbols(&self) -> &[Symbol] {
         match self {
