@@ -20,8 +20,8 @@ pub const LARGEST_TAIL: [f64; MAX_NODES] = [0.08, 0.25, 0.06, 1e-2, 1e-2, 1e-2, 
 pub const LARGEST_FORCE: f64 = 0.25;
 
 /// The largest square of a reach, by the number of nodes, up to which a step is an ordinary one: of the arguments of H's
-/// functions from one node to the next, each in the units in which its function varies. Steps that reach farther are
-/// accepted only where they have been followed between their nodes.
+/// functions from the start to the first node, from node to node and to the end, each in the units in which its function varies. Steps
+/// that reach farther are accepted only where parts that do not lead to their end.
 pub const LARGEST_REACH: [f64; MAX_NODES] = [0.25, 2.25, 2.25, 2.25, 2.25, 2.25, 2.25, 2.25];
 
 /// The share of its limit from which on the measure of a step with one node is taken with the Hessian at the solution.

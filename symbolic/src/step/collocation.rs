@@ -3,7 +3,7 @@
 //!
 //! The numbers solved for are hẋᵢ of all nodes, then hṗᵢ of all, then the residual of the sweep before. A solution is read as x, two
 //! measures of how well the nodes resolve the step, each as a share of its limit, the rates, and the momenta at the nodes. Steps leave differences of
-//! their rates to the next one, beside the group element. Steps that are not ordinary ones are refused: the runtime follows them.
+//! their rates to the next one, beside the group element. Steps that are not ordinary ones are refused: the runtime makes them in parts.
 
 use coadjoint_program::collocation::{
     KEPT, KEPT_LONG, LARGEST_FORCE, LARGEST_MODEL, LARGEST_REACH, LARGEST_TAIL, LONG, MAX_SWEEPS,
