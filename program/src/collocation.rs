@@ -20,8 +20,8 @@ pub const LARGEST_TAIL: [f64; MAX_NODES] = [0.08, 0.25, 0.06, 1e-2, 1e-2, 1e-2, 
 pub const LARGEST_FORCE: f64 = 0.25;
 
 /// The largest square of a reach, by the number of nodes, up to which a step is an ordinary one: of the arguments of H's
-/// functions from one node to the next, each in the units in which its function varies. Steps that reach farther are
-/// accepted only where they have been followed between their nodes.
+/// functions from the start to the first node, from node to node and to the end, each in the units in which its function varies. Steps
+/// that reach farther are accepted only where parts that do not lead to their end.
 pub const LARGEST_REACH: [f64; MAX_NODES] = [0.25, 2.25, 2.25, 2.25, 2.25, 2.25, 2.25, 2.25];
 
 /// The share of its limit from which on the measure of a step with one node is taken with the Hessian at the solution.
@@ -105,29 +105,6 @@ pub struct Nodes<const M: usize> {
     pub matrix: [[f64; M]; M],
     /// (2M − 1) bᵢ P_{M−1}(2cᵢ − 1): the coefficient of the highest polynomial through values at the nodes.
     pub highest: [f64; M],
-    /// The weights of values at the nodes in the polynomial through these and one at the beginning, at the end; the weight of
-    /// that at the beginning is (−1)ᴹ.
-    pub ahead: [f64; M],
-}
-
-impl<const M: usize> Nodes<M> {
-    /// The weights that interpolate values at the nodes to a time from the middle, and those of their integral to there,
-    /// less half of that over the whole step: at a node those of `matrix`.
-    pub fn at(&self, time: f64) -> [[f64; M]; 2] {
-        let here = legendre(M, 2.0 * time);
-        let [mut values, mut integrals] = [[0.0; M]; 2];
-        for j in 0..M {
-            let own = legendre(M, 2.0 * self.times[j]);
-            let (mut value, mut integral) = (1.0, 2.0 * time);
-            for k in 1..M {
-                value += (2 * k + 1) as f64 * own[k] * here[k];
-                integral += own[k] * (here[k + 1] - here[k - 1]);
-            }
-            values[j] = self.weights[j] * value;
-            integrals[j] = 0.5 * self.weights[j] * integral;
-        }
-        [values, integrals]
-    }
 }
 
 /// P₀ … P_M at x.
@@ -148,7 +125,7 @@ impl<const M: usize> Nodes<M> {
     #[allow(clippy::new_without_default)]
     pub const fn new() -> Self {
         assert!(M >= 1 && M <= MAX_NODES, "a step has 1 to 8 nodes");
-        let [mut times, mut weights, mut highest, mut ahead] = [[0.0; M]; 4];
+        let [mut times, mut weights, mut highest] = [[0.0; M]; 3];
         let mut values = [[0.0; MAX_NODES + 1]; M];
         let mut i = 0;
         while i < M {
@@ -179,20 +156,7 @@ impl<const M: usize> Nodes<M> {
             }
             i += 1;
         }
-        i = 0;
-        while i < M {
-            let mut product = 1.0 / (0.5 + times[i]);
-            let mut j = 0;
-            while j < M {
-                if j != i {
-                    product *= (0.5 - times[j]) / (times[i] - times[j]);
-                }
-                j += 1;
-            }
-            ahead[i] = product;
-            i += 1;
-        }
-        Self { times, weights, matrix, highest, ahead }
+        Self { times, weights, matrix, highest }
     }
 }
 
@@ -206,11 +170,6 @@ mod tests {
         let nodes = Nodes::<M>::new();
         let power = |x: f64, k: usize| (0..k).fold(1.0, |p, _| p * x);
         let integral = |x: f64, k: usize| power(x, k + 1) / (k + 1) as f64;
-        for k in 0..=M {
-            let start = power(-0.5, k) * if M.is_multiple_of(2) { 1.0 } else { -1.0 };
-            let sum: f64 = (0..M).map(|i| nodes.ahead[i] * power(nodes.times[i], k)).sum();
-            assert!((start + sum - power(0.5, k)).abs() < 1e-13, "{M} nodes, power {k} at the end");
-        }
         for k in 0..2 * M {
             let sum: f64 = (0..M).map(|i| nodes.weights[i] * power(nodes.times[i], k)).sum();
             let exact = integral(0.5, k) - integral(-0.5, k);
@@ -223,11 +182,7 @@ mod tests {
                 let exact = integral(nodes.times[i], k) - half;
                 assert!((sum - exact).abs() < 1e-16, "{M} nodes, node {i}, power {k}");
             }
-            let [values, integrals] = nodes.at(nodes.times[i]);
             for j in 0..M {
-                let own = f64::from(u8::from(i == j));
-                assert!((values[j] - own).abs() < 1e-14, "{M} nodes, weight {j} at node {i}");
-                assert!((integrals[j] - nodes.matrix[j][i]).abs() < 1e-15, "{M} nodes, {j} {i}");
                 let skew =
                     nodes.weights[i] * nodes.matrix[j][i] + nodes.weights[j] * nodes.matrix[i][j];
                 assert!(skew.abs() < 4e-17, "{M} nodes: {skew:e}");

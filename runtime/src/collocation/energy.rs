@@ -36,7 +36,7 @@ pub trait Energy<V: Coordinates<f64>> {
     /// The square of the farthest way that an argument of H's functions goes from one (t, μ) to another, in the units in which
     /// its function varies: 1 for a wave, the argument itself for a root, a logarithm and a quotient; very large where a
     /// pole or the edge of a domain lies between. None where H is a closure of which this is not known: steps from a first
-    /// guess, and those that take long to solve, are then followed between their nodes.
+    /// guess, and those that take long to solve, are then compared with 16 parts.
     fn reach(&self, from: (f64, &V), to: (f64, &V)) -> Option<f64> {
         let _ = (from, to);
         None

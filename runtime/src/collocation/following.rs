@@ -1,258 +1,196 @@
-//! Steps that are not ordinary, followed between their nodes, and compared with two of half the size.
+//! Whether a solution is the step: its nodes have to resolve it, and where it is not ordinary it is made again in parts that are.
 
-use coadjoint_program::collocation::{LARGEST_REACH, NEAR_LIMIT, degree};
+use coadjoint_program::collocation::{LARGEST_FORCE, LARGEST_REACH, LARGEST_TAIL, NEAR_LIMIT};
+use nalgebra::SimdComplexField;
 
-use super::Collocation;
-use super::energy::Energy;
-use super::rates::{Rates, total};
+use super::energy::{Energy, UNKNOWN, Undefined};
+use super::rates::{Rates, largest, total};
 use super::solving::{Attempt, Ending, Equations};
 use crate::error::{Circumstances, StepError};
 use crate::group::LieGroup;
 use crate::linear::coordinates::Coordinates;
 use crate::number::Scalar;
 
-/// Parts of a step that are looked at at least: where H is a closure, which says nothing of its reach, many.
-const PARTS: [usize; 2] = [16, 64];
+/// Halvings of a step that is made in parts: at least, where H is a closure, which says nothing of its reach, more.
+const LEAST: [u32; 2] = [1, 4];
 
-/// Halves of a part over which the functions of H vary too much.
-const HALVINGS: u32 = 8;
+/// Halvings at most.
+const MOST: u32 = 7;
 
-/// The largest square of a reach of a part.
-const FINE: f64 = 0.25;
-
-/// Points that are looked at at most.
-const MOST: u32 = 4096;
-
-/// The largest defect of a rate: h times what the velocity at a point differs from that of the polynomial through the nodes, and
-/// h times what the force does, relative to the momentum.
-const LARGEST_DEFECT: f64 = 0.5;
-
-/// The largest integral of a defect from the beginning of the step on, by the number of nodes.
-const LARGEST_INTEGRAL: [f64; 8] = [0.1, 0.1, 0.2, 0.2, 0.2, 0.2, 0.2, 0.2];
-
-/// The largest difference of the momenta after the step and after two of half the size, relative to the momentum.
-const LARGEST_DIFFERENCE: f64 = 0.15;
+/// The largest difference of the momenta after a step and after its parts, relative to the momentum.
+const LARGEST_DIFFERENCE: f64 = 0.1;
 
 /// Sweeps that steps of a closure take at most where they are ordinary.
 const ORDINARY_SWEEPS: u32 = 14;
 
-/// A point of a step, and the defects of its rates there.
-struct Point<V> {
-    /// From the middle, in step sizes.
-    at: f64,
-    momentum: V,
-    x: V,
-    p: V,
-}
+/// exp(x), and the momentum after the step.
+pub(super) type Moved<G> = (<G as LieGroup>::Element, <G as LieGroup>::Vector);
 
-/// The reason if a step is not followed.
-enum Lost<V> {
-    /// This measure exceeds this limit.
-    Measured(f64, f64),
-    /// The gradient is not finite at this time and momentum.
-    Undefined(f64, V),
-}
-
-/// The integrals of the defects so far, and how many points have been looked at.
-struct Course<V> {
-    x: V,
-    p: V,
-    points: u32,
-}
-
-impl<G, E, const M: usize> Collocation<G, E, M>
+impl<G, E, const M: usize> Equations<'_, G, E, M>
 where
     G: LieGroup<Scalar = f64>,
     E: Energy<G::Vector>,
 {
-    /// True for a solved step that may be wrong although its nodes do not show it: where the arguments of
-    /// H's functions go far from node to node. Of a closure that is not known, and steps without a step before them, or that took
-    /// many sweeps, or whose `measure`, as a share of its limit, is near it, count instead.
-    pub(super) fn is_unusual(
+    /// The step of an attempt: solved, in the chart, with velocities that the nodes resolve, and with the end of its parts where it is
+    /// not an ordinary step. One from a cold guess has no steps before it.
+    pub(super) fn judge(
         &self,
-        mu: &G::Vector,
-        middle: f64,
         attempt: &Attempt<G::Vector, M>,
-        measure: f64,
-    ) -> bool {
-        let dim = mu.dim();
-        let nodes = &Self::NODES;
-        let limit = LARGEST_REACH[M - 1];
-        let start = self.step().times_plus(-0.5, middle);
-        let mut last = (start, mu.clone());
-        let mut unusual = false;
-        for node in 0..=M {
-            let next = match node == M {
-                // The polynomial through the start and the nodes, at the end.
-                true => {
-                    let ahead: G::Vector = total(dim, &nodes.ahead, &attempt.momenta);
-                    let sign = if M.is_multiple_of(2) { 1.0 } else { -1.0 };
-                    let end = G::Vector::from_entries(dim, |i| mu[i].times_plus(sign, ahead[i]));
-                    (self.step().times_plus(0.5, middle), end)
-                }
-                false => {
-                    let time = nodes.times[node].times_plus(self.step(), middle);
-                    (time, G::Vector::at::<M>(dim, &attempt.momenta, node))
-                }
-            };
-            match self.energy().reach((last.0, &last.1), (next.0, &next.1)) {
-                Some(square) => unusual |= square.is_nan() || square > limit,
-                None => {
-                    let cold = self.noted == 0;
-                    return cold || attempt.sweeps > ORDINARY_SWEEPS || measure > NEAR_LIMIT;
-                }
-            }
-            last = next;
+        cold: bool,
+    ) -> Result<Moved<G>, StepError> {
+        let (moved, measure) = self.resolve(attempt)?;
+        if self.ordinary(attempt, &moved.1, measure, cold).is_err() {
+            self.follow(attempt, &moved.1)?;
         }
-        unusual
+        Ok(moved)
     }
 
-    /// Follows a solved step: between its nodes the polynomial through them has to solve the equations of motion too, however finely
-    /// one has to look so that the functions of H vary little from point to point; and two steps of half the size have to lead to
-    /// the same momentum.
-    ///
-    /// # Errors
-    /// The first measure that is too large, or a gradient that is not finite.
+    /// Checks that parts of a step, each an ordinary one, lead to its end: to about this momentum, and as near to it as H's
+    /// functions ask for.
     #[cold]
-    pub(super) fn follow(
-        &self,
-        mu: &G::Vector,
-        middle: f64,
-        attempt: &Attempt<G::Vector, M>,
-        at: Circumstances,
-    ) -> Result<(), StepError> {
-        self.followed(mu, middle, attempt).map_err(|lost| match lost {
-            Lost::Measured(tail, limit) => StepError::Unresolved { tail, limit, at },
-            Lost::Undefined(time, node) => self.undefined(mu, time, &node, at),
-        })
+    fn follow(&self, attempt: &Attempt<G::Vector, M>, end: &G::Vector) -> Result<(), StepError> {
+        let time = self.step.times_plus(0.5, self.middle);
+        let known = self.energy.reach((time, end), (time, end)).is_some();
+        let parts = self.in_parts(LEAST[usize::from(!known)], MOST)?;
+        let size = self.mu.largest_entry();
+        let scale = if size > 0.0 { size } else { 1.0 };
+        let difference = end.clone().minus(&parts).largest_entry() / scale;
+        let square = self.energy.reach((time, end), (time, &parts)).unwrap_or(0.0);
+        within(attempt, difference, LARGEST_DIFFERENCE)?;
+        within(attempt, square, LARGEST_REACH[M - 1])
     }
 
-    fn followed(
+    /// The momentum after parts that are ordinary steps, made by this many halvings at least and at most.
+    fn in_parts(&self, least: u32, most: u32) -> Result<G::Vector, StepError> {
+        if least == 0 {
+            let attempt = self.solve(Rates::zero(self.mu.dim()));
+            let made = self.resolve(&attempt).and_then(|((_, end), measure)| {
+                self.ordinary(&attempt, &end, measure, false).map(|()| end)
+            });
+            if made.is_ok() || most == 0 {
+                return made;
+            }
+        }
+        let half = |mu: &G::Vector, part: f64| {
+            let (step, middle) = (0.5 * self.step, part.times_plus(self.step, self.middle));
+            let equations = Equations::<G, E, M> { mu, middle, step, ..*self };
+            equations.in_parts(least.saturating_sub(1), most - 1)
+        };
+        half(&half(self.mu, -0.25)?, 0.25)
+    }
+
+    /// Checks that an attempt is solved, in the chart and resolved by its nodes: where to it moves, and its measure as a share of the limit.
+    fn resolve(&self, attempt: &Attempt<G::Vector, M>) -> Result<(Moved<G>, f64), StepError> {
+        let at = circumstances(attempt);
+        match &attempt.ending {
+            Ending::Solved => {}
+            Ending::NotConverged => {
+                let Attempt { sweeps, residual, .. } = *attempt;
+                return Err(StepError::NotConverged { iterations: sweeps, residual, at });
+            }
+            Ending::Undefined(time, node) => return Err(self.undefined(*time, node, at)),
+        }
+        let extent = self.group.exp_extent(&attempt.x);
+        if extent.is_nan() || extent > 1.0 {
+            return Err(StepError::OutsideChart { extent: extent.simd_sqrt(), at });
+        }
+        let limit = LARGEST_TAIL[M - 1];
+        let [tail, force] = match M {
+            1 => [self.bend(attempt), 0.0],
+            _ => self.tails(&attempt.rates),
+        };
+        within(attempt, tail, limit)?;
+        within(attempt, force, LARGEST_FORCE)?;
+        let moved = self.group.exp_transport(&attempt.x, self.mu);
+        Ok((moved, (tail / limit).max(force / LARGEST_FORCE)))
+    }
+
+    /// Checks that a solved step cannot be wrong without its nodes showing it: that the arguments of H's functions go not far from the start
+    /// to the first node, from node to node, and to the end. Of a closure that is not known, and steps from a cold guess, or that took
+    /// many sweeps, or whose measure is near its limit, are not ordinary instead.
+    fn ordinary(
         &self,
-        mu: &G::Vector,
-        middle: f64,
         attempt: &Attempt<G::Vector, M>,
-    ) -> Result<(), Lost<G::Vector>> {
-        let dim = mu.dim();
-        let p = self.group().dexp_transpose(&attempt.x, mu);
-        let point = |at| self.point(mu, middle, &p, attempt, at);
-        let mut last = point(-0.5)?;
-        let known = self.energy().reach((middle, mu), (middle, mu)).is_some();
-        let parts = PARTS[usize::from(!known)];
-        let mut course = Course { x: G::Vector::zeros(dim), p: G::Vector::zeros(dim), points: 1 };
-        for part in 1..=parts {
-            let next = point(part as f64 / parts as f64 - 0.5)?;
-            self.pass(middle, &point, (&last, &next), HALVINGS, &mut course)?;
+        end: &G::Vector,
+        measure: f64,
+        cold: bool,
+    ) -> Result<(), StepError> {
+        let dim = self.mu.dim();
+        let time = |at: f64| at.times_plus(self.step, self.middle);
+        let mut last = (time(-0.5), self.mu.clone());
+        for node in 0..=M {
+            let next = match node {
+                node if node < M => {
+                    let momentum = G::Vector::at::<M>(dim, &attempt.momenta, node);
+                    (time(Self::NODES.times[node]), momentum)
+                }
+                _ => (time(0.5), end.clone()),
+            };
+            match self.energy.reach((last.0, &last.1), (next.0, &next.1)) {
+                Some(square) => within(attempt, square, LARGEST_REACH[M - 1])?,
+                None if cold || attempt.sweeps > ORDINARY_SWEEPS => {
+                    return within(attempt, f64::INFINITY, NEAR_LIMIT);
+                }
+                None => return within(attempt, measure, NEAR_LIMIT),
+            }
             last = next;
         }
-        // The end itself, from which the polynomials are a little away.
-        let (_, end) = self.group().exp_transport(&attempt.x, mu);
-        let time = self.step().times_plus(0.5, middle);
-        let omega = self.energy().gradient(time, &end);
-        if (0..dim).any(|i| !omega[i].all_finite()) {
-            return Err(Lost::Undefined(time, end));
-        }
-        if let Some(square) = self.energy().reach((time, &last.momentum), (time, &end)) {
-            within(square, LARGEST_REACH[M - 1])?;
-        }
-        let mut half = mu.clone();
-        for part in [-0.25, 0.25] {
-            let step = 0.5 * self.step();
-            let middle = part.times_plus(self.step(), middle);
-            let (group, energy) = (self.group(), self.energy());
-            let equations = Equations { group, energy, mu: &half, middle, step };
-            let Attempt { x, ending, residual, .. } = equations.solve(Rates::<_, M>::zero(dim));
-            match ending {
-                Ending::Solved => {}
-                Ending::NotConverged => return Err(Lost::Measured(residual, LARGEST_DIFFERENCE)),
-                Ending::Undefined(time, mu) => return Err(Lost::Undefined(time, mu)),
-            }
-            half = self.group().exp_transport(&x, &half).1;
-        }
-        within(end.minus(&half).largest_entry() / scale(mu), LARGEST_DIFFERENCE)
+        Ok(())
     }
 
-    /// Goes on from one point to another, by halves where the functions of H vary much between them.
-    fn pass<F>(
-        &self,
-        middle: f64,
-        point: &F,
-        (from, to): (&Point<G::Vector>, &Point<G::Vector>),
-        halvings: u32,
-        course: &mut Course<G::Vector>,
-    ) -> Result<(), Lost<G::Vector>>
-    where
-        F: Fn(f64) -> Result<Point<G::Vector>, Lost<G::Vector>>,
-    {
-        let time = |point: &Point<G::Vector>| point.at.times_plus(self.step(), middle);
-        let reach = self.energy().reach((time(from), &from.momentum), (time(to), &to.momentum));
-        if halvings > 0 && reach.is_some_and(|square| square.is_nan() || square > FINE) {
-            course.points += 1;
-            if course.points > MOST {
-                return Err(Lost::Measured(f64::INFINITY, LARGEST_DEFECT));
-            }
-            let between = point(0.5 * (from.at + to.at))?;
-            self.pass(middle, point, (from, &between), halvings - 1, course)?;
-            return self.pass(middle, point, (&between, to), halvings - 1, course);
-        }
-        let weight = 0.5 * (to.at - from.at);
-        let add = |sum: &G::Vector, a: &G::Vector, b: &G::Vector| {
-            G::Vector::from_entries(sum.dim(), |i| (a[i] + b[i]).times_plus(weight, sum[i]))
-        };
-        course.x = add(&course.x, &from.x, &to.x);
-        course.p = add(&course.p, &from.p, &to.p);
-        let limit = LARGEST_INTEGRAL[M - 1];
-        within(course.x.largest_entry(), limit)?;
-        within(course.p.largest_entry(), limit)
+    /// The highest polynomials through two nodes and more: of the velocity, as a share of it, and of the force, times the
+    /// step and relative to the momentum.
+    fn tails(&self, rates: &Rates<G::Vector, M>) -> [f64; 2] {
+        let dim = self.mu.dim();
+        let [x, p] = [&rates.x, &rates.p].map(|rows| {
+            let part: G::Vector = total(dim, &Self::NODES.highest, rows);
+            part.largest_entry()
+        });
+        let share = |part, whole| if part == 0.0 { 0.0 } else { part / whole };
+        [share(x, largest::<G::Vector, M>(dim, &rates.x)), share(p, self.mu.largest_entry())]
     }
 
-    /// The momentum on the polynomials at a time, and the defects of the rates there.
-    ///
-    /// # Errors
-    /// The gradient is not finite, or a defect is too large.
-    fn point(
-        &self,
-        mu: &G::Vector,
-        middle: f64,
-        p: &G::Vector,
-        attempt: &Attempt<G::Vector, M>,
-        at: f64,
-    ) -> Result<Point<G::Vector>, Lost<G::Vector>> {
-        let (dim, degree) = (mu.dim(), degree(M));
-        let [values, integrals] = Self::NODES.at(at);
-        let [rate, force] = [&attempt.rates.x, &attempt.rates.p]
-            .map(|rows| total::<G::Vector, M>(dim, &values, rows));
-        let [x, moved] = [&attempt.rates.x, &attempt.rates.p]
-            .map(|rows| total::<G::Vector, M>(dim, &integrals, rows));
-        let one = |vector: G::Vector| G::Vector::by_node::<1>(dim, |_| vector.clone());
-        let p = G::Vector::from_entries(dim, |i| p[i] + moved[i]);
-        let (x, p) = (one(x), one(p));
-        let momenta = self.group().node_momenta::<1>(&x, &p, degree);
-        let momentum = G::Vector::at::<1>(dim, &momenta, 0);
-        let time = at.times_plus(self.step(), middle);
-        let omega = self.energy().gradient(time, &momentum);
-        if (0..dim).any(|i| !omega[i].all_finite()) {
-            return Err(Lost::Undefined(time, momentum));
+    /// The error of a step with one node, about, which has no polynomial to show it: the product of its velocity, of its
+    /// force f relative to the momentum, and of what the force changes: the velocity, by the gain of the equations, and
+    /// the momentum, by f. All are times the step, so this is of third order. The gain is that at the first guess as long as
+    /// this is far below its limit, else that at the solution.
+    fn bend(&self, attempt: &Attempt<G::Vector, M>) -> f64 {
+        let size = |rows| largest::<G::Vector, M>(self.mu.dim(), rows);
+        let force = size(&attempt.rates.p);
+        if force == 0.0 {
+            return 0.0;
         }
-        let omega = one(G::Vector::from_entries(dim, |i| omega[i] * self.step()));
-        let [x, p] = self.group().node_rates::<1>(&x, &p, &omega, degree);
-        let x = G::Vector::from_entries(dim, |i| x[i][0] - rate[i]);
-        let scale = scale(mu);
-        let p = G::Vector::from_entries(dim, |i| (p[i][0] - force[i]) / scale);
-        within(x.largest_entry(), LARGEST_DEFECT)?;
-        within(p.largest_entry(), LARGEST_DEFECT)?;
-        Ok(Point { at, momentum, x, p })
+        let force = force / self.mu.largest_entry();
+        let bend = |gain: f64| force * size(&attempt.rates.x) * (gain + force);
+        let about = bend(attempt.gain);
+        match about <= NEAR_LIMIT * LARGEST_TAIL[0] {
+            true => about,
+            false => bend(self.gain(&attempt.x)),
+        }
+    }
+
+    /// The error of a gradient that is not finite at a node.
+    #[cold]
+    fn undefined(&self, time: f64, node: &G::Vector, at: Circumstances) -> StepError {
+        let known = self.energy.undefined(time, node);
+        let Undefined { expression, argument } = known.unwrap_or(UNKNOWN);
+        let at = (node != self.mu).then_some(at);
+        StepError::Undefined { expression, argument, time, at }
     }
 }
 
-/// The largest coordinate of a momentum, to which others are relative; 1 where it is 0.
-fn scale<V: Coordinates<f64>>(mu: &V) -> f64 {
-    let size = mu.largest_entry();
-    if size > 0.0 { size } else { 1.0 }
+fn circumstances<V: Coordinates<f64>, const M: usize>(attempt: &Attempt<V, M>) -> Circumstances {
+    Circumstances { x: attempt.x.largest_entry(), ratio: 0.0, usable_step: None }
 }
 
-/// # Errors
-/// A measure exceeds its limit, or is not a number.
-fn within<V>(measure: f64, limit: f64) -> Result<(), Lost<V>> {
-    if measure <= limit { Ok(()) } else { Err(Lost::Measured(measure, limit)) }
+/// Checks that a measure of an attempt is a number within its limit.
+fn within<V: Coordinates<f64>, const M: usize>(
+    attempt: &Attempt<V, M>,
+    tail: f64,
+    limit: f64,
+) -> Result<(), StepError> {
+    match tail <= limit {
+        true => Ok(()),
+        false => Err(StepError::Unresolved { tail, limit, at: circumstances(attempt) }),
+    }
 }

@@ -26,20 +26,17 @@ pub use damping::Damping;
 pub use energy::{Energy, Undefined};
 pub use solution::{Node, Solution};
 
-use coadjoint_program::collocation::{
-    KEPT, KEPT_LONG, LARGEST_FORCE, LARGEST_TAIL, LONG, NEAR_LIMIT, Nodes,
-};
-use nalgebra::SimdComplexField;
-
-use crate::error::{Circumstances, StepError, Stopped};
+use crate::error::{StepError, Stopped};
 use crate::group::LieGroup;
 use crate::group::phase::Phase;
 use crate::linear::coordinates::Coordinates;
 use crate::number::Scalar;
 use crate::step::{StepReport, check};
+use coadjoint_program::collocation::{KEPT, KEPT_LONG, LONG};
 
-use rates::{Rates, largest, total};
-use solving::{Attempt, Ending, Equations};
+use following::Moved;
+use rates::{Rates, largest};
+use solving::{Attempt, Equations};
 
 /// Steps of size h of the flow of H(t, μ), by collocation at `M` nodes (1 to 8): order 2M.
 ///
@@ -84,8 +81,6 @@ where
     G: LieGroup<Scalar = f64>,
     E: Energy<G::Vector>,
 {
-    const NODES: Nodes<M> = Nodes::new();
-
     /// Steps of size `step`, which may be negative, of the flow of `energy` on a group.
     ///
     /// # Errors
@@ -132,19 +127,19 @@ where
             self.noted = 0;
         }
         let middle = self.step.times_plus(0.5, time);
-        let attempt = if self.noted > 0 {
-            let attempt = self.equations(mu, middle).solve(self.guess(mu.dim()));
-            match self.judge(mu, middle, &attempt) {
-                Ok(()) => attempt,
+        let (attempt, (increment, momentum)) = if self.noted > 0 {
+            let equations = self.equations(mu, middle);
+            let attempt = equations.solve(self.guess(mu.dim()));
+            match equations.judge(&attempt, false) {
+                Ok(moved) => (attempt, moved),
                 Err(_) => self.anew(mu, middle)?,
             }
         } else {
             self.anew(mu, middle)?
         };
-        let Attempt { rates, x, sweeps, residual, .. } = attempt;
-        let (increment, moved) = self.group.exp_transport(&x, mu);
+        let Attempt { rates, sweeps, residual, .. } = attempt;
         let element = self.group.compose(&phase.group_element, &increment);
-        let next = Phase { group_element: element, momentum: moved };
+        let next = Phase { group_element: element, momentum };
         check(&self.group, &next)?;
         self.end = Some(next.momentum.clone());
         *phase = next;
@@ -181,11 +176,16 @@ where
 
     /// The step from a guess that knows no steps before it.
     #[cold]
-    fn anew(&mut self, mu: &G::Vector, middle: f64) -> Result<Attempt<G::Vector, M>, StepError> {
+    fn anew(
+        &mut self,
+        mu: &G::Vector,
+        middle: f64,
+    ) -> Result<(Attempt<G::Vector, M>, Moved<G>), StepError> {
         self.noted = 0;
-        let attempt = self.equations(mu, middle).solve(Rates::zero(mu.dim()));
-        self.judge(mu, middle, &attempt)?;
-        Ok(attempt)
+        let equations = self.equations(mu, middle);
+        let attempt = equations.solve(Rates::zero(mu.dim()));
+        let moved = equations.judge(&attempt, true)?;
+        Ok((attempt, moved))
     }
 
     /// The rates of the steps before, extrapolated by the polynomial through them.
@@ -202,88 +202,5 @@ where
             }
         }
         guess
-    }
-
-    /// Checks that an attempt is the step: solved, in the chart, and with velocities that the nodes resolve, between which it is followed
-    /// where it is no ordinary step.
-    fn judge(
-        &self,
-        mu: &G::Vector,
-        middle: f64,
-        attempt: &Attempt<G::Vector, M>,
-    ) -> Result<(), StepError> {
-        let at = Circumstances { x: attempt.x.largest_entry(), ratio: 0.0, usable_step: None };
-        match &attempt.ending {
-            Ending::Solved => {}
-            Ending::NotConverged => {
-                let Attempt { sweeps, residual, .. } = *attempt;
-                return Err(StepError::NotConverged { iterations: sweeps, residual, at });
-            }
-            Ending::Undefined(time, node) => return Err(self.undefined(mu, *time, node, at)),
-        }
-        let extent = self.group.exp_extent(&attempt.x);
-        if extent.is_nan() || extent > 1.0 {
-            return Err(StepError::OutsideChart { extent: extent.simd_sqrt(), at });
-        }
-        let limit = LARGEST_TAIL[M - 1];
-        let [tail, force] = match M {
-            1 => [self.bend(mu, middle, attempt), 0.0],
-            _ => self.tails(mu, &attempt.rates),
-        };
-        for (tail, limit) in [(tail, limit), (force, LARGEST_FORCE)] {
-            if tail.is_nan() || tail > limit {
-                return Err(StepError::Unresolved { tail, limit, at });
-            }
-        }
-        if !self.is_unusual(mu, middle, attempt, (tail / limit).max(force / LARGEST_FORCE)) {
-            return Ok(());
-        }
-        self.follow(mu, middle, attempt, at)
-    }
-
-    /// The highest polynomials through two nodes and more: of the velocity, as a share of it, and of the force, times the
-    /// step and relative to the momentum.
-    fn tails(&self, mu: &G::Vector, rates: &Rates<G::Vector, M>) -> [f64; 2] {
-        let dim = mu.dim();
-        let [x, p] = [&rates.x, &rates.p].map(|rows| {
-            let part: G::Vector = total(dim, &Self::NODES.highest, rows);
-            part.largest_entry()
-        });
-        let share = |part, whole| if part == 0.0 { 0.0 } else { part / whole };
-        [share(x, largest::<G::Vector, M>(dim, &rates.x)), share(p, mu.largest_entry())]
-    }
-
-    /// The error of a step with one node, about, which has no polynomial to show it: the product of its velocity, of its
-    /// force f relative to the momentum, and of what the force changes: the velocity, by the gain of the equations, and
-    /// the momentum, by f. All are times the step, so this is of third order. The gain is that at the first guess as long as
-    /// this is far below its limit, else that at the solution.
-    fn bend(&self, mu: &G::Vector, middle: f64, attempt: &Attempt<G::Vector, M>) -> f64 {
-        let size = |rows| largest::<G::Vector, M>(mu.dim(), rows);
-        let force = size(&attempt.rates.p);
-        if force == 0.0 {
-            return 0.0;
-        }
-        let force = force / mu.largest_entry();
-        let bend = |gain: f64| force * size(&attempt.rates.x) * (gain + force);
-        let about = bend(attempt.gain);
-        match about <= NEAR_LIMIT * LARGEST_TAIL[0] {
-            true => about,
-            false => bend(self.equations(mu, middle).gain(&attempt.x)),
-        }
-    }
-
-    /// The error of a gradient that is not finite at a node.
-    #[cold]
-    fn undefined(
-        &self,
-        mu: &G::Vector,
-        time: f64,
-        node: &G::Vector,
-        at: Circumstances,
-    ) -> StepError {
-        let known = self.energy.undefined(time, node);
-        let Undefined { expression, argument } = known.unwrap_or(energy::UNKNOWN);
-        let at = (node != mu).then_some(at);
-        StepError::Undefined { expression, argument, time, at }
     }
 }

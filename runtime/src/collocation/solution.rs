@@ -48,10 +48,11 @@ where
     /// [`StepError`], as [`Collocation::advance`].
     pub fn solution(&self, mu: &G::Vector, time: f64) -> Result<Solution<G::Vector, M>, StepError> {
         let (dim, middle) = (mu.dim(), self.step().times_plus(0.5, time));
-        let attempt = self.equations(mu, middle).solve(Rates::zero(dim));
-        self.judge(mu, middle, &attempt)?;
+        let equations = self.equations(mu, middle);
+        let attempt = equations.solve(Rates::zero(dim));
+        equations.judge(&attempt, true)?;
         let Attempt { rates, x, .. } = attempt;
-        let Nodes { times, weights, matrix, .. } = Self::NODES;
+        let Nodes { times, weights, matrix, .. } = Nodes::<M>::new();
         let p = self.group().dexp_transpose(&x, mu);
         let xs = mixed(&G::Vector::zeros(dim), &matrix, &rates.x);
         let ps = mixed(&p, &matrix, &rates.p);

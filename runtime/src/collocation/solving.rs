@@ -58,7 +58,7 @@ where
     G: LieGroup<Scalar = f64>,
     E: Energy<G::Vector>,
 {
-    const NODES: Nodes<M> = Nodes::new();
+    pub(super) const NODES: Nodes<M> = Nodes::new();
 
     /// Solves the equations from a first guess of the rates.
     #[inline(always)]

@@ -3,7 +3,7 @@
 //!
 //! The numbers solved for are hẋᵢ of all nodes, then hṗᵢ of all, then the residual of the sweep before. A solution is read as x, two
 //! measures of how well the nodes resolve the step, each as a share of its limit, the rates, and the momenta at the nodes. Steps leave differences of
-//! their rates to the next one, beside the group element. Steps that are not ordinary ones are refused: the runtime follows them.
+//! their rates to the next one, beside the group element. Steps that are not ordinary ones are refused: the runtime makes them in parts.
 
 use coadjoint_program::collocation::{
     KEPT, KEPT_LONG, LARGEST_FORCE, LARGEST_MODEL, LARGEST_REACH, LARGEST_TAIL, LONG, MAX_SWEEPS,
@@ -31,19 +31,17 @@ struct Gauss {
     /// By the node from which the weight is, then by the node to which it leads.
     matrix: Vec<Vec<f64>>,
     highest: Vec<f64>,
-    ahead: Vec<f64>,
 }
 
 impl Gauss {
     fn new(nodes: usize) -> Self {
         fn of<const M: usize>() -> Gauss {
-            let Nodes { times, weights, matrix, highest, ahead } = Nodes::<M>::new();
+            let Nodes { times, weights, matrix, highest } = Nodes::<M>::new();
             Gauss {
                 times: times.to_vec(),
                 weights: weights.to_vec(),
                 matrix: matrix.iter().map(|row| row.to_vec()).collect(),
                 highest: highest.to_vec(),
-                ahead: ahead.to_vec(),
             }
         }
         match nodes {
@@ -401,14 +399,12 @@ impl<'a> Collocation<'a> {
     }
 
     /// The square of the farthest way that an argument of H's functions goes from the start to a node, from node to node, and to
-    /// the end, where the polynomial through them goes.
-    fn reach(&self, graph: &Graph, mu: &[Id], momenta: &Rows) -> Id {
-        let (nodes, zeros) = (self.nodes(), vec![graph.zero(); self.n]);
-        let ahead = mixed(graph, &zeros, |j| self.gauss.ahead[j], momenta);
-        let end = plus(graph, &ahead, if nodes.is_multiple_of(2) { 1.0 } else { -1.0 }, mu);
+    /// the end.
+    fn reach(&self, graph: &Graph, mu: &[Id], momenta: &Rows, end: &[Id]) -> Id {
+        let nodes = self.nodes();
         // The time of the last node stands for that of the end.
         let stops = [(mu, 0)].into_iter().chain(momenta.iter().map(Vec::as_slice).zip(2..));
-        let stops: Vec<_> = stops.chain([(&end[..], 1 + nodes)]).collect();
+        let stops: Vec<_> = stops.chain([(end, 1 + nodes)]).collect();
         let squares = stops.windows(2).flat_map(|pair| {
             let inputs = pair.iter().flat_map(|&(mu, time)| self.inputs_at(graph, mu, time));
             graph.call(&self.smooth.reach, &inputs.collect::<Vec<_>>())
@@ -492,8 +488,8 @@ impl<'a> Collocation<'a> {
         let (graph, n) = (Graph::new(), self.n);
         let momenta = n + MEASURES + self.rates();
         let solution = inputs(&graph, n, momenta + n * self.nodes());
-        let end = n + solution.len();
-        let [left, distance] = [end, end + 1].map(|i| graph.input(i));
+        let last = n + solution.len();
+        let [left, distance] = [last, last + 1].map(|i| graph.input(i));
         let tolerance = graph.constant(SOLVED / f64::EPSILON);
         let tolerance = graph.mul(tolerance, graph.epsilon());
         let (zero, one) = (graph.zero(), graph.constant(1.0));
@@ -502,9 +498,11 @@ impl<'a> Collocation<'a> {
         let measures = solution[n..n + MEASURES].iter().map(|&measure| (measure, one));
         let tests = [(left, tolerance), (distance, zero), (extent, one)].into_iter();
         let nodes: Rows = solution[momenta..].chunks(n).map(<[Id]>::to_vec).collect();
-        let reach = self.reach(&graph, &inputs(&graph, 0, n), &nodes);
+        let (mu, anywhere) = (inputs(&graph, 0, n), vec![zero; self.group.element()]);
+        let end = self.group.transport(&graph, &anywhere, &solution[..n], &mu).mu;
+        let reach = self.reach(&graph, &mu, &nodes, &end);
         let tests: Vec<_> = tests.chain(measures).chain([(reach, one)]).collect();
-        graph.finish(end + 2, &[all_at_most(&graph, &tests)])
+        graph.finish(last + 2, &[all_at_most(&graph, &tests)])
     }
 
     /// g, μ, the solution ↦ the state moved by the increment, with the differences of the rates for the next step.

@@ -88,10 +88,14 @@ const MUTANTS: &[(&str, &[[&str; 2]])] = &[
     (
         "runtime/src/collocation/following.rs",
         &[
-            ["LARGEST_DEFECT: f64 = 0.5", "LARGEST_DEFECT: f64 = 50.0"],
-            ["HALVINGS: u32 = 8", "HALVINGS: u32 = 0"],
-            ["cold || attempt.sweeps > ORDINARY_SWEEPS || measure > NEAR_LIMIT", "false"],
-            ["unusual |= square.is_nan() || square > limit", "unusual |= square.is_nan()"],
+            ["LEAST: [u32; 2] = [1, 4]", "LEAST: [u32; 2] = [0, 0]"],
+            ["MOST: u32 = 7", "MOST: u32 = 4"],
+            ["LARGEST_DIFFERENCE: f64 = 0.1", "LARGEST_DIFFERENCE: f64 = 10.0"],
+            ["None if cold || attempt.sweeps > ORDINARY_SWEEPS", "None if attempt.sweeps > 60"],
+            ["within(attempt, square, LARGEST_REACH[M - 1])?,", "{}"],
+            ["within(attempt, square, LARGEST_REACH[M - 1])\n", "Ok(())\n"],
+            ["self.follow(attempt, &moved.1)?;", ""],
+            ["(time(0.5), end.clone())", "last.clone()"],
         ],
     ),
     (

@@ -42,6 +42,8 @@ pub const KINDS: [(Wrong, &str); 10] = [
 pub struct Tally {
     pub accepted: u64,
     pub refused: u64,
+    /// Steps among them that would have been right, where it is asked.
+    pub right: u64,
     /// Steps among them that must be accepted.
     pub promised: u64,
     /// Right x made wrong on purpose, by more than rounding.
@@ -75,6 +77,7 @@ impl Tally {
     pub fn add(&mut self, other: Self) {
         self.accepted += other.accepted;
         self.refused += other.refused;
+        self.right += other.right;
         self.promised += other.promised;
         self.spoilt += other.spoilt;
         self.unsure += other.unsure;
@@ -118,8 +121,8 @@ pub fn report(tallies: &[(String, Tally)]) -> String {
     let mut out = String::new();
     let _ = write!(
         out,
-        "{:<24} {:>9} {:>9} {:>8} {:>7}",
-        "family", "accepted", "refused", "promised", "spoilt"
+        "{:<24} {:>9} {:>9} {:>7} {:>8} {:>7}",
+        "family", "accepted", "refused", "right", "promised", "spoilt"
     );
     for (_, heading) in KINDS {
         let _ = write!(out, " {heading:>8}");
@@ -150,8 +153,8 @@ pub fn report(tallies: &[(String, Tally)]) -> String {
 fn row(out: &mut String, name: &str, tally: &Tally) {
     let _ = write!(
         out,
-        "{name:<24} {:>9} {:>9} {:>8} {:>7}",
-        tally.accepted, tally.refused, tally.promised, tally.spoilt
+        "{name:<24} {:>9} {:>9} {:>7} {:>8} {:>7}",
+        tally.accepted, tally.refused, tally.right, tally.promised, tally.spoilt
     );
     for count in tally.wrong {
         let _ = write!(out, " {count:>8}");
