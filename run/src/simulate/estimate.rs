@@ -25,7 +25,7 @@ const FEW: f64 = 3.0;
 /// Two runs that are this far apart do not say where the motion ends.
 const UNRESOLVED: f64 = 0.1;
 /// The share of a unit of rounding by which each step may add to the error.
-const ROUNDING: f64 = 0.125;
+const ROUNDING: f64 = 0.5;
 /// An error above this is worth a warning.
 pub const LARGE: f64 = 0.01;
 
