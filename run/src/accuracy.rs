@@ -3,7 +3,6 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use coadjoint::StepError;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::in_other_frame;
 use coadjoint_codegen::problem::Problem;
@@ -14,11 +13,11 @@ use coadjoint_program::Trajectories;
 
 use crate::asked::Accuracy;
 use crate::backend::Backend;
-use crate::engine::{Compiled, Motion, Numbers, identity};
+use crate::engine::{Compiled, Numbers, identity};
 use crate::error::RunError;
 use crate::grid::Grid;
 use crate::load::{Derived, System};
-use crate::simulate::error_of;
+use crate::simulate::{Maker, error_of};
 
 /// The limit of a series while a truncation is chosen.
 const AFFORDABLE: TermLimit = TermLimit { terms: 20_000, products: 2_000_000 };
@@ -191,17 +190,11 @@ impl<'a> Trial<'a> {
         Self { derived, compiled, parameters, starts, t0, duration }
     }
 
-    /// Steps of this size.
-    fn motion(&self, step: f64) -> Result<Box<dyn Motion + '_>, StepError> {
-        let grid = Grid { start: self.t0, step };
-        self.derived.varied(grid, &self.parameters, self.compiled.as_ref())
-    }
-
     /// A step that divides the duration, from that of the choice on downwards, whose error meets the goal as that of the one tried
     /// before it does; and the error. If there is none, the step of the smallest error. Errors of motions that are steep somewhere
     /// depend on where steps end there, so that a single run may meet the goal by chance.
     fn step(&self, choice: &Choice, goal: f64) -> Option<(f64, f64)> {
-        let order = f64::from(self.derived.power());
+        let order = f64::from(self.derived.order());
         let longest = if self.derived.moves() { self.duration / SEEN } else { self.duration };
         let (mut next, mut before) = (choice.step.min(longest), choice.error);
         let (mut nearest, mut stuck): (Option<(f64, f64)>, _) = (None, 0);
@@ -228,22 +221,17 @@ impl<'a> Trial<'a> {
 
     /// The largest error of the starts at the end; none where steps are refused, or the end is not resolved.
     fn error(&self, step: f64) -> Option<f64> {
+        let (compiled, grid) = (self.compiled.as_ref(), Grid { start: self.t0, step });
+        let maker = Maker { system: self.derived, parameters: &self.parameters, compiled };
         let steps = (self.duration / step).round() as u64;
-        let other = |size: f64| self.motion(step * size);
-        let method = (self.derived.power(), false);
+        let motion = maker.steps(grid).ok()?;
+        let g = motion.space().numbers(&identity(motion.space().size()));
         let mut worst = 0.0;
-        for start in &self.starts {
-            let start = self.state(start, step).ok()?;
-            let error = error_of(&other, &start, (steps, Grid { start: self.t0, step }), method);
+        for mu in &self.starts {
+            let start = Numbers { g: g.clone(), mu: mu.clone() };
+            let error = error_of(maker, &start, (steps, grid), false);
             worst = f64::max(worst, error.ok()?);
         }
         Some(worst)
-    }
-
-    /// The state with this momentum at the identity.
-    fn state(&self, mu: &[f64], step: f64) -> Result<Numbers, StepError> {
-        let motion = self.motion(step)?;
-        let space = motion.space();
-        Ok(Numbers { g: space.numbers(&identity(space.size())), mu: mu.to_vec() })
     }
 }

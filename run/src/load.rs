@@ -324,13 +324,6 @@ impl Derived {
         if self.damping.is_some() { 2 } else { self.origin.order() }
     }
 
-    /// The power of the step that errors follow: the order, or, with inputs by tables, at most 4, since the third derivatives of
-    /// their splines jump inside of steps.
-    pub(crate) fn power(&self) -> u32 {
-        let knots = if self.signals().is_empty() { u32::MAX } else { 4 };
-        self.order().min(knots)
-    }
-
     /// The method of a run, in a few words.
     pub fn label(&self) -> String {
         let damped = if self.damping.is_some() { ", damped" } else { "" };

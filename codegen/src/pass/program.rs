@@ -15,6 +15,8 @@ use crate::problem::Symbol;
 const LARGEST_POWER: u32 = 1000;
 /// The size of its argument beyond which tanh is constant to 3e-8; a large factor before it may make up for that.
 const SATURATED: f64 = 9.0;
+/// The scale of the exponential, which is 0 or infinite outside of these arguments.
+const EXPONENTIAL: Scale = Scale::Between(-745.2, 709.8);
 /// Expressions with longer texts are told apart by their ends.
 const LONGEST_TEXT: usize = 80;
 
@@ -32,10 +34,10 @@ pub(super) struct Lowered {
 /// The scale on which a function of an argument varies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Scale {
-    /// It varies by about itself when the argument changes by 1: the exponential, waves.
+    /// It varies by about itself when the argument changes by 1: waves.
     Unit,
-    /// It is constant beyond an argument of this size.
-    Bounded(f64),
+    /// As a unit, and it is constant outside of these arguments.
+    Between(f64, f64),
     /// It varies as the argument does beyond a size of about 1.
     Beyond,
     /// It varies as the argument does, with a pole or an edge where that is 0.
@@ -52,8 +54,8 @@ impl Scale {
         let way = squared(graph.sub(a, b));
         match self {
             Self::Unit => way,
-            Self::Bounded(limit) => {
-                let [low, high] = [-limit, limit].map(|limit| graph.constant(limit));
+            Self::Between(low, high) => {
+                let [low, high] = [low, high].map(|limit| graph.constant(limit));
                 let [a, b] = [a, b].map(|u| graph.max(graph.min(u, high), low));
                 squared(graph.sub(a, b))
             }
@@ -305,7 +307,8 @@ impl Pass<'_> {
         let scale = match elementary {
             Elementary::Ln => Scale::Ratio,
             Elementary::Atan => Scale::Beyond,
-            Elementary::Tanh => Scale::Bounded(SATURATED),
+            Elementary::Tanh => Scale::Between(-SATURATED, SATURATED),
+            Elementary::Exp => EXPONENTIAL,
             _ => Scale::Unit,
         };
         self.scales.push((scale, a));
@@ -357,7 +360,7 @@ impl Pass<'_> {
                 };
                 let b = self.number(b);
                 let product = self.graph.mul(b, logarithm);
-                self.scales.push((Scale::Unit, product));
+                self.scales.push((EXPONENTIAL, product));
                 Some(Value::Number(self.graph.function(Elementary::Exp, product)))
             }
         }

@@ -19,7 +19,7 @@ use crate::error::RunError;
 use crate::grid::Grid;
 use crate::load::{Derived, System};
 use crate::number::{maximum, shortest};
-use crate::simulate::{Stop, error_of};
+use crate::simulate::{Maker, Stop, error_of};
 
 /// The system as ensembles solve it: in lanes by Newton's method whatever the dimension, since its Hessian is then exact.
 ///
@@ -168,8 +168,6 @@ pub struct Engine<'a> {
     /// Rows of which the device has refused a step.
     redone: AtomicU64,
     invariants: Invariants,
-    /// The power of the step that errors follow.
-    order: u32,
     /// The numbers of the identity, where rows that give no attitude start.
     identity: Vec<f64>,
 }
@@ -205,20 +203,8 @@ impl<'a> Engine<'a> {
         let invariants =
             Invariants { hamiltonian: None, potential: None, ..system.invariants.clone() };
         let redone = AtomicU64::new(0);
-        let order = system.power();
         let parameters = system.facts().defaults();
-        Ok(Self {
-            system,
-            parameters,
-            grid,
-            motion,
-            compiled,
-            card,
-            redone,
-            invariants,
-            order,
-            identity,
-        })
+        Ok(Self { system, parameters, grid, motion, compiled, card, redone, invariants, identity })
     }
 
     /// The shape of a row.
@@ -424,12 +410,9 @@ impl<'a> Engine<'a> {
         let estimate = |row: &&[f64]| {
             let start = self.read(layout, row)?;
             let parameters = self.parameters(&places, &row[layout.state()..]);
-            let other = |size| {
-                let grid = Grid { step: self.grid.step * size, ..self.grid };
-                self.system.varied(grid, &parameters, self.compiled.as_ref())
-            };
-            let method = (self.order, true);
-            let found = error_of(&other, &start, (steps, self.grid), method);
+            let compiled = self.compiled.as_ref();
+            let maker = Maker { system: self.system, parameters: &parameters, compiled };
+            let found = error_of(maker, &start, (steps, self.grid), true);
             found.map_err(|why| why.to_string())
         };
         rows.par_iter().map(estimate).collect()

@@ -1,5 +1,6 @@
 //! The error at the end of a run, estimated by a second run over the whole time in steps of another size.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use coadjoint::StepError;
@@ -11,31 +12,50 @@ use super::recorder::Outcome;
 use super::sink::Sink;
 use super::tally::Warning;
 use super::unknown::Unknown;
-use crate::engine::{Motion, Numbers};
+use crate::engine::{Compiled, Motion, Numbers};
 use crate::grid::Grid;
+use crate::load::Derived;
 
 /// The steps of the second run as multiples of those of the run, and those of a third one where steps of the second are refused,
-/// or it ends too far away to tell. Neither is near a ratio of small numbers, so that no jump in time lies at the same place in
-/// steps of both.
+/// or it ends farther away than [`LARGE`]: it may pass over what the run sees. Neither is near a ratio of small numbers, so that
+/// no jump in time lies at the same place in steps of both.
 const RATIOS: [f64; 2] = [2.13, 0.78];
 /// Runs of fewer steps are judged by shorter ones alone.
 const FEW: f64 = 3.0;
 /// Two runs that are this far apart do not say where the motion ends.
 const UNRESOLVED: f64 = 0.1;
 /// The share of a unit of rounding by which each step may add to the error.
-const ROUNDING: f64 = 0.125;
+const ROUNDING: f64 = 0.5;
 /// An error above this is worth a warning.
 pub const LARGE: f64 = 0.01;
 
 /// The differences of two runs, each after a number of steps of the first.
 type Differences = Vec<(u64, f64)>;
 
+/// A system with values of the parameters that are kept, and its programs where there are any.
+#[derive(Clone, Copy)]
+pub(crate) struct Maker<'a> {
+    pub system: &'a Derived,
+    pub parameters: &'a [f64],
+    pub compiled: Option<&'a Arc<Compiled>>,
+}
+
+impl<'a> Maker<'a> {
+    /// Steps of this grid.
+    ///
+    /// # Errors
+    /// Fails if the step or the parameters make no sense.
+    pub(crate) fn steps(self, grid: Grid) -> Result<Box<dyn Motion + 'a>, StepError> {
+        self.system.varied(grid, self.parameters, self.compiled)
+    }
+}
+
 /// A run that has been made.
-pub(crate) struct Made<'a, 'm> {
+pub(crate) struct Made<'a> {
+    /// What makes steps of any size.
+    pub maker: Maker<'a>,
     /// The steps of the run.
     pub motion: &'a dyn Motion,
-    /// Makes steps of a size that is given as a multiple of the run's.
-    pub other: &'a dyn Fn(f64) -> Result<Box<dyn Motion + 'm>, StepError>,
     /// The states at its start and end.
     pub ends: [&'a Numbers; 2],
     /// The states on the way, as far as they are known.
@@ -46,24 +66,24 @@ pub(crate) struct Made<'a, 'm> {
     pub steps: f64,
     /// The times between the steps.
     pub grid: Grid,
-    /// The power of the step that errors follow.
-    pub order: u32,
     /// Asked from time to time whether to stop.
     pub stop: &'a dyn Fn() -> bool,
 }
 
-impl<'m> Made<'_, 'm> {
+impl Made<'_> {
     /// Estimates the error at the end: the larger of the relative errors of μ and of the matrix of g, in Euclidean norms.
     ///
     /// Beside the run goes one over the whole time, and Richardson's extrapolation of the difference at the end is the error
     /// (Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations I*, II.4). So it grows on the way as the motion lets
-    /// it grow. Below the rounding of one unit a step, truncation is not seen.
+    /// it grow. Below the rounding of one unit a step, truncation is not seen. Knots of inputs inside steps leave errors of
+    /// either sign, which longer steps, whose own are much larger, do not tell.
     ///
     /// # Errors
     /// The reason if it is not known.
     pub(crate) fn error(&self) -> Result<f64, Unknown> {
-        let first = usize::from(self.steps < FEW);
-        let (mut why, mut states) = (Unknown::REFUSED, Vec::new());
+        let first = usize::from(self.steps < FEW || !self.maker.system.signals().is_empty());
+        let order = self.maker.system.order() as i32;
+        let (mut found, mut states) = (Err(Unknown::REFUSED), Vec::new());
         for (number, &ratio) in RATIOS.iter().enumerate().skip(first) {
             // The last one also says when the two part.
             if number > 0 {
@@ -71,18 +91,22 @@ impl<'m> Made<'_, 'm> {
             }
             let Some((ratio, way)) = self.compare(ratio, &states)? else { continue };
             let difference = way.last().map_or(0.0, |(_, difference)| *difference);
-            if difference <= UNRESOLVED {
-                let truncation = difference / (ratio.powi(self.order as i32) - 1.0).abs();
+            found = if difference <= UNRESOLVED {
+                let truncation = difference / (ratio.powi(order) - 1.0).abs();
                 let rounding = ROUNDING * self.steps.ceil() * f64::EPSILON;
                 let moved = difference > 0.0 || self.apart(self.ends[0], self.ends[1]) > 0.0;
                 let least = if moved { 0.5 * f64::EPSILON } else { 0.0 };
-                return Ok(truncation.max(difference.min(rounding)).max(least));
+                Ok(truncation.max(difference.min(rounding)).max(least))
+            } else {
+                let near = |(_, difference): &&(u64, f64)| *difference <= UNRESOLVED;
+                let until = way.iter().take_while(near).last().map_or(0, |(place, _)| *place);
+                Err(Unknown::Unresolved { until: self.grid.time(until) })
+            };
+            if difference <= LARGE {
+                break;
             }
-            let near = |(_, difference): &&(u64, f64)| *difference <= UNRESOLVED;
-            let until = way.iter().take_while(near).last().map_or(0, |(place, _)| *place);
-            why = Unknown::Unresolved { until: self.grid.time(until) };
         }
-        Err(why)
+        found
     }
 
     /// Runs beside the run in steps of about this ratio, which it returns with the differences of the two after numbers of steps of
@@ -99,7 +123,7 @@ impl<'m> Made<'_, 'm> {
         }
         let ratio = self.steps / count as f64;
         let grid = Grid { step: ratio * self.grid.step, ..self.grid };
-        let Ok(motion) = (self.other)(ratio) else { return Ok(None) };
+        let Ok(motion) = self.maker.steps(grid) else { return Ok(None) };
         let steps = (motion.as_ref(), ratio < 1.0);
         let (mut state, mut at, mut way) = (self.ends[0].clone(), 0, Vec::new());
         for (place, kept) in states {
@@ -179,35 +203,34 @@ impl<'m> Made<'_, 'm> {
     }
 }
 
-/// Makes a run from this state in this number of steps, and estimates the error at its end. `other` makes steps of a size that is given
-/// as a multiple of those of the run. What its programs refuse is made by other means, which take long, only if `patient`.
+/// Makes a run from this state in this number of steps, and estimates the error at its end. What its programs refuse is made by
+/// other means, which take long, only if `patient`.
 ///
 /// # Errors
 /// The reason if it is not known.
-pub(crate) fn error_of<'m>(
-    other: &dyn Fn(f64) -> Result<Box<dyn Motion + 'm>, StepError>,
+pub(crate) fn error_of(
+    maker: Maker<'_>,
     start: &Numbers,
     (steps, grid): (u64, Grid),
-    (order, patient): (u32, bool),
+    patient: bool,
 ) -> Result<f64, Unknown> {
     const REFUSED: Unknown = Unknown::Other("not known: a step of the run is refused");
     let stop = || {
         cancel::check();
         false
     };
-    let motion = other(1.0).map_err(|_| REFUSED)?;
+    let motion = maker.steps(grid).map_err(|_| REFUSED)?;
     let part = part(steps);
     let count = steps as f64;
     let mut end = start.clone();
     let run = Made {
+        maker,
         motion: motion.as_ref(),
-        other,
         ends: [start, start],
         kept: &[],
         part,
         steps: count,
         grid,
-        order,
         stop: &stop,
     };
     let (mut kept, mut at) = (Vec::new(), 0);

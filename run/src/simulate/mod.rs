@@ -19,7 +19,7 @@ pub(crate) use setup::not_an_element;
 
 pub use blocks::{Block, Kind, matrix, split};
 pub use estimate::LARGE;
-pub(crate) use estimate::error_of;
+pub(crate) use estimate::{Maker, error_of};
 pub use event::{Crossing, Direction, Event};
 pub use recorder::{Drift, Outcome, Scales, drifting};
 pub use run::{run, run_model};

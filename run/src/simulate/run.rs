@@ -13,7 +13,7 @@ use coadjoint_codegen::step::Invariants;
 use coadjoint_learn::{Generating, LearnError, Model, ModelFile};
 use coadjoint_program::Trajectories;
 
-use super::estimate::Made;
+use super::estimate::{Made, Maker};
 use super::march::Subject;
 use super::milestone::part;
 use super::recorder::{Outcome, Watched};
@@ -53,6 +53,7 @@ pub fn run(system: &Derived, setup: &Setup, sink: &mut dyn Sink) -> Result<Outco
     code.iter().flat_map(|code| code.notes()).for_each(|note| sink.warn(&note));
     let (mut outcome, end, mut kept) = made?;
     let parameters = facts.defaults();
+    let maker = Maker { system, parameters: &parameters, compiled: compiled.as_ref() };
     let found = if setup.estimate {
         let sink = RefCell::new(&mut *sink);
         // An event ends a run between two steps.
@@ -62,24 +63,20 @@ pub fn run(system: &Derived, setup: &Setup, sink: &mut dyn Sink) -> Result<Outco
         };
         kept.retain(|(place, _)| (*place as f64) < steps);
         let made = Made {
+            maker,
             motion: motion.as_ref(),
-            other: &|size| {
-                let grid = Grid { step: grid.step * size, ..grid };
-                system.varied(grid, &parameters, compiled.as_ref())
-            },
             ends: [&start, &end],
             kept: &kept,
             part: part(schedule.steps),
             steps,
             grid,
-            order: system.power(),
             stop: &|| sink.borrow_mut().stop(),
         };
         made.error()
     } else {
         Err(Unknown::OFF)
     };
-    let shorter = |step| system.varied(Grid { step, ..grid }, &parameters, compiled.as_ref());
+    let shorter = |step| maker.steps(Grid { step, ..grid });
     if let Some(warning) = slow(&outcome, grid.step, &start, shorter) {
         sink.warn(&warning.text());
         outcome.warnings.push(warning);
