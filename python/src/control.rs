@@ -94,7 +94,8 @@ pub fn work<T: Send + 'static>(
         } else if silent && since.get_or_insert_with(Instant::now).elapsed() > LONG {
             silent = false;
             let logger = py.import("logging")?.call_method1("getLogger", ("coadjoint",))?;
-            let what = "deriving the steps takes more than a second; the next run of this system has them";
+            let what =
+                "deriving the steps takes more than a second; the next run of this system has them";
             logger.call_method1("warning", (what,))?;
         }
         if let Some(progress) = progress.filter(|_| outcome.is_ok() && told.elapsed() >= TELL) {

@@ -321,8 +321,9 @@ impl Core {
         };
         let size = self.shape().matrix_size;
         let own = given.events.iter().cloned().map(Event::of);
-        let events: Vec<Event> =
-            own.chain(events.into_iter().map(|event| event.event(size, self.failures.clone()))).collect();
+        let events: Vec<Event> = own
+            .chain(events.into_iter().map(|event| event.event(size, self.failures.clone())))
+            .collect();
         let looked_for = events.len();
         let looks = looks.or(given.looks.map(|looks| looks as u32)).unwrap_or(1);
         let here = Self { system, ..self.here() };
