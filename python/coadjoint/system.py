@@ -430,7 +430,7 @@ class System:
             warnings.warn(text, CoadjointWarning, stacklevel=2)
         if facts["ratio"]:
             warnings.warn(hardly_converges(facts["ratio"]), CoadjointWarning, stacklevel=2)
-        for text in facts["drifted"]:
+        for text in facts["warnings"]:
             warnings.warn(text, CoadjointWarning, stacklevel=2)
         return found
 

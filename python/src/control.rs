@@ -13,6 +13,8 @@ use pyo3::prelude::*;
 const LOOK: Duration = Duration::from_millis(20);
 /// Work that is asked to stop is waited for this long; what has not come back by then ends unheard.
 const PATIENCE: Duration = Duration::from_millis(40);
+/// Deriving that takes longer is told to the logger `coadjoint`.
+const LONG: Duration = Duration::from_secs(1);
 /// The interval at which a listener is called.
 const TELL: Duration = Duration::from_millis(100);
 
@@ -25,6 +27,8 @@ pub struct Control {
     pub done: AtomicU64,
     /// Steps to be made; 0 while that is not known.
     pub total: AtomicU64,
+    /// True while steps are derived.
+    pub deriving: AtomicBool,
 }
 
 struct Shared<T> {
@@ -69,7 +73,7 @@ pub fn work<T: Send + 'static>(
         let Control { done, total, .. } = &shared.control;
         progress.call1((done.load(Ordering::Relaxed), total.load(Ordering::Relaxed))).map(drop)
     };
-    let mut told = Instant::now();
+    let (mut told, mut since, mut silent) = (Instant::now(), None, true);
     loop {
         if let Some(result) = py.detach(|| wait(LOOK)) {
             if let Some(progress) = progress {
@@ -85,6 +89,15 @@ pub fn work<T: Send + 'static>(
             });
         }
         let mut outcome = py.check_signals();
+        if !shared.control.deriving.load(Ordering::Relaxed) {
+            since = None;
+        } else if silent && since.get_or_insert_with(Instant::now).elapsed() > LONG {
+            silent = false;
+            let logger = py.import("logging")?.call_method1("getLogger", ("coadjoint",))?;
+            let what =
+                "deriving the steps takes more than a second; the next run of this system has them";
+            logger.call_method1("warning", (what,))?;
+        }
         if let Some(progress) = progress.filter(|_| outcome.is_ok() && told.elapsed() >= TELL) {
             outcome = tell(progress);
             told = Instant::now();

@@ -14,7 +14,7 @@ use coadjoint_learn::table;
 use coadjoint_run::ensemble::{
     self, Attitude, Course, Engine, Found, How, Known, Layout, Shape, Watch,
 };
-use coadjoint_run::simulate::{Event, Schedule, Setup, Single, Times, drifting, run};
+use coadjoint_run::simulate::{Event, Schedule, Setup, Single, Times, run};
 use coadjoint_run::{
     Accuracy, Backend, Derived, Grid, Instant, RunError, System, check, emit, inputs_hash,
     meet_tolerance, polynomial, read_given, series, velocities, verify,
@@ -25,7 +25,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::asked::{Asked, backend_of};
-use crate::control::work;
+use crate::control::{Control, work};
 use crate::emit::emitted;
 use crate::error::{raised, raised_by, refused};
 use crate::event::Watched;
@@ -75,6 +75,7 @@ fn derive(
     name: &str,
     system: System,
     ensemble: Option<Vec<String>>,
+    control: &Control,
 ) -> Result<Arc<Derived>, RunError> {
     let frame = system.problem.polynomial().map_or("fixed", Problem::frame_name);
     let key = (system.problem.facts().truncation, frame, ensemble);
@@ -85,7 +86,10 @@ fn derive(
         return Ok(found);
     }
     let system = if key.2.is_some() { ensemble::in_lanes(system)? } else { system };
-    let made = Arc::new(Derived::of_file(Path::new(name), system)?);
+    control.deriving.store(true, Ordering::Relaxed);
+    let made = Derived::of_file(Path::new(name), system).map(Arc::new);
+    control.deriving.store(false, Ordering::Relaxed);
+    let made = made?;
     let mut list = cache.lock().unwrap_or_else(PoisonError::into_inner);
     if known(&list).is_none() {
         list.push((key, made.clone()));
@@ -312,8 +316,9 @@ impl Core {
         };
         let size = self.shape().matrix_size;
         let own = given.events.iter().cloned().map(Event::of);
-        let events: Vec<Event> =
-            own.chain(events.into_iter().map(|event| event.event(size, self.failures.clone()))).collect();
+        let events: Vec<Event> = own
+            .chain(events.into_iter().map(|event| event.event(size, self.failures.clone())))
+            .collect();
         let looked_for = events.len();
         let looks = looks.or(given.looks.map(|looks| looks as u32)).unwrap_or(1);
         let here = Self { system, ..self.here() };
@@ -344,7 +349,7 @@ impl Core {
                 )));
             }
             let truncation = system.problem.facts().truncation;
-            let derived = derive(&cache, &here.name, system, None)?;
+            let derived = derive(&cache, &here.name, system, None, control)?;
             control.total.store(schedule.steps, Ordering::Relaxed);
             let mut keeper = Keeper { table: Table::default(), control };
             let outcome = run(&derived, &setup, &mut keeper)?;
@@ -424,7 +429,7 @@ impl Core {
             let truncation = system.problem.facts().truncation;
             let frame = system.problem.polynomial().map_or("fixed", Problem::frame_name);
             let momentum = system.run.momentum.clone();
-            let derived = derive(&cache, &here.name, system, Some(varied))?;
+            let derived = derive(&cache, &here.name, system, Some(varied), control)?;
             let lanes = (count as f64 / coadjoint_program::WIDTH as f64).max(1.0);
             let how = How { backend, work: schedule.steps as f64 * lanes, device: None };
             derived.reaches(&schedule)?;
@@ -474,8 +479,8 @@ impl Core {
         let why = if casimirs == 0 { "none known" } else { "rounding of large numbers hides it" };
         facts.set_item("unknown_casimirs", why)?;
         facts.set_item("ratio", drift.ratio)?;
-        let drifted = drifting(drift.conserved, schedule.steps).map(|warning| warning.text());
-        facts.set_item("drifted", drifted.collect::<Vec<_>>())?;
+        let warnings = drift.warnings(rows as u64, schedule.steps);
+        facts.set_item("warnings", warnings.map(|warning| warning.text()).collect::<Vec<_>>())?;
         facts.set_item("backend", backend)?;
         facts.set_item("notes", notes)?;
         facts.set_item("columns", names)?;
@@ -574,12 +579,12 @@ impl Core {
         let backend = backend_of(py, backend)?;
         let (here, cache) = (self.here(), self.derived.clone());
         let dimension = self.system.problem.facts().algebra.dim();
-        let made = work(py, None, move |_| {
+        let made = work(py, None, move |control| {
             let (system, _) = here.accurate(&Accuracy { step, ..Accuracy::default() }, None)?;
             let step = step
                 .or(system.run.step)
                 .ok_or_else(|| RunError::Option("--step is missing: give --step 0.1".to_owned()))?;
-            let derived = derive(&cache, &here.name, system, None)?;
+            let derived = derive(&cache, &here.name, system, None, control)?;
             // It is the default, and there is no such code for collocation.
             let by_default = backend == Backend::Jit && derived.series().is_none();
             let backend = if by_default { Backend::Auto } else { backend };
@@ -632,11 +637,11 @@ impl Core {
         seed: u64,
     ) -> PyResult<(Vec<(String, String, f64, f64, Option<bool>)>, Option<String>)> {
         let (here, cache) = (self.here(), self.derived.clone());
-        let made = work(py, None, move |_| {
+        let made = work(py, None, move |control| {
             let asked = Accuracy { step, t0, ..Accuracy::default() };
             let (system, _) = here.accurate(&asked, None)?;
             let trial = check::Trial::new(&asked, &system.run, points, seed)?;
-            let derived = derive(&cache, &here.name, system, None)?;
+            let derived = derive(&cache, &here.name, system, None, control)?;
             let (laws, steep) = check::check(&derived, &trial)?;
             let law = |law: check::Law| {
                 let holds = match law.verdict {

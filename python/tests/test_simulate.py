@@ -50,6 +50,13 @@ def test_every_backend_has_the_same_bits(body: ca.System) -> None:
     assert "Cranelift" in runs[1].backend and runs[0].backend == "interpreter"
 
 
+def test_a_system_that_is_run_again_and_again_is_compiled() -> None:
+    system = ca.System("SO3", "x^2/3+y^2/4+z^2/5", coordinates="x y z", truncation=9)
+    backends = (system.simulate(START, time=20, step=0.1, estimate=False).backend for _ in range(10_000))
+    first = next(backends)
+    assert first == "interpreter" and any("Cranelift" in backend for backend in backends)
+
+
 def test_records_are_chosen(body: ca.System) -> None:
     every = body.simulate(START, time=10, step=0.1, every=30)
     np.testing.assert_allclose(every.time, [0, 3, 6, 9, 10])

@@ -91,27 +91,30 @@ pub(crate) struct Code {
 const FEW: u64 = 256;
 
 impl Code {
-    /// By the backend asked for, to make about `steps` steps of trajectories one by one or side by side; trajectories not
-    /// asked for are interpreted.
+    /// By the backend asked for, to make about `steps` steps of trajectories one by one or side by side, and so many `before` in
+    /// other runs; trajectories not asked for are interpreted.
     ///
     /// # Errors
     /// Fails if the backend that the user named cannot be had.
     pub(crate) fn new(
         kernel: &Kernel,
         backend: Backend,
-        steps: f64,
+        [steps, before]: [f64; 2],
         trajectories: Trajectories,
     ) -> Result<Self, RunError> {
         let code = Self::interpreter();
         match backend {
             Backend::Interpreter => {}
             Backend::Auto => {
-                let plan = plan(kernel, steps, trajectories);
-                return Ok(if plan.is_empty() {
-                    code
-                } else {
-                    code.start(plan, kernel, trajectories)
-                });
+                let mut plan = plan(kernel, steps, trajectories);
+                if plan.is_empty() {
+                    // Of short runs again and again; a compiler that takes longer than these would be stopped by each.
+                    plan = self::plan(kernel, steps + before, trajectories);
+                    plan.retain(|backend| *backend != Backend::C);
+                }
+                if !plan.is_empty() {
+                    return Ok(code.start(plan, kernel, trajectories));
+                }
             }
             named => {
                 let made = named.make(kernel, trajectories, &code.coming.stop);
@@ -161,10 +164,18 @@ impl Code {
 
     /// Ends a compiler that is still at work: the run is over.
     pub(crate) fn stop(&self) {
-        self.coming.stop.store(true, Ordering::Relaxed);
         let thread = self.thread.lock().unwrap_or_else(PoisonError::into_inner).take();
-        // One that panicked has made nothing.
-        let _ = thread.map(JoinHandle::join);
+        if let Some(thread) = thread {
+            self.coming.stop.store(true, Ordering::Relaxed);
+            // One that panicked has made nothing.
+            let _ = thread.join();
+        }
+    }
+
+    /// True if it is machine code, or will be even if the run ends before.
+    pub(crate) fn lasts(&self) -> bool {
+        let stays = || self.thread.lock().unwrap_or_else(PoisonError::into_inner).is_none();
+        self.is_machine_code() || !self.coming.over.load(Ordering::Relaxed) && stays()
     }
 
     /// True if it is machine code.

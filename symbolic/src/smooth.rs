@@ -24,6 +24,8 @@ pub struct Smooth {
     pub algebra: LieAlgebra,
     /// The names of the momentum's coordinates, dual to the basis of 𝔤.
     pub coordinates: Vec<String>,
+    /// The factors of coordinates of a momentum where sizes are compared: [`Problem::units`] of a polynomial, else 1.
+    pub units: Vec<f64>,
     /// True if H depends on the time.
     pub moves: bool,
     /// The inputs u(t) in H.

@@ -35,6 +35,8 @@ pub(crate) struct Journal {
     pub unmeasured: u64,
     /// The largest ratio of the last two terms of the series worth a warning so far, as bits.
     pub ratio: u64,
+    /// The steps that the generic solver made so far.
+    pub rescued: u64,
     /// The backends that have made the steps so far. All give the same bits, but for what the identity says.
     pub made_by: Vec<String>,
     /// Rows of which a device has refused steps that others then made.
@@ -72,15 +74,16 @@ impl Journal {
         let [spatial_momentum, casimirs] =
             [self.spatial_momentum, self.casimirs].map(|drift| drift.map(f64::from_bits));
         let conserved = step::Drift { spatial_momentum, casimirs, energy: None };
-        Drift { conserved, unmeasured: self.unmeasured, ratio: f64::from_bits(self.ratio) }
+        let &Self { unmeasured, rescued, ratio, .. } = self;
+        Drift { conserved, unmeasured, ratio: f64::from_bits(ratio), rescued }
     }
 
     /// Takes note of drifts, and of what has made the steps.
     pub(crate) fn raise(&mut self, drift: Drift, engine: &Engine<'_>) {
-        let Drift { conserved, unmeasured, ratio } = self.drift().max(drift);
+        let Drift { conserved, unmeasured, ratio, rescued } = self.drift().max(drift);
         self.spatial_momentum = conserved.spatial_momentum.map(f64::to_bits);
         self.casimirs = conserved.casimirs.map(f64::to_bits);
-        (self.unmeasured, self.ratio) = (unmeasured, ratio.to_bits());
+        (self.unmeasured, self.ratio, self.rescued) = (unmeasured, ratio.to_bits(), rescued);
         let maker = engine.device().map_or_else(|| engine.backend(), |device| device.to_string());
         if !self.made_by.contains(&maker) {
             self.made_by.push(maker);

@@ -5,7 +5,7 @@ use coadjoint_run::Derived;
 use coadjoint_run::STEEP;
 use coadjoint_run::ensemble::{Engine, Rejected};
 use coadjoint_run::number::shortest;
-use coadjoint_run::simulate::{LARGE, Schedule, drifting};
+use coadjoint_run::simulate::{LARGE, Schedule};
 use serde_json::{Value, json};
 
 use super::run::Outcome;
@@ -31,8 +31,12 @@ pub(crate) fn warnings(outcome: &Outcome, steps: u64, engine: &Engine<'_>) -> Ve
     });
     let single = engine.device().is_some_and(|by| by.precision == Precision::Single);
     // Of single precision the report says what drifts are.
-    let drift = Some(outcome.journal.drift().conserved).filter(|_| !single).unwrap_or_default();
-    let drifts = drifting(drift, steps).map(|warning| (warning.object(), warning.text()));
+    let mut drift = outcome.journal.drift();
+    if single {
+        drift.conserved = Default::default();
+    }
+    let drifts = drift.warnings(outcome.trajectories, steps);
+    let drifts = drifts.map(|warning| (warning.object(), warning.text()));
     let journal = &outcome.journal;
     let unresolved = journal.why.as_ref().map(|why| {
         let text = format!("the error at the end of {} rows estimated is {why}", journal.unknown);

@@ -4,6 +4,7 @@ use coadjoint_program::quoting::rust_comment;
 use proc_macro2::{Group, Literal, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 
+use super::generating_function::unit;
 use super::hygiene::fresh;
 use super::program::{Body, Field, Scope, body};
 use crate::emit::group::Types;
@@ -189,6 +190,7 @@ fn programs(
     let watched = function("watched", &smooth.watched);
     let expressions = &smooth.expressions;
     let (allow, aliases) = (allow(), &types.aliases);
+    let unit = unit(&smooth.units);
     quote! {
         #allow
         const _: () = {
@@ -204,6 +206,8 @@ fn programs(
                 fn gradient(&self, time: f64, mu: &#vector) -> #vector {
                     <#vector as From<_>>::from(gradient(&self.symbols, &mu.data.0[0], time))
                 }
+
+                #unit
 
                 #[cold]
                 fn undefined(

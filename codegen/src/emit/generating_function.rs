@@ -67,16 +67,7 @@ pub(crate) fn generating_function(
             }
         }
     });
-    let units = integrator.units.iter().any(|unit| *unit != 1.0).then(|| {
-        let units = &integrator.units;
-        quote! {
-            #[inline]
-            fn unit(&self, i: usize) -> f64 {
-                const UNITS: [f64; #n] = [#(#units),*];
-                UNITS[i]
-            }
-        }
-    });
+    let units = unit(&integrator.units);
     let largest_rate = integrator.largest_rate.map(|rate| {
         quote! {
             #[inline]
@@ -202,4 +193,18 @@ fn hessian_function(program: &Program, types: &Types, options: &Options) -> Toke
         #statements
         (<#vector>::from([#(#gradient),*]), <#matrix>::from([#(#columns),*]))
     }
+}
+
+/// The method that gives the factors of coordinates where sizes are compared, where these are not 1.
+pub(super) fn unit(units: &[f64]) -> Option<TokenStream> {
+    let n = Literal::usize_unsuffixed(units.len());
+    units.iter().any(|unit| *unit != 1.0).then(|| {
+        quote! {
+            #[inline]
+            fn unit(&self, i: usize) -> f64 {
+                const UNITS: [f64; #n] = [#(#units),*];
+                UNITS[i]
+            }
+        }
+    })
 }

@@ -79,14 +79,27 @@ pub(crate) fn assemble_either(draft: Draft, diagnostics: &Diagnostics) -> Option
         None => draft.hamiltonian.moves() || read.found.iter().any(of_series),
     };
     if smooth {
-        let others = read.found.into_iter().filter(|found| !found.mistake.is_of_series());
-        others.for_each(|found| diagnostics.report(found.span, found.mistake));
-        return assemble_smooth(draft, None, diagnostics).map(Box::new).map(Hamiltonian::Smooth);
+        let polynomial = match read.found.is_empty() {
+            true => assemble_polynomial(draft.clone(), read, &Diagnostics::new()),
+            false => {
+                let others = read.found.into_iter().filter(|found| !found.mistake.is_of_series());
+                others.for_each(|found| diagnostics.report(found.span, found.mistake));
+                None
+            }
+        };
+        let smooth = in_units(assemble_smooth(draft, None, diagnostics)?, polynomial.as_ref());
+        return Some(Hamiltonian::Smooth(Box::new(smooth)));
     }
     let open = open(&draft);
     let problem = assemble_polynomial(draft, read, diagnostics)?;
     let open = open.and_then(|draft| assemble_smooth(draft, None, &Diagnostics::new()));
-    Some(Hamiltonian::Polynomial(Box::new(problem), open.map(Box::new)))
+    let open = open.map(|smooth| Box::new(in_units(smooth, Some(&problem))));
+    Some(Hamiltonian::Polynomial(Box::new(problem), open))
+}
+
+/// Compares sizes in the units of H, where it is this polynomial.
+fn in_units(smooth: Smooth, polynomial: Option<&Problem>) -> Smooth {
+    Smooth { units: polynomial.map_or(smooth.units, Problem::units), ..smooth }
 }
 
 /// The draft for collocation, where the method is left open: none is named, and nothing but of the series.
@@ -177,6 +190,7 @@ fn assemble_smooth(
         }
     };
     Some(Smooth {
+        units: vec![1.0; coordinates.len()],
         moves,
         signals,
         name,

@@ -79,6 +79,10 @@ impl Energy<DVector<f64>> for Interpreted<'_> {
         self.smooth.reach(&self.symbols, from, to)
     }
 
+    fn unit(&self, i: usize) -> f64 {
+        self.smooth.units[i]
+    }
+
     fn undefined(&self, time: f64, mu: &DVector<f64>) -> Option<Undefined> {
         let (number, argument) = self.smooth.undefined(&self.symbols, time, mu.as_slice())?;
         Some(Undefined { expression: kept(&self.smooth.expressions[number]), argument })

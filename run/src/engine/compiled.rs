@@ -78,6 +78,8 @@ pub(crate) struct Numbers {
 pub(crate) struct Kept {
     programs: OnceLock<Arc<Programs>>,
     codes: Mutex<Vec<(Backend, Trajectories, Arc<Code>)>>,
+    /// The steps of runs so far.
+    steps: Mutex<f64>,
 }
 
 /// The programs of one integrator.
@@ -122,7 +124,7 @@ impl Kept {
         let serves = |(by, of, code): &&(Backend, Trajectories, Arc<Code>)| {
             *of == trajectories
                 && (*by == backend || backend == Backend::Auto)
-                && (backend != Backend::Auto || code.is_machine_code())
+                && (backend != Backend::Auto || code.lasts())
         };
         codes.iter().find(serves).map(|(_, _, code)| code.clone())
     }
@@ -131,7 +133,7 @@ impl Kept {
     fn keep(&self, backend: Backend, trajectories: Trajectories, code: &Arc<Code>) {
         let mut codes = self.codes.lock().unwrap_or_else(PoisonError::into_inner);
         // Others are of runs that ended before they were compiled.
-        codes.retain(|(.., code)| code.is_machine_code());
+        codes.retain(|(.., code)| code.lasts());
         codes.push((backend, trajectories, code.clone()));
     }
 }
@@ -215,7 +217,10 @@ impl Compiled {
         let code = match kept.find(backend, trajectories) {
             Some(code) => code,
             None => {
-                let code = Arc::new(Code::new(step.kernel(), backend, steps, trajectories)?);
+                let mut made = kept.steps.lock().unwrap_or_else(PoisonError::into_inner);
+                let code = Code::new(step.kernel(), backend, [steps, *made], trajectories)?;
+                *made += steps;
+                let code = Arc::new(code);
                 kept.keep(backend, trajectories, &code);
                 code
             }

@@ -86,7 +86,9 @@ impl<G: LieGroup<Scalar = f64, Element = DMatrix<f64>> + Send + Sync> Restore fo
 /// The matrix of an element, row by row.
 pub(crate) fn entries_of<G: LieGroup<Scalar = f64>>(group: &G, element: &G::Element) -> Vec<f64> {
     let size = group.matrix_size();
-    (0..size * size).map(|at| group.matrix_entry(element, at / size, at % size)).collect()
+    let mut entries = vec![0.0; size * size];
+    group.matrix_entries(element, &mut |i, j, entry| entries[i * size + j] = entry);
+    entries
 }
 
 /// The state with this matrix, row by row, and this momentum; neither is checked.

@@ -19,7 +19,7 @@ use crate::error::RunError;
 use crate::grid::Grid;
 use crate::load::{Derived, System};
 use crate::number::{maximum, shortest};
-use crate::simulate::{Maker, Stop, error_of};
+use crate::simulate::{Maker, Stop, Warning, drifting, error_of, many};
 
 /// The system as ensembles solve it: in lanes by Newton's method whatever the dimension, since its Hessian is then exact.
 ///
@@ -79,6 +79,8 @@ pub struct Drift {
     /// The largest ratio of the last two terms of the series at the states looked at (the start, the end, and every so
     /// many steps), where it is worth a warning; else 0.
     pub ratio: f64,
+    /// The steps that the generic solver made, in place of programs that refused them.
+    pub rescued: u64,
 }
 
 impl Drift {
@@ -87,7 +89,14 @@ impl Drift {
         self.conserved.raise(other.conserved);
         self.unmeasured += other.unmeasured;
         self.ratio = maximum(self.ratio, other.ratio);
+        self.rescued += other.rescued;
         self
+    }
+
+    /// Warnings of drifts that rounding does not explain, and of slow steps, where this number of rows made so many steps each.
+    pub fn warnings(self, rows: u64, steps: u64) -> impl Iterator<Item = Warning> {
+        let slow = many(self.rescued, rows.saturating_mul(steps), || None);
+        drifting(self.conserved, steps).chain(slow)
     }
 }
 
@@ -322,7 +331,8 @@ impl<'a> Engine<'a> {
         let ends: Vec<_> = drifts.par_iter().zip(&ways).map(end).collect();
         let ratio = ways.iter().map(|way| way.ratio).fold(0.0, maximum);
         let ratio = if ratio <= STEEP { 0.0 } else { ratio };
-        let mut largest = Drift { ratio, ..Drift::default() };
+        let rescued = ways.iter().map(|way| way.rescued).sum();
+        let mut largest = Drift { ratio, rescued, ..Drift::default() };
         for (place, (kept, drift)) in places.into_iter().zip(ends) {
             for (one, kept) in rows.values[place * long..].chunks_mut(width).zip(kept) {
                 kept.iter().for_each(|kept| one[..state].copy_from_slice(kept));
@@ -475,7 +485,7 @@ impl<'a> Engine<'a> {
             let conserved = start.measured(&conserved(rows + row), conserved(2 * rows + row));
             let hidden = known && conserved.spatial_momentum.is_none()
                 || !invariants.casimirs.is_empty() && conserved.casimirs.is_none();
-            Drift { conserved, unmeasured: hidden.into(), ratio: 0.0 }
+            Drift { conserved, unmeasured: hidden.into(), ..Drift::default() }
         };
         (0..rows).map(drift).collect()
     }

@@ -33,13 +33,15 @@ pub(super) struct Way {
     pub stopped: Option<(u64, String)>,
     /// The largest ratio seen.
     pub ratio: f64,
+    /// The steps that the generic solver made.
+    pub rescued: u64,
     /// The states kept on the way.
     pub kept: Vec<Numbers>,
 }
 
 impl From<Numbers> for Way {
     fn from(state: Numbers) -> Self {
-        Self { state, stopped: None, ratio: 0.0, kept: Vec::new() }
+        Self { state, stopped: None, ratio: 0.0, rescued: 0, kept: Vec::new() }
     }
 }
 
@@ -54,6 +56,7 @@ impl March<'_> {
     /// Makes steps `first` to `end` of a trajectory by itself.
     pub(super) fn alone(&self, way: &mut Way, first: u64, end: u64) {
         let made = self.motion.advance(&mut way.state, first, end - first);
+        way.rescued += made.as_ref().ok().and_then(|solves| *solves).map_or(0, |own| own.rescued);
         way.stopped = made.err().map(|(done, error)| (first + done + 1, error.to_string()));
     }
 
@@ -177,13 +180,14 @@ impl March<'_> {
                 (row.g, row.mu) = (take(&mut way.state.g), take(&mut way.state.mu));
                 row.ended = way.stopped.is_some();
                 row.made = if row.ended { row.made } else { target };
-                (*place, way.stopped, way.ratio)
+                (*place, way)
             };
             let ends: Vec<_> = refused.par_iter_mut().map(redo).collect();
-            for (place, stopped, ratio) in ends {
+            for (place, Way { stopped, ratio, rescued, .. }) in ends {
                 redone.insert(place);
                 ways[place].stopped = stopped;
                 ways[place].ratio = maximum(ways[place].ratio, ratio);
+                ways[place].rescued += rescued;
             }
         };
         card.advance(&mut rows, steps, &mut others, told)?;

@@ -18,6 +18,16 @@ const TRIALS: i32 = 20;
 /// A step is tried over the run, up to this number of steps.
 const TRIED: u64 = 20_000;
 
+/// The warning about this number of steps, if many were slow; `shorter` finds a step that avoids it.
+pub(crate) fn many(
+    rescued: u64,
+    steps: u64,
+    shorter: impl FnOnce() -> Option<f64>,
+) -> Option<Warning> {
+    let many = rescued >= FEWEST && rescued as f64 >= SHARE * steps as f64;
+    many.then(|| Warning::Slow { rescued, steps, step: shorter() })
+}
+
 /// The warning about a run of steps of this size from `start`, if many were slow; `other` makes steps of another size. The step
 /// that it advises is found by trying, and so does not depend on the speed of the machine.
 pub(super) fn slow<'a>(
@@ -27,9 +37,6 @@ pub(super) fn slow<'a>(
     other: impl Fn(f64) -> Result<Box<dyn Motion + 'a>, StepError>,
 ) -> Option<Warning> {
     let (steps, rescued) = (outcome.steps, outcome.solver?.rescued);
-    if rescued < FEWEST || (rescued as f64) < SHARE * steps as f64 {
-        return None;
-    }
     let serves = |step: &f64| {
         let Ok(motion) = other(*step) else { return false };
         let count = ((steps as f64 * size / step).ceil() as u64).min(TRIED);
@@ -46,6 +53,5 @@ pub(super) fn slow<'a>(
     };
     // Three digits say enough.
     let shorter = |trial| format!("{:.2e}", size * SHRINKS.powi(trial)).parse().ok();
-    let step = (1..=TRIALS).filter_map(shorter).find(serves);
-    Some(Warning::Slow { rescued, steps, step })
+    many(rescued, steps, || (1..=TRIALS).filter_map(shorter).find(serves))
 }

@@ -42,6 +42,13 @@ pub trait Energy<V: Coordinates<f64>> {
         None
     }
 
+    /// As [`GeneratingFunction::unit`](crate::GeneratingFunction::unit).
+    #[inline(always)]
+    fn unit(&self, i: usize) -> f64 {
+        let _ = i;
+        1.0
+    }
+
     /// The expression in H that is outside its domain at (t, μ); `None` if value and gradient are finite.
     fn undefined(&self, time: f64, mu: &V) -> Option<Undefined> {
         let _ = (time, mu);
@@ -94,6 +101,11 @@ impl<V: Coordinates<f64>, E: Energy<V> + ?Sized> Energy<V> for &E {
 
     fn reach(&self, from: (f64, &V), to: (f64, &V)) -> Option<f64> {
         (**self).reach(from, to)
+    }
+
+    #[inline(always)]
+    fn unit(&self, i: usize) -> f64 {
+        (**self).unit(i)
     }
 
     fn undefined(&self, time: f64, mu: &V) -> Option<Undefined> {

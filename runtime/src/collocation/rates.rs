@@ -52,14 +52,20 @@ where
 
 /// The largest coordinate at any node; NaN if one is.
 #[inline(always)]
-pub(super) fn largest<V, const M: usize>(dim: usize, rows: &V::Rows<M>) -> f64
+pub(super) fn largest<V: Coordinates<f64>, const M: usize>(dim: usize, rows: &V::Rows<M>) -> f64 {
+    largest_by::<V, M>(dim, rows, |_| 1.0)
+}
+
+/// The largest coordinate at any node, each times a factor; NaN if one is.
+#[inline(always)]
+fn largest_by<V, const M: usize>(dim: usize, rows: &V::Rows<M>, by: impl Fn(usize) -> f64) -> f64
 where
     V: Coordinates<f64>,
 {
     let (mut largest, mut poison) = ([0.0_f64; M], [0.0; M]);
     for k in 0..dim {
         for i in 0..M {
-            largest[i] = largest[i].max(rows[k][i].abs());
+            largest[i] = largest[i].max(rows[k][i].abs() * by(k));
             poison[i] = rows[k][i].times_plus(0.0, poison[i]);
         }
     }
@@ -81,9 +87,10 @@ impl<V: Coordinates<f64>, const M: usize> Rates<V, M> {
         add::<f64, V, M>(dim, &mut self.p, s, &other.p);
     }
 
-    /// The largest coordinate, those of p divided by `scale`.
+    /// The largest coordinate, those of p in these units and divided by `scale`, those of x by the units.
     #[inline(always)]
-    pub(super) fn size(&self, dim: usize, scale: f64) -> f64 {
-        largest::<V, M>(dim, &self.x).worse(largest::<V, M>(dim, &self.p) / scale)
+    pub(super) fn size(&self, dim: usize, scale: f64, unit: impl Fn(usize) -> f64) -> f64 {
+        let x = largest_by::<V, M>(dim, &self.x, |k| 1.0 / unit(k));
+        x.worse(largest_by::<V, M>(dim, &self.p, unit) / scale)
     }
 }

@@ -64,7 +64,9 @@ where
     #[inline(always)]
     pub(super) fn solve(&self, guess: Rates<G::Vector, M>) -> Attempt<G::Vector, M> {
         let dim = self.mu.dim();
-        let largest = self.mu.largest_entry();
+        let unit = |i| self.energy.unit(i);
+        let largest =
+            (0..dim).fold(0.0, |largest, i| f64::max(largest, self.mu[i].abs() * unit(i)));
         let scale = if largest > 0.0 { largest } else { 1.0 };
         let whole = |rates: &Rates<G::Vector, M>| {
             let x: G::Vector = total(dim, &Self::NODES.weights, &rates.x);
@@ -89,7 +91,7 @@ where
             };
             sweeps += 1;
             change.add(dim, -1.0, &rates);
-            residual = change.size(dim, scale);
+            residual = change.size(dim, scale, unit);
             if let Some(model) = &model {
                 let linear = model.change(self.group, &rates, &change);
                 rates.add(dim, 1.0, &linear);

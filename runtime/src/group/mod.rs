@@ -139,6 +139,14 @@ pub trait LieGroup: Clone + Debug {
     /// Entry (row, column) of g as a matrix.
     fn matrix_entry(&self, g: &Self::Element, row: usize, column: usize) -> Self::Scalar;
 
+    /// Calls `visit` with row, column, and value of each entry of g as a matrix, at least of those that are not 0 for every g.
+    fn matrix_entries(&self, g: &Self::Element, visit: &mut dyn FnMut(usize, usize, Self::Scalar)) {
+        let size = self.matrix_size();
+        for at in 0..size * size {
+            visit(at / size, at % size, self.matrix_entry(g, at / size, at % size));
+        }
+    }
+
     /// The element whose matrix has these entries, checked to be one.
     ///
     /// # Errors

@@ -13,7 +13,7 @@ use coadjoint_program::{Kernel, KernelParts, Programs};
 
 use super::product::{Moved, Part, Product};
 use super::programs::{kicked, matrix, sound, watch};
-use super::solving::inputs;
+use super::solving::{inputs, largest_in_units};
 use super::tables::{Structure, structure_of};
 use super::vector::{all_at_most, finite, largest};
 use crate::graph::{Graph, Id, Program};
@@ -345,8 +345,11 @@ impl<'a> Collocation<'a> {
 
         let (next, momenta) = self.sweep(&graph, &rates, &mu);
         let change = next.with(&rates, |a, b| graph.sub(a, b));
-        let [x, p] = [&change.x, &change.p].map(|rows| largest(&graph, &rows.concat()));
-        let scale = largest(&graph, &mu);
+        let units = &self.smooth.units;
+        let [x, p] = [(&change.x, -1), (&change.p, 1)].map(|(rows, power)| {
+            largest_in_units(&graph, &rows.concat(), &units.repeat(self.nodes()), power)
+        });
+        let scale = largest_in_units(&graph, &mu, units, 1);
         let scale = graph.select(scale, zero, one, scale);
         let residual = graph.max(x, graph.div(p, scale));
         let sum = |a, b| graph.add(a, b);

@@ -148,7 +148,7 @@ fn in_units(graph: &Graph, list: &[Id], units: &[f64], power: i32) -> Vec<Id> {
 }
 
 /// The largest of coordinates times these numbers to this power, by one multiplication for each number.
-fn largest_in_units(graph: &Graph, list: &[Id], units: &[f64], power: i32) -> Id {
+pub(super) fn largest_in_units(graph: &Graph, list: &[Id], units: &[f64], power: i32) -> Id {
     let mut parts: Vec<(f64, Vec<Id>)> = Vec::new();
     for (&entry, &unit) in list.iter().zip(units) {
         match parts.iter_mut().find(|(own, _)| *own == unit) {

@@ -52,6 +52,10 @@ impl<V: Coordinates<f64>> Energy<V> for AtSymbols<'_> {
     fn gradient(&self, time: f64, mu: &V) -> V {
         vector(&self.0.gradient(self.1, time, &list(mu)))
     }
+
+    fn unit(&self, i: usize) -> f64 {
+        self.0.units[i]
+    }
 }
 
 fn by_runtime<G: LieGroup<Scalar = f64>, const M: usize>(

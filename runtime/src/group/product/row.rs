@@ -370,15 +370,25 @@ impl<T: Scalar, R: Row<Group: LieGroup<Scalar = T>>> LieGroup for RowProduct<R> 
     }
 
     fn matrix_entry(&self, g: &Self::Element, row: usize, column: usize) -> T {
-        let mut first = 0;
+        let (mut row, mut column) = (row, column);
         for (group, g) in self.0.groups().as_ref().iter().zip(g.as_ref()) {
-            let block = first..first + group.matrix_size();
-            if block.contains(&row) && block.contains(&column) {
-                return group.matrix_entry(g, row - first, column - first);
+            let size = group.matrix_size();
+            match (row < size, column < size) {
+                (true, true) => return group.matrix_entry(g, row, column),
+                (false, false) => (row, column) = (row - size, column - size),
+                // Outside of the blocks.
+                _ => break,
             }
-            first = block.end;
         }
         T::of(0.0)
+    }
+
+    fn matrix_entries(&self, g: &Self::Element, visit: &mut dyn FnMut(usize, usize, T)) {
+        let mut first = 0;
+        for (group, g) in self.0.groups().as_ref().iter().zip(g.as_ref()) {
+            group.matrix_entries(g, &mut |i, j, entry| visit(first + i, first + j, entry));
+            first += group.matrix_size();
+        }
     }
 
     fn element_from_matrix(
