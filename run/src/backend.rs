@@ -91,7 +91,7 @@ pub(crate) struct Code {
 const FEW: u64 = 256;
 
 impl Code {
-    /// By the backend asked for, to make about `steps` steps of trajectories one by one or side by side, and so many `before` in
+    /// By the backend asked for, to make about `steps` steps of trajectories one by one or side by side, and `before` that were made in
     /// other runs; trajectories not asked for are interpreted.
     ///
     /// # Errors

@@ -93,7 +93,7 @@ impl Drift {
         self
     }
 
-    /// Warnings of drifts that rounding does not explain, and of slow steps, where this number of rows made so many steps each.
+    /// Warnings of drifts that rounding does not explain, and of slow steps, where each of `rows` rows made `steps` steps.
     pub fn warnings(self, rows: u64, steps: u64) -> impl Iterator<Item = Warning> {
         let slow = many(self.rescued, rows.saturating_mul(steps), || None);
         drifting(self.conserved, steps).chain(slow)

@@ -1,4 +1,4 @@
-//! Whether a solution is the step: its nodes have to resolve it, and where it is not ordinary it is made again in parts that are.
+//! The judgement of a solution: its nodes have to resolve it, and where it is not ordinary it is made again in parts that are.
 
 use coadjoint_program::collocation::{LARGEST_FORCE, LARGEST_REACH, LARGEST_TAIL, NEAR_LIMIT};
 use nalgebra::SimdComplexField;
@@ -45,11 +45,15 @@ where
         Ok(moved)
     }
 
-    /// Checks that parts of a step, each an ordinary one, lead to its end: to about this momentum, and as near to it as H's
+    /// Checks that parts of a step, each an ordinary one or among the shortest, lead to its end: to about this momentum, and as near to it as H's
     /// functions ask for.
     #[cold]
     fn follow(&self, attempt: &Attempt<G::Vector, M>, end: &G::Vector) -> Result<(), StepError> {
         let time = self.step.times_plus(0.5, self.middle);
+        let omega = self.energy.gradient(time, end);
+        if (0..end.dim()).any(|i| !omega[i].all_finite()) {
+            return Err(self.undefined(time, end, circumstances(attempt)));
+        }
         let known = self.energy.reach((time, end), (time, end)).is_some();
         let parts = self.in_parts(LEAST[usize::from(!known)], MOST)?;
         let size = self.mu.largest_entry();
@@ -60,15 +64,17 @@ where
         within(attempt, square, LARGEST_REACH[M - 1])
     }
 
-    /// The momentum after parts that are ordinary steps, made by this many halvings at least and at most.
+    /// The momentum after parts that are ordinary steps, made by this many halvings at least and at most: a jump in time is short
+    /// against the shortest parts, which need not be ordinary.
     fn in_parts(&self, least: u32, most: u32) -> Result<G::Vector, StepError> {
         if least == 0 {
             let attempt = self.solve(Rates::zero(self.mu.dim()));
-            let made = self.resolve(&attempt).and_then(|((_, end), measure)| {
-                self.ordinary(&attempt, &end, measure, false).map(|()| end)
+            let made = self.resolve(&attempt);
+            let ordinary = made.as_ref().is_ok_and(|((_, end), measure)| {
+                self.ordinary(&attempt, end, *measure, false).is_ok()
             });
-            if made.is_ok() || most == 0 {
-                return made;
+            if ordinary || most == 0 {
+                return made.map(|((_, end), _)| end);
             }
         }
         let half = |mu: &G::Vector, part: f64| {

@@ -76,15 +76,14 @@ const PARTS: &[Part] = &[
     },
     Part {
         name: "acceptance by the generic step of collocation",
-        // At the nodes, and between them.
         words: &["StepError::Unresolved {"],
-        files: &["runtime/src/collocation/following.rs", "runtime/src/collocation/mod.rs"],
+        files: &["runtime/src/collocation/following.rs"],
     },
     Part {
         // The charts of both.
         name: "refusal of a step outside the chart",
         words: &["StepError::OutsideChart {"],
-        files: &["runtime/src/collocation/mod.rs", "runtime/src/solve/accept.rs"],
+        files: &["runtime/src/collocation/following.rs", "runtime/src/solve/accept.rs"],
     },
     Part {
         name: "rescue",
