@@ -365,6 +365,9 @@ impl Program {
 
     /// The results of [`Program::run`] for each of these lists of inputs, which are evaluated [`WIDTH`] side by side.
     pub fn run_rows(&self, rows: &[impl AsRef<[f64]>], slots: &[f64]) -> Vec<Vec<f64>> {
+        if let [row] = rows {
+            return vec![self.run(row.as_ref(), slots)];
+        }
         let slot = |i: usize| Lanes::of(slots.get(i).copied().unwrap_or(f64::NAN));
         let mut nodes = Vec::new();
         let mut results = Vec::with_capacity(rows.len());

@@ -208,6 +208,11 @@ impl Problem {
         self.comoving.as_ref().map_or(&self.hamiltonian, |frame| &frame.rest)
     }
 
+    /// The values of the symbols for these of the parameters that are kept.
+    pub fn symbols_at(&self, parameters: &[f64]) -> Vec<f64> {
+        self.symbols.iter().map(|symbol| symbol.expr.evaluate(parameters)).collect()
+    }
+
     /// Puts the default values of the parameters in, in the same frame; exactly, if the coefficients are then rational.
     pub fn with_defaults(&self) -> Self {
         let dim = self.algebra.dim();

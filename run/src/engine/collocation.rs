@@ -241,7 +241,6 @@ impl<const M: usize> Motion for Collocated<'_, M> {
         self.elements.compiled.as_deref()
     }
 
-    /// There is no series.
     /// Of a function of the user's there is no Hessian, and of torques without potential no derivatives are known.
     fn differentiable(&self) -> Option<&dyn Differentiable> {
         let Smooth { given, kicks, .. } = self.step().energy().smooth;

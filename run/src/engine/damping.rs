@@ -10,7 +10,6 @@ use nalgebra::DVector;
 
 use super::collocation::{Group, Interpreted};
 use super::compiled::{Folded, Numbers, Solves};
-use super::interpreter::symbols;
 use super::kick::Torque;
 use super::motion::{Motion, Varied, advise, one_by_one};
 use super::space::{Space, entries_of, phase_of};
@@ -40,7 +39,7 @@ impl<'a> Given<'a> {
         match origin {
             Origin::Series(integrator) => {
                 let problem = &integrator.problem;
-                let (dim, symbols) = (problem.algebra.dim(), symbols(problem, parameters));
+                let (dim, symbols) = (problem.algebra.dim(), problem.symbols_at(parameters));
                 let value = Numeric::new(&problem.hamiltonian, dim, &symbols);
                 let gradient = value.gradient(dim);
                 Self::Polynomial(value, gradient)

@@ -10,16 +10,11 @@ use coadjoint::{GeneratingFunction, StepError};
 use coadjoint_codegen::cancel;
 use coadjoint_codegen::graph::Program;
 use coadjoint_codegen::integrator::{FoldTable, Integrator, Predictor};
-use coadjoint_codegen::problem::{self, Problem};
+use coadjoint_codegen::problem;
 use nalgebra::{DMatrix, DVector};
 
 use super::compiled::refusal;
 use super::space::Group;
-
-/// The values of the symbols of a problem for these values of its parameters.
-pub(super) fn symbols(problem: &Problem, parameters: &[f64]) -> Vec<f64> {
-    problem.symbols.iter().map(|symbol| symbol.expr.evaluate(parameters)).collect()
-}
 
 /// The truncated series of an integrator for one step size, on any group with its algebra; solved as its plan says.
 #[derive(Clone, Debug)]
@@ -40,7 +35,7 @@ impl<'a, G: Group, C: Chart<G>> Interpreter<'a, G, C> {
         parameters: &[f64],
     ) -> Result<Self, StepError> {
         let table = integrator.fold_table();
-        let symbols = symbols(&integrator.problem, parameters);
+        let symbols = integrator.problem.symbols_at(parameters);
         let slots = table.fold(step, &symbols).map_err(|error| refusal(error, step, &symbols))?;
         Ok(Self { integrator, group, slots, chart: PhantomData })
     }

@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, DVector};
 use num_traits::ToPrimitive;
 
 use super::compiled::refusal;
-use super::interpreter::{Interpreter, symbols};
+use super::interpreter::Interpreter;
 use super::kick::Torque;
 use super::linear::{Linear, columns};
 use super::space::Group;
@@ -71,7 +71,7 @@ impl<'a, G: Group + 'a, C: Chart<G>> Tangent<'a, G, C> {
         parameters: &[f64],
     ) -> Result<Self, StepError> {
         let problem = &integrator.problem;
-        let values = symbols(problem, parameters);
+        let values = problem.symbols_at(parameters);
         let flow = |part: f64| -> Result<Flow<'a, G, C>, StepError> {
             let step = size * part;
             let function = Interpreter::new(integrator, group.clone(), step, parameters)?;

@@ -52,8 +52,7 @@ impl Convergence {
         parameters: &[f64],
         quiet: f64,
     ) -> Result<Converging, FoldError> {
-        let symbols = integrator.problem.symbols.iter();
-        let symbols: Vec<f64> = symbols.map(|symbol| symbol.expr.evaluate(parameters)).collect();
+        let symbols = integrator.problem.symbols_at(parameters);
         let (slots, quiet) = integrator.fold_table().fold_rows(step, &symbols, quiet)?;
         Ok(Converging { slots, quiet })
     }
