@@ -1,5 +1,6 @@
 //! The functions that the page's script calls.
 
+use coadjoint_codegen::poly::Numeric;
 use serde::Serialize;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -101,7 +102,7 @@ impl Session {
             chart: series.map_or("exp", |integrator| integrator.problem.chart.name()),
             step: self.system.h,
             momentum,
-            conserves_energy: self.system.invariants.hamiltonian.is_some(),
+            conserves_energy: self.system.invariants.energy,
             terms,
             comoving: series.is_some_and(|integrator| integrator.problem.comoving.is_some()),
             casimirs: self
@@ -205,14 +206,15 @@ impl Session {
     pub fn curves(&mut self, momentum: &[f64]) -> Vec<f32> {
         let energy = &self.system.energy;
         // An energy that moves in time has no curves.
-        let conserved = self.system.invariants.hamiltonian.is_some();
+        let conserved = self.system.invariants.energy;
         // A momentum dragged over its sphere changes only its own curve.
         if !self.orbit.as_ref().is_some_and(|orbit| orbit.holds(momentum)) {
-            self.orbit =
-                match (&self.system.invariants.casimirs[..], self.system.dim(), momentum.len()) {
-                    ([casimir], 3, 3) if conserved => Orbit::new(energy, casimir, momentum),
-                    _ => None,
-                };
+            self.orbit = match (&self.system.casimirs[..], self.system.dim(), momentum.len()) {
+                ([casimir], 3, 3) if conserved => {
+                    Orbit::new(energy, &Numeric::new(casimir, 3, &[]), momentum)
+                }
+                _ => None,
+            };
         }
         let Some(Orbit { surface, spread, .. }) = &self.orbit else { return Vec::new() };
         let own = self.orbit.as_ref().map(|orbit| orbit.level(energy.value(START, momentum)));

@@ -1,6 +1,6 @@
 //! A run: our steps and the rival's side by side, how far each has drifted, and why a step was refused.
 
-use coadjoint_codegen::step::{Spatial, Start};
+use coadjoint_codegen::step::{Observation, Seen, Start};
 use coadjoint_program::{Attempt, Program, Stepper};
 
 use crate::history::{History, Sample};
@@ -33,7 +33,7 @@ pub struct Run {
     /// μ and μ̇ after each step, ours and the rival's.
     trail: [Vec<f64>; 2],
     start: Start,
-    spatial: Spatial,
+    observation: Observation,
     pub history: History,
     /// The refusal of the next step.
     pub refusal: Option<Refusal>,
@@ -55,7 +55,8 @@ impl Run {
         let g = system.step.element_of(&identity);
         let rate = system.rival.rate(START, momentum);
         let now = State { g, mu: momentum.to_vec(), rate: rate.clone() };
-        let start = system.invariants.start(START, momentum, momentum, Vec::new);
+        let seen = Seen { spatial: momentum, matrix: &[], momentum };
+        let start = system.invariants.start(START, seen);
         let mut run = Self {
             h: system.h,
             substeps: 1,
@@ -66,7 +67,7 @@ impl Run {
             rival_rate: rate,
             trail: [Vec::new(), Vec::new()],
             start,
-            spatial: Spatial::new(&system.step),
+            observation: Observation::new(&system.step),
             history: History::default(),
             refusal: None,
         };
@@ -180,14 +181,15 @@ impl Run {
 
     /// The drifts of energy, spatial momentum and Casimirs; NaN if there is none.
     fn drift(&self, system: &System, mu: &[f64], spatial: &[f64]) -> [f64; 3] {
-        let conserved = system.invariants.conserved(self.time(), mu, spatial, Vec::new);
-        let [momentum, casimirs, energy] = self.start.drift(&conserved).numbers();
+        let seen = Seen { spatial, matrix: &[], momentum: mu };
+        let conserved = system.invariants.conserved(self.time(), &[seen]);
+        let [momentum, casimirs, energy] = self.start.drift(&conserved[0]).numbers();
         [energy, momentum, casimirs]
     }
 
     fn our_spatial(&self) -> Vec<f64> {
         let State { g, mu, .. } = &self.now;
-        self.spatial.momentum(g, mu)
+        self.observation.spatial_momentum(g, mu)
     }
 }
 

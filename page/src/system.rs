@@ -78,16 +78,8 @@ fn gradient_of(origin: &Origin) -> Program {
     };
     let (graph, dim) = (Graph::new(), problem.algebra.dim());
     let energy = Numeric::new(&problem.hamiltonian, dim, &values(&problem.symbols));
-    let slope = |slope: &Numeric| {
-        slope.terms().fold(graph.zero(), |sum, (value, factors)| {
-            let power =
-                |&(i, power): &(usize, i32)| graph.power(graph.input(i), power.unsigned_abs());
-            let product = factors.iter().map(power).reduce(|a, b| graph.mul(a, b));
-            let value = graph.constant(value);
-            product.map_or_else(|| graph.add(value, sum), |a| graph.times_plus(a, value, sum))
-        })
-    };
-    let slopes: Vec<_> = energy.gradient(dim).iter().map(slope).collect();
+    let mu: Vec<_> = (0..dim).map(|i| graph.input(i)).collect();
+    let slopes: Vec<_> = energy.gradient(dim).iter().map(|slope| slope.node(&graph, &mu)).collect();
     graph.finish(dim, &slopes)
 }
 
@@ -114,6 +106,7 @@ impl System {
             )]);
         };
         let energy = Energy::new(&read.problem);
+        let invariants = Invariants::new(read.problem.facts().algebra, Some(&read.problem), None);
         let large = |error| vec![Mistake::of("truncation", error, "lower the truncation")];
         let origin = Origin::derive(read.problem.settled().0, LIMIT).map_err(large)?;
         let gradient = gradient_of(&origin);
@@ -129,7 +122,6 @@ impl System {
         }
         let slots = step.fold(h, &[]).map_err(|error| refused(&error))?;
         let algebra = origin.facts().algebra;
-        let invariants = Invariants::new(algebra, energy.clone(), None);
         let casimirs = lie::watched_casimirs(algebra);
         let factors = factors(algebra);
         let rival = Rival::new(algebra, &gradient, &slots);

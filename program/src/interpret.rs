@@ -365,19 +365,43 @@ impl Program {
 
     /// The results of [`Program::run`] for each of these lists of inputs, which are evaluated [`WIDTH`] side by side.
     pub fn run_rows(&self, rows: &[impl AsRef<[f64]>], slots: &[f64]) -> Vec<Vec<f64>> {
-        if let [row] = rows {
-            return vec![self.run(row.as_ref(), slots)];
+        let input = |row: usize, i: usize| rows[row].as_ref().get(i).copied().unwrap_or(f64::NAN);
+        let results = self.run_each(rows.len(), input, slots);
+        let width = self.outputs().len();
+        (0..rows.len()).map(|row| results[row * width..][..width].to_vec()).collect()
+    }
+
+    /// The results for this number of rows, one after the other: `input` gives number i of a row.
+    pub fn run_each(
+        &self,
+        rows: usize,
+        input: impl Fn(usize, usize) -> f64,
+        slots: &[f64],
+    ) -> Vec<f64> {
+        match rows {
+            1 => self.run_beside::<1>(rows, input, slots),
+            2 => self.run_beside::<2>(rows, input, slots),
+            _ => self.run_beside::<WIDTH>(rows, input, slots),
         }
+    }
+
+    /// The results of [`Program::run_each`], L rows side by side.
+    fn run_beside<const L: usize>(
+        &self,
+        rows: usize,
+        input: impl Fn(usize, usize) -> f64,
+        slots: &[f64],
+    ) -> Vec<f64> {
         let slot = |i: usize| Lanes::of(slots.get(i).copied().unwrap_or(f64::NAN));
-        let mut nodes = Vec::new();
-        let mut results = Vec::with_capacity(rows.len());
-        for rows in rows.chunks(WIDTH) {
-            let read = |lane: usize, i| rows.get(lane).and_then(|row| row.as_ref().get(i)).copied();
-            let input = |i| Lanes::<WIDTH>(from_fn(|lane| read(lane, i).unwrap_or(f64::NAN)));
-            evaluate(self, input, slot, &mut nodes);
-            for lane in 0..rows.len() {
-                let own = self.outputs().iter().map(|id| nodes[id.index()].0[lane]);
-                results.push(own.collect());
+        let (mut nodes, mut results) =
+            (Vec::new(), Vec::with_capacity(rows * self.outputs().len()));
+        for first in (0..rows).step_by(L) {
+            // Lanes without a row have the numbers of the last one.
+            let number = |lane: usize, i| input((first + lane).min(rows - 1), i);
+            let of = |i| Lanes::<L>(from_fn(|lane| number(lane, i)));
+            evaluate(self, of, slot, &mut nodes);
+            for lane in 0..L.min(rows - first) {
+                results.extend(self.outputs().iter().map(|id| nodes[id.index()].0[lane]));
             }
         }
         results

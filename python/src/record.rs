@@ -49,10 +49,9 @@ impl Sink for Keeper<'_> {
         let Table { time, momentum, element, spatial, energy, drift, .. } = &mut self.table;
         time.push(record.time);
         momentum.extend_from_slice(record.momentum);
-        let entries = (record.element)();
-        if !entries.is_empty() {
-            element.extend(entries);
-            spatial.extend((record.spatial_momentum)());
+        if !record.element.is_empty() {
+            element.extend_from_slice(record.element);
+            spatial.extend_from_slice(record.spatial_momentum);
         }
         energy.push(record.moment.energy.unwrap_or(f64::NAN));
         drift.extend(record.moment.drift.numbers());

@@ -10,7 +10,7 @@ use coadjoint_codegen::lie;
 use coadjoint_codegen::problem::Problem;
 use coadjoint_codegen::signal::Signal;
 use coadjoint_codegen::smooth::{Facts, Functions, Hamiltonian, Smooth};
-use coadjoint_codegen::step::{Energy, Invariants, Origin};
+use coadjoint_codegen::step::{Invariants, Origin};
 use coadjoint_codegen::system::{self, Options, Run};
 use coadjoint_learn::{GroupChoice, ModelFile};
 use coadjoint_program::Trajectories;
@@ -163,7 +163,7 @@ impl Derived {
         let System { problem, potential, damping, .. } = system;
         let (problem, gave_way) = problem.settled();
         let kicks = potential.as_ref().map(|(kicks, _)| kicks);
-        let invariants = Invariants::new(problem.facts().algebra, Energy::new(&problem), kicks);
+        let invariants = Invariants::new(problem.facts().algebra, Some(&problem), kicks);
         // Kicks look at the matrices of the whole group; a flow alone goes factor by factor.
         let group = match &potential {
             Some(_) => whole_group(file, problem.facts().algebra)?,
@@ -227,7 +227,7 @@ impl Derived {
             kept: Kept::default(),
             damping: None,
             file: self.file.clone(),
-            invariants: Invariants::default(),
+            invariants: Invariants::of(self.facts().algebra),
             gave_way: None,
         })
     }

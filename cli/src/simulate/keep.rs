@@ -242,7 +242,7 @@ impl Sink for Keeper<'_> {
         let drifts = record.moment.drift.numbers().into_iter().zip(self.known);
         let drifts = drifts.filter_map(|(drift, known)| known.then_some(drift));
         let last = record.moment.energy.into_iter().chain(drifts);
-        let state = record.momentum.iter().copied().chain((record.element)());
+        let state = record.momentum.iter().copied().chain(record.element.iter().copied());
         let written = records.row(std::iter::once(record.time).chain(state).chain(last));
         self.note(written)
     }

@@ -1,6 +1,7 @@
 //! Runs, refusals, the method beside, and the surfaces.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+use coadjoint_codegen::poly::Numeric;
 use coadjoint_page::fields::Fields;
 use coadjoint_page::gallery::gallery;
 use coadjoint_page::orbit::Orbit;
@@ -140,7 +141,7 @@ fn level_curves_are_on_the_orbit_and_on_their_level() {
     for id in ["wing-nut", "plate-in-fluid", "so21-top", "heisenberg-geodesics", "exponential-spin"]
     {
         let system = System::new(&fields(id)).unwrap();
-        let casimir = &system.invariants.casimirs[0];
+        let casimir = &Numeric::new(&system.casimirs[0], 3, &[]);
         let mu = &system.momentum;
         let orbit = Orbit::new(&system.energy, casimir, mu).unwrap();
         let own = system.energy.value(0.0, mu);

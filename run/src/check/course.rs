@@ -84,13 +84,9 @@ impl Course {
             .map(|kicks| Torque::new(&kicks.kick, group.clone(), &system.facts().defaults()));
         let torque = torque.transpose().map_err(RunError::unmade)?;
         let mut state = Numbers { g: space.numbers(&matrix), mu: about.clone() };
-        let conserved = |time: f64, state: &Numbers| {
-            let spatial = space.spatial_momentum(state);
-            system.invariants.conserved(time, &state.mu, &spatial, || space.matrix(&state.g))
-        };
-        let (spatial, matrix) = (space.spatial_momentum(&state), || space.matrix(&state.g));
-        let start = system.invariants.start(trial.start, &state.mu, &spatial, matrix);
-        let known = !start.conserved.momenta.is_empty();
+        let observed = space.observe(&[&state]);
+        let start = system.invariants.start(trial.start, observed.seen(0, &state.mu));
+        let known = !start.momenta().is_empty();
         let mut drift = Drift { spatial_momentum: known.then_some(0.0), ..Drift::default() };
         for n in 0..=count {
             let (time, element) = (grid.time(n), space.matrix(&state.g));
@@ -106,8 +102,10 @@ impl Course {
             let mut beside = state.clone();
             nudge(&mut beside.g);
             nudge(&mut beside.mu);
-            let [now, beside] = [&state, &beside].map(|state| conserved(grid.time(n + 1), state));
-            let measured = start.measured(&now, beside);
+            let observed = space.observe(&[&state, &beside]);
+            let seen = [observed.seen(0, &state.mu), observed.seen(1, &beside.mu)];
+            let conserved = system.invariants.conserved(grid.time(n + 1), &seen);
+            let measured = start.measured(&conserved[0], &conserved[1]);
             if let Some(now) = measured.spatial_momentum.filter(|_| known) {
                 drift.raise(Drift { spatial_momentum: Some(now), ..Drift::default() });
                 course.drift = drift.spatial_momentum.map(|drift| (drift, n + 1));

@@ -12,7 +12,7 @@ use coadjoint::steps::advance;
 use coadjoint::{Phase, StepError, laws};
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;
-use coadjoint_codegen::step::{Convergence, rounding};
+use coadjoint_codegen::step::{Convergence, Seen, rounding};
 use course::{Course, starts as starts_in};
 use nalgebra::DVector;
 use order::measured;
@@ -180,8 +180,10 @@ fn laws_of_steps(
             law.statement = "steps and damping: error ∝ h²";
         });
         let energy = |time: f64, state: &Phase<DirectProduct<MatrixGroup>>| {
-            let matrix = || entries_of(group, &state.group_element);
-            system.invariants.conserved(time, state.momentum.as_slice(), &[], matrix).energy
+            let matrix = entries_of(group, &state.group_element);
+            let seen = Seen { spatial: &[], matrix: &matrix, momentum: state.momentum.as_slice() };
+            let conserved = system.invariants.conserved(time, &[seen]);
+            system.invariants.energy_of(&conserved[0])
         };
         if points.first().and_then(|point| energy(start, point)).is_some() {
             let mut rise = f64::NEG_INFINITY;
@@ -192,11 +194,11 @@ fn laws_of_steps(
                     .map(|(time, state)| energy(time, state).unwrap_or(f64::NAN));
                 rise = maximum(rise, (after - before) * h.signum() / before.abs());
             }
-            let statement = match (&system.invariants.potential, h < 0.0) {
-                (Some(_), false) => "(H + V)(Φ(α)) ≤ (H + V)(α)",
-                (Some(_), true) => "(H + V)(Φ(α)) ≥ (H + V)(α), back in time",
-                (None, false) => "H(Φ(α)) ≤ H(α)",
-                (None, true) => "H(Φ(α)) ≥ H(α), back in time",
+            let statement = match (system.invariants.potential, h < 0.0) {
+                (true, false) => "(H + V)(Φ(α)) ≤ (H + V)(α)",
+                (true, true) => "(H + V)(Φ(α)) ≥ (H + V)(α), back in time",
+                (false, false) => "H(Φ(α)) ≤ H(α)",
+                (false, true) => "H(Φ(α)) ≥ H(α), back in time",
             };
             let name = "dissipative";
             laws.push(Law::at_most(name, statement, rise, 1e-14));

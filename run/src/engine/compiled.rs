@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use coadjoint::StepError;
 use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::step::{self, Convergence, Origin, Spatial, Step};
+use coadjoint_codegen::step::{self, Convergence, Observation, Origin, Step};
 use coadjoint_program::fold::FoldError;
 use coadjoint_program::{Kernel, Precision, Trajectories, WIDTH};
 
@@ -86,15 +86,15 @@ pub(crate) struct Kept {
 #[derive(Debug)]
 pub(crate) struct Programs {
     step: Step,
-    spatial: Spatial,
+    observation: Observation,
     convergence: OnceLock<Convergence>,
 }
 
 impl Programs {
     fn build(origin: &Origin) -> Result<Arc<Self>, step::StepError> {
         let step = origin.step(Precision::Double)?;
-        let spatial = Spatial::new(&step);
-        Ok(Arc::new(Self { step, spatial, convergence: OnceLock::new() }))
+        let observation = Observation::new(&step);
+        Ok(Arc::new(Self { step, observation, convergence: OnceLock::new() }))
     }
 }
 
@@ -318,9 +318,10 @@ impl Compiled {
         self.programs.convergence.get_or_init(|| Convergence::new(integrator))
     }
 
-    /// The spatial momenta Ad\*_g μ of states.
-    pub(crate) fn spatial_momenta(&self, states: &[&Numbers]) -> Vec<Vec<f64>> {
-        self.programs.spatial.momenta(states.iter().map(|state| [&state.g[..], &state.mu[..]]))
+    /// The spatial momentum Ad\*_g μ and the matrix of g of each state, one after the other.
+    pub(super) fn observe(&self, states: &[&Numbers]) -> Vec<f64> {
+        let states = states.iter().map(|state| [&state.g[..], &state.mu[..]]);
+        self.programs.observation.of(&states.collect::<Vec<_>>())
     }
 
     /// Makes `steps` steps after the first ones, which began at the time `start`. A step that the programs refuse is made by `rescue`,

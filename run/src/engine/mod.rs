@@ -23,5 +23,5 @@ pub(crate) use kick::Torque;
 pub(crate) use linear::{Differentiable, Linear};
 pub(crate) use motion::{Motion, Varied};
 pub(crate) use motion::{advise, one_by_one};
-pub(crate) use space::{Elements, Group, Restore, Space, identity};
+pub(crate) use space::{Elements, Group, Observed, Restore, Space, identity};
 pub(crate) use space::{cayley_group, entries_of, phase_of, product_group, whole_group};

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use coadjoint::groups::{CayleyMatrixGroup, DirectProduct, ElementError, MatrixGroup, TableError};
 use coadjoint::{LieGroup, Phase};
 use coadjoint_codegen::lie::LieAlgebra;
+use coadjoint_codegen::step::Seen;
 use coadjoint_learn::catalogue;
 use nalgebra::{DMatrix, DVector};
 
@@ -118,12 +119,43 @@ pub(crate) trait Space {
     /// The element with these numbers, rounded in single precision, put onto the group as the group's own products do.
     fn settled(&self, g: &[f64]) -> Vec<f64>;
 
-    /// Ad\*_g μ of each state.
-    fn spatial_momenta(&self, states: &[&Numbers]) -> Vec<Vec<f64>>;
+    /// These states, of one group, as laws are stated for them.
+    fn observe(&self, states: &[&Numbers]) -> Observed;
 
     /// Ad\*_g μ.
     fn spatial_momentum(&self, state: &Numbers) -> Vec<f64> {
-        self.spatial_momenta(&[state]).pop().unwrap_or_default()
+        self.observe(&[state]).spatial(0).to_vec()
+    }
+}
+
+/// The spatial momentum and the matrix of each of some states.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Observed {
+    numbers: Vec<f64>,
+    /// The numbers of the spatial momentum, and of both.
+    lengths: [usize; 2],
+}
+
+impl Observed {
+    /// Ad\*_g μ of the state in this place.
+    pub(crate) fn spatial(&self, at: usize) -> &[f64] {
+        &self.numbers[at * self.lengths[1]..][..self.lengths[0]]
+    }
+
+    /// The matrix of g, row by row, of the state in this place.
+    pub(crate) fn matrix(&self, at: usize) -> &[f64] {
+        &self.numbers[at * self.lengths[1]..(at + 1) * self.lengths[1]][self.lengths[0]..]
+    }
+
+    /// The state in this place alone.
+    pub(crate) fn only(&self, at: usize) -> Self {
+        let [_, length] = self.lengths;
+        Self { numbers: self.numbers[at * length..][..length].to_vec(), lengths: self.lengths }
+    }
+
+    /// The state in this place, with its momentum.
+    pub(crate) fn seen<'a>(&'a self, at: usize, momentum: &'a [f64]) -> Seen<'a> {
+        Seen { spatial: self.spatial(at), matrix: self.matrix(at), momentum }
     }
 }
 
@@ -183,12 +215,16 @@ impl<G: Restore> Space for Elements<G> {
         self.state(&phase).g
     }
 
-    fn spatial_momenta(&self, states: &[&Numbers]) -> Vec<Vec<f64>> {
-        let of =
-            |state: &&Numbers| self.phase(state).spatial_momentum(&*self.group).as_slice().to_vec();
-        match &self.compiled {
-            Some(compiled) => compiled.spatial_momenta(states),
-            None => states.iter().map(of).collect(),
-        }
+    fn observe(&self, states: &[&Numbers]) -> Observed {
+        let of = |state: &&Numbers| {
+            let spatial = self.phase(state).spatial_momentum(&*self.group);
+            [spatial.as_slice(), &state.g].concat()
+        };
+        let numbers = match &self.compiled {
+            Some(compiled) => compiled.observe(states),
+            None => states.iter().flat_map(of).collect(),
+        };
+        let dim = self.group.dim();
+        Observed { numbers, lengths: [dim, dim + self.size().pow(2)] }
     }
 }

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use coadjoint::StepError;
 use coadjoint_codegen::problem::{Parameter, Solver};
 use coadjoint_codegen::smooth::Hamiltonian;
-use coadjoint_codegen::step::{self, Invariants, nudge};
+use coadjoint_codegen::step::{self, Invariants, Seen, nudge};
 use coadjoint_native::cards::{Card, Device};
 use coadjoint_program::{Precision, Trajectories, WIDTH};
 use rayon::prelude::*;
@@ -209,8 +209,7 @@ impl<'a> Engine<'a> {
         let motion = system.steps(grid, compiled.as_ref()).map_err(RunError::unmade)?;
         let identity = motion.space().numbers(&identity(motion.space().size()));
         // Energies are not measured.
-        let invariants =
-            Invariants { hamiltonian: None, potential: None, ..system.invariants.clone() };
+        let invariants = system.invariants.clone().without_energy();
         let redone = AtomicU64::new(0);
         let parameters = system.facts().defaults();
         Ok(Self { system, parameters, grid, motion, compiled, card, redone, invariants, identity })
@@ -224,7 +223,7 @@ impl<'a> Engine<'a> {
 
     /// The number of Casimirs watched.
     pub fn casimirs(&self) -> usize {
-        self.invariants.casimirs.len()
+        self.invariants.casimirs
     }
 
     /// The device that makes the steps, and what it has left to others; `None` where this processor makes them.
@@ -475,16 +474,16 @@ impl<'a> Engine<'a> {
             nudge(&mut state.mu);
         }
         let states: Vec<&Numbers> = before.iter().chain(after()).chain(&beside).collect();
-        let spatial = space.spatial_momenta(&states);
-        let rows = before.len();
-        let conserved =
-            |at: usize| invariants.conserved(time, &states[at].mu, &spatial[at], Vec::new);
+        let observed = space.observe(&states);
+        let seen: Vec<Seen<'_>> =
+            (0..states.len()).map(|at| observed.seen(at, &states[at].mu)).collect();
+        let (rows, conserved) = (before.len(), invariants.conserved(time, &seen));
         let known = invariants.directions.as_ref().is_none_or(|known| !known.is_empty());
         let drift = |row: usize| {
-            let start = invariants.start(time, &before[row].mu, &spatial[row], Vec::new);
-            let conserved = start.measured(&conserved(rows + row), conserved(2 * rows + row));
+            let start = invariants.start(time, seen[row]);
+            let conserved = start.measured(&conserved[rows + row], &conserved[2 * rows + row]);
             let hidden = known && conserved.spatial_momentum.is_none()
-                || !invariants.casimirs.is_empty() && conserved.casimirs.is_none();
+                || invariants.casimirs > 0 && conserved.casimirs.is_none();
             Drift { conserved, unmeasured: hidden.into(), ..Drift::default() }
         };
         (0..rows).map(drift).collect()

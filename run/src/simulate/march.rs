@@ -2,18 +2,26 @@
 
 use std::time::{Duration, Instant};
 
+use coadjoint_program::WIDTH;
+
 use super::event::{self, Crossing, Lookout};
 use super::milestone::{Milestone, part};
 use super::orbit::Orbit;
 use super::recorder::{Outcome, Recorder, Watched, drifting};
 use super::setup::Setup;
 use super::sink::{Record, Resume, Sink};
-use super::tally::{Moment, Warning};
+use super::tally::{Measured, Warning};
 use crate::engine::{Motion, Numbers};
 use crate::error::RunError;
 
 /// The number of moments at which the drift is measured in a run of which no records are kept.
 const LOOKS: u64 = 10_000;
+
+/// The number of states that are measured side by side, each with one beside it.
+const BESIDE: usize = WIDTH / 2;
+
+/// The longest time that a state waits for others, if steps are fast.
+const LONGEST: Duration = Duration::from_millis(5);
 
 /// The number of steps made at a time: few enough to return every ten milliseconds.
 pub(super) struct Pace(u64);
@@ -59,7 +67,10 @@ struct March<'a> {
     orbit: Option<Orbit>,
     /// Steps made.
     n: u64,
-    moment: Moment,
+    measured: Measured,
+    /// Grid points whose states are still to be measured and recorded, and when the last ones were.
+    waiting: Vec<(u64, Numbers)>,
+    settled: Instant,
     /// The values and the [signs](event::signs) of the events' functions, and the events that occurred.
     values: Vec<f64>,
     signs: Vec<f64>,
@@ -93,8 +104,12 @@ impl Subject<'_> {
         let time = setup.schedule.start;
         let mut recorder = Recorder::new(watched, time, motion.space(), &state);
         let orbit = recorder.orbit();
-        let moment = recorder.visit(time, motion.space(), &state);
-        let moment = moment.map_err(|what| RunError::Run { time, step: 0, what })?;
+        let (found, wrong) = recorder.measure(motion.space(), &[(time, &state)]);
+        let mut measured = found.into_iter().next().ok_or_else(|| {
+            let what = wrong.unwrap_or_default();
+            RunError::Run { time, step: 0, what }
+        })?;
+        recorder.count(time, &mut measured);
         let found = sink.begin(&recorder.begun());
         let found = found.map_err(|_| RunError::Halted { time, step: 0 })?;
         let every = setup.every.unwrap_or(1);
@@ -114,7 +129,9 @@ impl Subject<'_> {
             recorder,
             orbit,
             n,
-            moment,
+            measured,
+            waiting: Vec::new(),
+            settled: Instant::now(),
             values,
             signs,
             crossings,
@@ -134,14 +151,14 @@ impl Subject<'_> {
         let mut pace = Pace::new();
         while march.n < steps && march.ended.is_none() {
             march.steps(&mut pace)?;
-            if march.ended.is_none() {
-                march.record()?;
+            if march.waiting.is_empty() {
+                march.pause()?;
             }
-            march.pause()?;
         }
-        let March { sink, recorder, state, moment, n, values, crossings, ended, kept, .. } = march;
+        let March { sink, recorder, state, measured, n, values, crossings, ended, kept, .. } =
+            march;
         let end = (n, ended.unwrap_or(setup.schedule.end));
-        let mut outcome = recorder.finish(end, motion.space(), &state, &moment);
+        let mut outcome = recorder.finish(end, &state, &measured);
         outcome.warnings.splice(0..0, warnings);
         if ended.is_none() {
             let values = at_start.iter().zip(&values).map(|(&start, &end)| [start, end]);
@@ -168,25 +185,61 @@ impl March<'_> {
         }
         self.state = Numbers { g: element, mu: momentum };
         (self.n, self.times, self.recorder.tally) = (step, times, tally);
-        self.moment = self.measure()?;
+        self.measured = self.here()?;
         Ok(())
     }
 
-    fn measure(&self) -> Result<Moment, RunError> {
-        let measured = self.measured(self.setup.schedule.time(self.n), &self.state);
+    /// Measures the state of the run.
+    fn here(&self) -> Result<Measured, RunError> {
+        let measured = self.measure(self.setup.schedule.time(self.n), &self.state);
         measured.map_err(|what| self.stuck(what))
     }
 
     /// Measures a state that is given out, in which everything must be defined.
-    fn measured(&self, time: f64, state: &Numbers) -> Result<Moment, String> {
-        self.motion.defined(state, time).map_err(|error| error.to_string())?;
-        self.recorder.measure(time, self.motion.space(), state)
+    fn measure(&self, time: f64, state: &Numbers) -> Result<Measured, String> {
+        let (mut found, wrong) = self.measure_all(&[(time, state)]);
+        let mut measured = found.pop().ok_or_else(|| wrong.unwrap_or_default())?;
+        self.recorder.hide(&mut measured);
+        Ok(measured)
     }
 
-    /// As [`measured`](Self::measured) for the state of the run, whose drift counts.
-    fn visit(&mut self, time: f64) -> Result<Moment, String> {
-        self.motion.defined(&self.state, time).map_err(|error| error.to_string())?;
-        self.recorder.visit(time, self.motion.space(), &self.state)
+    /// Measures states up to the first in which something is not defined or not finite, and what that is.
+    fn measure_all(&self, states: &[(f64, &Numbers)]) -> (Vec<Measured>, Option<String>) {
+        let defined = states.iter().map(|(time, state)| self.motion.defined(state, *time));
+        let mut lost = None;
+        let count = defined
+            .map_while(|found| found.map_err(|error| lost = Some(error.to_string())).ok())
+            .count();
+        let (found, wrong) = self.recorder.measure(self.motion.space(), &states[..count]);
+        (found, wrong.or(lost))
+    }
+
+    /// As [`measure`](Self::measure) for the state of the run, whose drift counts.
+    fn visit(&mut self, time: f64) -> Result<Measured, String> {
+        let mut measured = self.measure(time, &self.state)?;
+        self.recorder.count(time, &mut measured);
+        Ok(measured)
+    }
+
+    /// Measures and records the states that wait.
+    fn settle(&mut self) -> Result<(), RunError> {
+        self.settled = Instant::now();
+        let (waiting, schedule) = (std::mem::take(&mut self.waiting), &self.setup.schedule);
+        let states = waiting.iter().map(|(n, state)| (schedule.time(*n), state));
+        let (found, mut wrong) = self.measure_all(&states.collect::<Vec<_>>());
+        let mut found = found.into_iter();
+        let (here, now) = (self.n, self.state.clone());
+        for (n, state) in waiting {
+            (self.n, self.state) = (n, state);
+            let Some(mut measured) = found.next() else {
+                return Err(self.stuck(wrong.take().unwrap_or_default()));
+            };
+            self.recorder.count(schedule.time(n), &mut measured);
+            self.measured = measured;
+            self.record()?;
+        }
+        (self.n, self.state) = (here, now);
+        Ok(())
     }
 
     /// Makes steps of the grid, up to the next look at them.
@@ -202,11 +255,13 @@ impl March<'_> {
         // The clock is read only if records are rarer than the driver's turns.
         let begun = (count == pace.0).then(Instant::now);
         let made = self.motion.advance(&mut self.state, first, count);
-        let made = made.map_err(|(done, source)| {
+        if let Err((done, source)) = made {
             let time = schedule.time(first + done);
             let advice = self.motion.advice(&self.state, time, &source).unwrap_or_default();
-            RunError::Run { time, step: first + done + 1, what: format!("{source}{advice}") }
-        })?;
+            self.settle()?;
+            let what = format!("{source}{advice}");
+            return Err(RunError::Run { time, step: first + done + 1, what });
+        }
         if let Some(begun) = begun {
             pace.took(count, begun.elapsed());
         }
@@ -214,9 +269,12 @@ impl March<'_> {
         if let Some(orbit) = self.orbit.as_ref().filter(|_| self.n == restored) {
             orbit.restore(self.motion.space(), &mut self.state);
         }
-        if let Some(solved) = made {
-            let noted = self.recorder.solved(solved);
-            noted.map_err(|what| self.stuck(what))?;
+        if let Ok(Some(solved)) = made
+            && let Err(what) = self.recorder.solved(solved)
+        {
+            let stuck = self.stuck(what);
+            self.settle()?;
+            return Err(stuck);
         }
         if self.n.is_multiple_of(self.part) && self.n < self.setup.schedule.steps {
             self.kept.push((self.n, self.state.clone()));
@@ -230,14 +288,17 @@ impl March<'_> {
         if let Some(warning) = self.recorder.steep(first + 1, schedule.time(first), ratio) {
             self.sink.warn(&warning.text());
         }
+        let alone = !self.setup.events.is_empty() || self.setup.at.is_some();
         // Times of `--at` change no report of the drift.
         if self.watched() {
-            let seen = self.visit(schedule.time(self.n));
-            self.moment = seen.map_err(|what| self.stuck(what))?;
-        } else if self.n == next && self.setup.recording {
-            self.moment = self.measure()?;
+            self.waiting.push((self.n, self.state.clone()));
+        } else if alone && self.n == next && self.setup.recording {
+            self.measured = self.here()?;
+            self.record()?;
         }
-        Ok(())
+        let full = alone || self.waiting.len() == BESIDE || self.n == schedule.steps;
+        let settles = !self.waiting.is_empty() && (full || self.settled.elapsed() > LONGEST);
+        if settles { self.settle() } else { Ok(()) }
     }
 
     /// The lookout for events in the step from this grid point.
@@ -276,7 +337,7 @@ impl March<'_> {
         }
         (self.values, self.signs) = (earlier.values, earlier.signs);
         for (event, time, state) in found {
-            let element = self.recorder.entries(space, &state);
+            let element = self.recorder.entries(&space.matrix(&state.g));
             let momentum = state.mu.clone();
             self.crossings.push(Crossing { event, time, momentum, element });
             if setup.events[event].terminal {
@@ -295,13 +356,13 @@ impl March<'_> {
         while let Some(earlier) = self.next_time().filter(|at| (time - at) * direction > 0.0) {
             let between = self.motion.beside(before, here, earlier - here);
             let between = between.map_err(|error| self.stuck(error.to_string()))?;
-            let moment = self.measured(earlier, &between).map_err(|what| self.stuck(what))?;
-            self.write(earlier, Some((&between, moment)))?;
+            let measured = self.measure(earlier, &between).map_err(|what| self.stuck(what))?;
+            self.write(earlier, Some((&between, &measured)))?;
             self.times += 1;
         }
         self.state = state;
-        self.moment = self.visit(time).map_err(|what| self.stuck(what))?;
-        self.sink.look(time, &self.state.mu, &self.moment);
+        self.measured = self.visit(time).map_err(|what| self.stuck(what))?;
+        self.sink.look(time, &self.state.mu, &self.measured.moment);
         // The grid point itself may be recorded already.
         let wanted = |every| time != here || !self.n.is_multiple_of(every);
         match self.setup.recording && every.is_some_and(wanted) {
@@ -335,7 +396,7 @@ impl March<'_> {
         let here = schedule.time(n);
         // Pictures show moments at which the drift is measured.
         if self.watched() {
-            self.sink.look(here, &self.state.mu, &self.moment);
+            self.sink.look(here, &self.state.mu, &self.measured.moment);
         }
         if !setup.recording {
             return Ok(());
@@ -357,9 +418,9 @@ impl March<'_> {
                 let state = self.motion.beside(&self.state, here, part);
                 let state = state
                     .map_err(|source| failed(here, format!("the record at {time}: {source}")))?;
-                let moment = self.measured(time, &state);
-                let moment = moment.map_err(|what| failed(time, what))?;
-                self.write(time, Some((&state, moment)))?;
+                let measured = self.measure(time, &state);
+                let measured = measured.map_err(|what| failed(time, what))?;
+                self.write(time, Some((&state, &measured)))?;
             }
             self.times += 1;
         }
@@ -367,15 +428,15 @@ impl March<'_> {
     }
 
     /// Hands out a record: of the state of the grid, or of one beside it.
-    fn write(&mut self, time: f64, beside: Option<(&Numbers, Moment)>) -> Result<(), RunError> {
-        let space = self.motion.space();
-        let (state, moment) = beside.unwrap_or((&self.state, self.moment));
+    fn write(&mut self, time: f64, beside: Option<(&Numbers, &Measured)>) -> Result<(), RunError> {
+        let (state, measured) = beside.unwrap_or((&self.state, &self.measured));
+        let Measured { moment, observed } = measured;
         let record = Record {
             time,
             momentum: &state.mu,
-            element: &|| self.recorder.entries(space, state),
-            moment,
-            spatial_momentum: &|| space.spatial_momentum(state),
+            element: &self.recorder.entries(observed.matrix(0)),
+            moment: *moment,
+            spatial_momentum: observed.spatial(0),
         };
         let taken = self.sink.record(&record);
         taken.map_err(|_| self.halted())

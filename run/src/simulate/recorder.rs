@@ -8,7 +8,7 @@ use super::blocks::{Block, blocks, off_group};
 use super::event::Crossing;
 use super::orbit::Orbit;
 use super::sink::Begun;
-use super::tally::{Moment, Solver, Steep, Tally, Warning};
+use super::tally::{Measured, Moment, Solver, Steep, Tally, Warning};
 use super::unknown::Unknown;
 use crate::backend::Used;
 use crate::engine::{Numbers, STEEP, Solved, Space};
@@ -86,21 +86,18 @@ pub(crate) struct Watched<'a> {
 impl Watched<'_> {
     /// The reasons for drifts that there are not.
     fn unknown(&self) -> [Option<&'static str>; 3] {
-        let Invariants { directions, casimirs, hamiltonian, no_energy, potential } =
-            self.invariants;
+        let Invariants { directions, casimirs, energy, no_energy, potential, .. } = self.invariants;
         let spatial = match directions.as_deref() {
             _ if !self.attitude => Some("not known: the data leave the attitude open"),
-            Some([]) if potential.is_some() => {
-                Some("not conserved: the potential breaks the symmetry")
-            }
+            Some([]) if *potential => Some("not conserved: the potential breaks the symmetry"),
             Some([]) => Some("not conserved: a torque acts"),
             _ => None,
         };
         let kicked = directions.is_some();
         let none = if kicked { "none that the kicks keep" } else { "none known" };
         let unknown = "not known: a learned map has no Hamiltonian";
-        let energy = no_energy.or(self.damped).or_else(|| hamiltonian.is_none().then_some(unknown));
-        [spatial, casimirs.is_empty().then_some(none), energy]
+        let energy = no_energy.or(self.damped).or_else(|| (!energy).then_some(unknown));
+        [spatial, (*casimirs == 0).then_some(none), energy]
     }
 }
 
@@ -108,6 +105,8 @@ impl Watched<'_> {
 pub(crate) struct Recorder<'a> {
     watched: Watched<'a>,
     blocks: Vec<Block>,
+    /// The places of the entries of the blocks in the whole matrix, row by row.
+    places: Vec<usize>,
     start: Start,
     unknown: [Option<&'static str>; 3],
     /// The maxima so far.
@@ -117,22 +116,20 @@ pub(crate) struct Recorder<'a> {
 impl<'a> Recorder<'a> {
     /// Measures drifts against a state of this time, which is the start.
     pub(crate) fn new(watched: Watched<'a>, time: f64, space: &dyn Space, start: &Numbers) -> Self {
-        let (spatial, matrix) = (space.spatial_momentum(start), || space.matrix(&start.g));
-        let mut start = watched.invariants.start(time, &start.mu, &spatial, matrix);
-        let mut blocks = blocks(watched.algebra, space.size());
-        if !watched.attitude {
-            blocks.clear();
-            start.conserved.momenta.clear();
-        }
-        Self { watched, blocks, start, unknown: watched.unknown(), tally: Tally::default() }
+        let observed = space.observe(&[start]);
+        let start = watched.invariants.start(time, observed.seen(0, &start.mu));
+        let size = space.size();
+        let blocks = if watched.attitude { blocks(watched.algebra, size) } else { Vec::new() };
+        let places = blocks.iter().flat_map(Block::places).map(|(i, j)| i * size + j).collect();
+        let (unknown, tally) = (watched.unknown(), Tally::default());
+        Self { watched, blocks, places, start, unknown, tally }
     }
 
     /// The orbit of the start, where all of the spatial momentum is conserved and known.
     pub(super) fn orbit(&self) -> Option<Orbit> {
         let Watched { algebra, invariants, .. } = self.watched;
-        let momenta = &self.start.conserved.momenta;
-        let known = invariants.directions.is_none() && momenta.len() == algebra.dim();
-        (known && !self.blocks.is_empty()).then(|| Orbit::new(algebra, momenta.clone()))
+        let known = invariants.directions.is_none() && !self.blocks.is_empty();
+        known.then(|| Orbit::new(algebra, self.start.momenta().to_vec()))
     }
 
     /// The facts before the first step.
@@ -141,7 +138,7 @@ impl<'a> Recorder<'a> {
             coordinates: self.watched.coordinates,
             blocks: &self.blocks,
             known: self.unknown.map(|why| why.is_none()),
-            energy: self.watched.invariants.hamiltonian.is_some(),
+            energy: self.watched.invariants.energy,
             scales: &self.start.scales,
         }
     }
@@ -169,89 +166,94 @@ impl<'a> Recorder<'a> {
         self.tally.steep.map(Warning::Steep)
     }
 
-    /// Measures the moment of this time, and takes its drift into account.
-    ///
-    /// # Errors
-    /// The name of a number that is not finite.
-    pub(crate) fn visit(
-        &mut self,
-        time: f64,
-        space: &dyn Space,
-        state: &Numbers,
-    ) -> Result<Moment, String> {
-        let moment = self.measure(time, space, state)?;
-        let drifts = moment.drift.numbers().into_iter().zip(self.unknown);
+    /// Takes the drift of a measured state of this time into account.
+    pub(crate) fn count(&mut self, time: f64, measured: &mut Measured) {
+        self.hide(measured);
+        let drifts = measured.moment.drift.numbers().into_iter().zip(self.unknown);
         for (since, (drift, unknown)) in self.tally.unmeasured.iter_mut().zip(drifts) {
             if unknown.is_none() && drift.is_nan() {
                 since.get_or_insert(time);
             }
         }
-        self.tally.drift.raise(moment.drift);
-        Ok(moment)
+        self.tally.drift.raise(measured.moment.drift);
     }
 
-    /// Measures the moment of this time. A quantity has a drift until rounding of the state hides it.
-    ///
-    /// # Errors
-    /// The name of a number that is not finite.
-    pub(crate) fn measure(
-        &self,
-        time: f64,
-        space: &dyn Space,
-        state: &Numbers,
-    ) -> Result<Moment, String> {
-        for (name, value) in self.watched.coordinates.iter().zip(&state.mu) {
-            finite(&format_args!("the momentum {name}"), *value)?;
-        }
-        state.g.iter().try_for_each(|number| finite("an entry of the group element", *number))?;
-        let mut beside = state.clone();
-        nudge(&mut beside.g);
-        nudge(&mut beside.mu);
-        let states = [state, &beside];
-        let spatial = space.spatial_momenta(&states);
-        let conserved = |at: usize| {
-            let matrix = || space.matrix(&states[at].g);
-            self.watched.invariants.conserved(time, &states[at].mu, &spatial[at], matrix)
-        };
-        let now = conserved(0);
-        if let (Some(energy), Some(potential)) = (now.energy, &self.watched.invariants.potential)
-            && !energy.is_finite()
-        {
-            finite("the potential", potential.value(&space.matrix(&state.g)))?;
-        }
-        finite("the energy", now.energy.unwrap_or(0.0))?;
-        let mut drift = self.start.measured(&now, conserved(1)).numbers();
-        let unmeasured = self.tally.unmeasured.iter().map(Option::is_some);
-        let unknown = self.unknown.iter().map(Option::is_some);
-        for (drift, (since, unknown)) in drift.iter_mut().zip(unmeasured.zip(unknown)) {
-            if since || unknown {
+    /// A quantity has a drift until rounding of the state hides it.
+    pub(crate) fn hide(&self, measured: &mut Measured) {
+        let mut drift = measured.moment.drift.numbers();
+        for (drift, since) in drift.iter_mut().zip(self.tally.unmeasured) {
+            if since.is_some() {
                 *drift = f64::NAN;
             }
         }
-        Ok(Moment { energy: now.energy, drift: Drift::of_numbers(drift) })
+        measured.moment.drift = Drift::of_numbers(drift);
     }
 
-    /// The entries of the blocks of g, row by row.
-    pub(crate) fn entries(&self, space: &dyn Space, state: &Numbers) -> Vec<f64> {
-        if self.blocks.is_empty() {
-            return Vec::new();
+    /// Measures states of these times, up to the first that has a number that is not finite; its name.
+    pub(crate) fn measure(
+        &self,
+        space: &dyn Space,
+        states: &[(f64, &Numbers)],
+    ) -> (Vec<Measured>, Option<String>) {
+        let sound = states.iter().map(|(_, state)| self.sound(state));
+        let mut wrong = None;
+        let count = sound.map_while(|sound| sound.map_err(|what| wrong = Some(what)).ok()).count();
+        let states = &states[..count];
+        let mut beside: Vec<Numbers> = states.iter().map(|(_, state)| (*state).clone()).collect();
+        for state in &mut beside {
+            nudge(&mut state.g);
+            nudge(&mut state.mu);
         }
-        let (matrix, size) = (space.matrix(&state.g), space.size());
-        let places = self.blocks.iter().flat_map(Block::places);
-        places.map(|(i, j)| matrix[i * size + j]).collect()
+        let all: Vec<&Numbers> = states.iter().map(|(_, state)| *state).chain(&beside).collect();
+        let observed = space.observe(&all);
+        let seen = all.iter().enumerate().map(|(at, state)| observed.seen(at, &state.mu));
+        let invariants = self.watched.invariants;
+        let time = states.first().map_or(f64::NAN, |(time, _)| *time);
+        let conserved = invariants.conserved(time, &seen.collect::<Vec<_>>());
+        let mut measured = Vec::with_capacity(count);
+        for at in 0..count {
+            let energy = invariants.energy_of(&conserved[at]);
+            if let Err(what) = finite("the energy", energy.unwrap_or(0.0)) {
+                wrong = Some(what);
+                break;
+            }
+            let mut drift = self.start.measured(&conserved[at], &conserved[count + at]).numbers();
+            for (drift, unknown) in drift.iter_mut().zip(self.unknown) {
+                if unknown.is_some() {
+                    *drift = f64::NAN;
+                }
+            }
+            let moment = Moment { energy, drift: Drift::of_numbers(drift) };
+            measured.push(Measured { moment, observed: observed.only(at) });
+        }
+        (measured, wrong)
+    }
+
+    /// Checks that all numbers of a state are finite.
+    fn sound(&self, state: &Numbers) -> Result<(), String> {
+        for (name, value) in self.watched.coordinates.iter().zip(&state.mu) {
+            finite(&format_args!("the momentum {name}"), *value)?;
+        }
+        state.g.iter().try_for_each(|number| finite("an entry of the group element", *number))
+    }
+
+    /// The entries of the blocks of a matrix, row by row.
+    pub(crate) fn entries(&self, matrix: &[f64]) -> Vec<f64> {
+        self.places.iter().map(|&place| matrix[place]).collect()
     }
 
     /// The outcome of the run, which ended at `state`.
     pub(crate) fn finish(
         self,
         (steps, time): (u64, f64),
-        space: &dyn Space,
         state: &Numbers,
-        moment: &Moment,
+        measured: &Measured,
     ) -> Outcome {
         let Tally { drift, unmeasured, solver, steep } = self.tally;
         let invariants = self.watched.invariants;
-        let element = self.entries(space, state);
+        let Measured { moment, observed } = measured;
+        let element = self.entries(observed.matrix(0));
+        let energy = invariants.energy_of(self.start.conserved());
         Outcome {
             steps,
             time,
@@ -260,13 +262,13 @@ impl<'a> Recorder<'a> {
             momentum: state.mu.clone(),
             off_group: off_group(self.watched.algebra, &self.blocks, &element),
             element,
-            energy: self.start.conserved.energy.zip(moment.energy).map(|(start, end)| [start, end]),
+            energy: energy.zip(moment.energy).map(|(start, end)| [start, end]),
             drift,
             unmeasured,
             unknown: self.unknown,
-            casimirs: invariants.casimirs.len(),
-            potential: invariants.potential.is_some(),
-            momenta: self.start.conserved.momenta.len(),
+            casimirs: invariants.casimirs,
+            potential: invariants.potential,
+            momenta: if self.watched.attitude { invariants.momenta() } else { 0 },
             scales: self.start.scales,
             events: Vec::new(),
             solver,

@@ -67,12 +67,12 @@ pub struct Record<'a> {
     pub time: f64,
     /// μ.
     pub momentum: &'a [f64],
-    /// Computes the entries of the blocks of g, row by row; none where attitudes mean nothing.
-    pub element: &'a dyn Fn() -> Vec<f64>,
+    /// The entries of the blocks of g, row by row; none where attitudes mean nothing.
+    pub element: &'a [f64],
     /// The energy, where one is known, and the differences from the start.
     pub moment: Moment,
-    /// Computes the spatial momentum Ad*_g μ.
-    pub spatial_momentum: &'a dyn Fn() -> Vec<f64>,
+    /// The spatial momentum Ad*_g μ.
+    pub spatial_momentum: &'a [f64],
 }
 
 /// The state of a run, complete enough to go on later.

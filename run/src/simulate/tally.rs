@@ -4,7 +4,7 @@ use coadjoint_codegen::step::Drift;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use crate::engine::STEEP;
+use crate::engine::{Observed, STEEP};
 use crate::number::{brief, shortest};
 
 /// The measurements at a moment.
@@ -14,6 +14,13 @@ pub struct Moment {
     pub energy: Option<f64>,
     /// The differences at this moment.
     pub drift: Drift,
+}
+
+/// A state that was measured: the first of those observed.
+#[derive(Clone, Debug)]
+pub(crate) struct Measured {
+    pub moment: Moment,
+    pub observed: Observed,
 }
 
 /// The solves of a run.

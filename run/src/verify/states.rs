@@ -114,7 +114,7 @@ impl Measured {
     /// The drifts of the spatial momentum, the Casimirs and the energy from here to another state, where they are known, each
     /// with what rounding may do to it.
     pub(crate) fn drifts(&self, to: &Self) -> [Option<(f64, f64)>; 3] {
-        let (scales, drift) = (&self.start.scales, self.start.drift(&to.start.conserved));
+        let (scales, drift) = (&self.start.scales, self.start.drift(to.start.conserved()));
         let over = |size: f64, scale: f64| if scale == 0.0 { size } else { size / scale };
         let both = |a: Option<f64>, b: Option<f64>, scale| Some(over(a? + b?, scale));
         let casimirs = self.casimirs.iter().zip(&to.casimirs).zip(&scales.casimirs);
@@ -131,7 +131,8 @@ impl Measured {
 
     /// The energy, and what rounding may do to it; none where it moves in time.
     pub(crate) fn energy(&self) -> Option<(f64, f64)> {
-        self.start.conserved.energy.zip(self.energy.map(|size| DRIFT * size))
+        let energy = self.start.conserved().last().copied();
+        energy.zip(self.energy.map(|size| DRIFT * size))
     }
 }
 
@@ -147,7 +148,7 @@ impl Invariants {
     pub(crate) fn new(hamiltonian: &Hamiltonian) -> Result<Self, RunError> {
         let Facts { name, algebra, .. } = hamiltonian.facts();
         let group = product_group(Path::new(name), algebra)?;
-        let functions = step::Invariants::new(algebra, step::Energy::new(hamiltonian), None);
+        let functions = step::Invariants::new(algebra, Some(hamiltonian), None);
         Ok(Self { functions, group })
     }
 
@@ -157,15 +158,16 @@ impl Invariants {
         let phase = state.element.as_ref().map(|element| phase_of(&self.group, element, mu));
         let spatial = phase.map(|phase| phase.spatial_momentum(&self.group));
         let spatial = spatial.as_ref().map_or(&[][..], |spatial| spatial.as_slice());
-        let start = functions.start(time, mu, spatial, Vec::new);
+        let seen = step::Seen { spatial, matrix: &[], momentum: mu };
+        let start = functions.start(time, seen);
+        let (casimirs, energy) = functions.sizes(time, seen);
         let length = mu.iter().map(|mu| mu * mu).sum::<f64>().sqrt();
         let stretch = state.element.as_ref().and_then(|element| condition(element));
-        let energy = functions.hamiltonian.as_ref();
         Measured {
             start,
             spatial: stretch.map(|stretch| stretch * length),
-            casimirs: functions.casimirs.iter().map(|casimir| casimir.magnitude(mu)).collect(),
-            energy: energy.map(|energy| energy.magnitude(time, mu)),
+            casimirs,
+            energy,
             state,
         }
     }

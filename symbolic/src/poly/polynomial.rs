@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
+use coadjoint_program::{Graph, Id};
 use num_traits::{One, ToPrimitive, Zero};
 
 use crate::cancel;
@@ -306,12 +307,32 @@ impl Numeric {
 
     /// The value at x.
     pub fn value(&self, x: &[f64]) -> f64 {
-        self.each(x).sum()
+        let product = |factors: &[(usize, i32)]| -> f64 {
+            factors.iter().map(|&(i, power)| x[i].powi(power)).product()
+        };
+        self.0.iter().map(|(value, factors)| value * product(factors)).sum()
     }
 
-    /// The sum of the absolute values of the terms, against which rounding and drift of the value are measured.
-    pub fn magnitude(&self, x: &[f64]) -> f64 {
-        self.each(x).map(f64::abs).sum()
+    /// With the absolute values of the coefficients: at |x| the sum of the sizes of the terms, against which rounding and drift
+    /// of the value are measured.
+    #[must_use]
+    pub fn absolute(&self) -> Self {
+        Self(self.0.iter().map(|(value, factors)| (value.abs(), factors.clone())).collect())
+    }
+
+    /// The value at x as a node.
+    pub fn node(&self, graph: &Graph, x: &[Id]) -> Id {
+        self.0.iter().fold(graph.zero(), |sum, (value, factors)| {
+            let power = |&(i, power): &(usize, i32)| graph.power(x[i], power.unsigned_abs());
+            let term =
+                factors.iter().map(power).fold(graph.constant(*value), |a, b| graph.mul(a, b));
+            graph.add(sum, term)
+        })
+    }
+
+    /// The terms.
+    pub fn terms(&self) -> impl Iterator<Item = (f64, &[(usize, i32)])> {
+        self.0.iter().map(|(value, factors)| (*value, factors.as_slice()))
     }
 
     /// The derivatives by the first `dim` variables.
@@ -328,17 +349,6 @@ impl Numeric {
             Self(terms.collect())
         };
         (0..dim).map(derivative).collect()
-    }
-
-    /// The terms.
-    pub fn terms(&self) -> impl Iterator<Item = (f64, &[(usize, i32)])> {
-        self.0.iter().map(|(value, factors)| (*value, factors.as_slice()))
-    }
-
-    fn each<'a>(&'a self, x: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
-        self.0.iter().map(|(value, factors)| {
-            value * factors.iter().map(|&(i, power)| x[i].powi(power)).product::<f64>()
-        })
     }
 }
 

@@ -10,13 +10,15 @@ mod closed;
 mod collocation;
 mod convergence;
 mod drift;
+mod energy;
 mod error;
+mod invariants;
+#[cfg(feature = "spatial")]
+mod observation;
 mod origin;
 mod product;
 mod programs;
 mod solving;
-#[cfg(feature = "spatial")]
-mod spatial;
 mod tables;
 mod traced;
 mod vector;
@@ -37,15 +39,14 @@ use closed::closed;
 use product::{Part, Product, Translations};
 
 pub use convergence::{Convergence, Converging};
-pub use drift::{
-    Conserved, Drift, Energy, Invariants, PotentialEnergy, Scales, Slopes, Start, nudge,
-};
-pub use drift::{MEASURABLE, NUDGE, rounding};
+pub use drift::{Drift, MEASURABLE, NUDGE, Scales, Start, nudge, rounding};
+pub use energy::{Energy, Slopes};
 pub(crate) use error::MOST_OF_TABLES;
 pub use error::StepError;
-pub use origin::Origin;
+pub use invariants::{Invariants, Seen};
 #[cfg(feature = "spatial")]
-pub use spatial::Spatial;
+pub use observation::Observation;
+pub use origin::Origin;
 
 /// A step as programs, with what is needed to fold its coefficients and to read group elements.
 #[derive(Debug)]

@@ -2,14 +2,13 @@
 
 use coadjoint_program::limits::{NEAR, RATE_OF_HALF_TURN};
 use coadjoint_program::{Kernel, KernelParts, Programs};
-use num_traits::ToPrimitive;
 
 use super::solving::{ROUNDINGS, Scheme, inputs, squares_of_series, tolerance};
 use super::vector::{all_at_most, finite};
 use crate::graph::{Graph, Id, Program};
 use crate::integrator::{Integrator, Kick, Kicks};
 use crate::lie::{self, LieAlgebra};
-use crate::poly::Polynomial;
+use crate::poly::Numeric;
 use crate::step::StepError;
 use crate::step::product::{ESTIMATED, Part, Product};
 
@@ -197,25 +196,9 @@ pub(super) fn watch(
         }
         casimirs.retain(|casimir| kick.potential.keeps(casimir));
     }
-    for casimir in casimirs {
-        outputs.push(polynomial(&graph, &casimir, &mu));
-    }
+    let casimirs = casimirs.iter();
+    outputs.extend(casimirs.map(|casimir| Numeric::new(casimir, n, &[]).node(&graph, &mu)));
     graph.finish(m + n, &outputs)
-}
-
-/// The value of a polynomial in these coordinates.
-fn polynomial(graph: &Graph, polynomial: &Polynomial, inputs: &[Id]) -> Id {
-    let mut sum = graph.zero();
-    for (factors, value) in polynomial.factors() {
-        let mut product = graph.constant(value.to_f64().unwrap_or(f64::NAN));
-        for (i, power) in factors {
-            for _ in 0..power {
-                product = graph.mul(product, inputs[i as usize]);
-            }
-        }
-        sum = graph.add(sum, product);
-    }
-    sum
 }
 
 /// g ↦ its matrix, row by row.

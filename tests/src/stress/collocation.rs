@@ -9,7 +9,7 @@ use coadjoint::collocation::{Collocation, Energy};
 use coadjoint::groups::{Coordinates, Power, SE2, SL2, SU2};
 use coadjoint::{LieGroup, Phase, SE3, SO3};
 use coadjoint_codegen::smooth::Hamiltonian;
-use coadjoint_codegen::step::{Origin, Spatial, Step};
+use coadjoint_codegen::step::{Observation, Origin, Step};
 use coadjoint_codegen::system::{Options, Parameters, read_either};
 use coadjoint_program::{Precision, Stepper};
 
@@ -121,7 +121,7 @@ impl<G: LieGroup<Scalar = f64>, const M: usize> Mover<G::Vector> for Generic<G, 
 /// The programs of a kernel, for any values of the numbers of a [`Drawn`].
 struct Programs {
     step: Step,
-    spatial: Spatial,
+    observation: Observation,
 }
 
 /// By the name of the group and the number of nodes.
@@ -148,7 +148,7 @@ fn programs(group: &'static str, nodes: usize) -> Arc<Programs> {
             panic!("a root is no polynomial")
         };
         let step = Origin::Collocation(smooth).step(Precision::Double).expect("a kernel");
-        Arc::new(Programs { spatial: Spatial::new(&step), step })
+        Arc::new(Programs { observation: Observation::new(&step), step })
     };
     Arc::clone(known.entry((group, nodes)).or_insert_with(build))
 }
@@ -171,7 +171,7 @@ impl<V: Coordinates<f64>> Mover<V> for Interpreted {
 
     fn spatial(&self, mu: &V) -> V {
         let numbers: Vec<f64> = (0..mu.dim()).map(|i| mu[i]).collect();
-        let spatial = self.programs.spatial.momentum(&self.element, &numbers);
+        let spatial = self.programs.observation.spatial_momentum(&self.element, &numbers);
         V::from_entries(mu.dim(), |i| spatial[i])
     }
 }

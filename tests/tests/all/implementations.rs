@@ -92,7 +92,7 @@ const PARTS: &[Part] = &[
     },
     Part {
         name: "drift",
-        words: &["fn measured(&self, now: &Conserved", "const MEASURABLE"],
+        words: &["fn measured(&self, now: &[f64]", "const MEASURABLE"],
         files: &["symbolic/src/step/drift.rs"],
     },
 ];

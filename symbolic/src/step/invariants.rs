@@ -1,0 +1,235 @@
+//! The quantities that a motion conserves, as a program of its states: their one definition.
+
+use crate::graph::{Graph, Id, Program};
+use crate::lie::{LieAlgebra, watched_casimirs};
+use crate::poly::{Numeric, Polynomial};
+use crate::potential::{Force, Potential};
+use crate::problem::values;
+use crate::smooth::{Given, Hamiltonian};
+
+use super::drift::{Scales, Start};
+use super::solving::inputs;
+
+/// A state in the numbers that its laws are about.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen<'a> {
+    /// Ad\*_g μ, n numbers; empty where g is not known.
+    pub spatial: &'a [f64],
+    /// The matrix of g, row by row; it is read where a potential acts, and may be empty elsewhere.
+    pub matrix: &'a [f64],
+    /// μ, n numbers.
+    pub momentum: &'a [f64],
+}
+
+/// The quantities that a motion conserves.
+#[derive(Clone, Debug)]
+pub struct Invariants {
+    /// The ξ with ⟨J_L, ξ⟩ conserved, their largest coordinate being 1; `None` where all of J_L is conserved.
+    pub directions: Option<Vec<Vec<f64>>>,
+    /// How many Casimirs of low degree are conserved.
+    pub casimirs: usize,
+    /// True if an energy is known and conserved.
+    pub energy: bool,
+    /// The reason for which a known energy is not conserved.
+    pub no_energy: Option<&'static str>,
+    /// True if V(g) is a part of the energy.
+    pub potential: bool,
+    /// The Hamiltonian, where it is a function of the user's.
+    given: Option<Given>,
+    dim: usize,
+    /// J_L (n), μ (n), the matrix of g ↦ the conserved ⟨J_L, ξ⟩, the Casimirs, the energy.
+    values: Program,
+    /// The same inputs ↦ the sums of the absolute values of the terms of each Casimir and of the energy; of functions that are no
+    /// polynomials the absolute value.
+    sizes: Program,
+    symbols: Vec<f64>,
+}
+
+impl Invariants {
+    /// Of every motion on the coadjoint orbits of this algebra that keeps the spatial momentum.
+    pub fn of(algebra: &LieAlgebra) -> Self {
+        Self::new(algebra, None, None)
+    }
+
+    /// Of the motion with this Hamiltonian, where it is known, with the kicks of a potential if there is one.
+    pub fn new(
+        algebra: &LieAlgebra,
+        hamiltonian: Option<&Hamiltonian>,
+        potential: Option<&Potential>,
+    ) -> Self {
+        let moves = hamiltonian.and_then(Hamiltonian::smooth).is_some_and(|smooth| smooth.moves);
+        let torque = potential.is_some_and(|potential| potential.alone().is_some());
+        let no_energy = match (torque, moves) {
+            (true, _) => Some("not conserved: a torque acts, which is not Hamiltonian"),
+            (_, true) => Some("not conserved: the Hamiltonian depends on time"),
+            _ => None,
+        };
+        let hamiltonian = hamiltonian.filter(|_| no_energy.is_none());
+        let smooth = hamiltonian.and_then(Hamiltonian::smooth);
+        let potential_of_energy = potential.filter(|_| !torque);
+        let mut casimirs = watched_casimirs(algebra);
+        casimirs.retain(|casimir| potential.is_none_or(|potential| potential.keeps(casimir)));
+        let mut symbols =
+            smooth.map_or_else(Vec::new, |smooth| smooth.symbols_at(&smooth.facts().defaults()));
+        let first = symbols.len();
+        symbols.extend(potential_of_energy.iter().flat_map(|own| values(&own.symbols)));
+        let directions = potential.map(Potential::directions);
+        let parts = Parts {
+            algebra,
+            directions: directions.as_deref(),
+            casimirs: &casimirs,
+            energy: hamiltonian,
+            potential: potential_of_energy.filter(|_| hamiltonian.is_some()),
+            first,
+        };
+        Self {
+            casimirs: casimirs.len(),
+            energy: hamiltonian.is_some(),
+            no_energy,
+            potential: potential_of_energy.is_some(),
+            given: smooth.and_then(|smooth| smooth.given.clone()),
+            dim: algebra.dim(),
+            values: parts.program(false),
+            sizes: parts.program(true),
+            symbols,
+            directions,
+        }
+    }
+
+    /// These without the energy.
+    #[must_use]
+    pub fn without_energy(self) -> Self {
+        let last = usize::from(self.energy);
+        let without = |program: &Program| {
+            let graph = Graph::new();
+            let outputs = graph.call(program, &inputs(&graph, 0, program.inputs()));
+            graph.finish(program.inputs(), &outputs[..outputs.len() - last])
+        };
+        let (values, sizes) = (without(&self.values), without(&self.sizes));
+        Self { energy: false, given: None, values, sizes, ..self }
+    }
+
+    /// How many components of the spatial momentum are conserved.
+    pub fn momenta(&self) -> usize {
+        self.directions.as_ref().map_or(self.dim, Vec::len)
+    }
+
+    /// What is conserved of states of this time, one after the other.
+    pub fn conserved(&self, time: f64, states: &[Seen<'_>]) -> Vec<Vec<f64>> {
+        self.evaluate(&self.values, time, states)
+    }
+
+    /// The energy among what is [`conserved`](Self::conserved), where there is one.
+    pub fn energy_of(&self, conserved: &[f64]) -> Option<f64> {
+        conserved.last().copied().filter(|_| self.energy)
+    }
+
+    /// The sizes of what the Casimirs and the energy at a state are sums of.
+    pub fn sizes(&self, time: f64, state: Seen<'_>) -> (Vec<f64>, Option<f64>) {
+        let mut sizes = self.evaluate(&self.sizes, time, &[state]).pop().unwrap_or_default();
+        let energy = if self.energy { sizes.pop() } else { None };
+        (sizes, energy.map(f64::abs))
+    }
+
+    /// The start of a run from that state.
+    pub fn start(&self, time: f64, state: Seen<'_>) -> Start {
+        let conserved = self.conserved(time, &[state]).pop().unwrap_or_default();
+        let (casimirs, energy) = self.sizes(time, state);
+        let known = self.energy_of(&conserved).unwrap_or(0.0);
+        let scales = Scales::new(state.spatial, casimirs, [known, energy.unwrap_or(0.0)]);
+        Start { momenta: self.momenta(), conserved, scales }
+    }
+
+    fn evaluate(&self, program: &Program, time: f64, states: &[Seen<'_>]) -> Vec<Vec<f64>> {
+        let n = self.dim;
+        let input = |row: usize, i: usize| {
+            let Seen { spatial, matrix, momentum } = states[row];
+            let list = [spatial, momentum, matrix][(i / n.max(1)).min(2)];
+            list.get(i - n * (i / n.max(1)).min(2)).copied().unwrap_or(f64::NAN)
+        };
+        let width = program.outputs().len();
+        let found = program.run_each(states.len(), input, &self.symbols);
+        let mut rows: Vec<Vec<f64>> =
+            (0..states.len()).map(|row| found[row * width..][..width].to_vec()).collect();
+        if let Some(Given(function)) = &self.given {
+            for (row, state) in rows.iter_mut().zip(states) {
+                let rest = row.pop();
+                row.extend(rest.map(|rest| rest + function.value(time, state.momentum)));
+            }
+        }
+        rows
+    }
+}
+
+/// The parts that the programs are made of.
+struct Parts<'a> {
+    algebra: &'a LieAlgebra,
+    directions: Option<&'a [Vec<f64>]>,
+    casimirs: &'a [Polynomial],
+    energy: Option<&'a Hamiltonian>,
+    potential: Option<&'a Potential>,
+    /// The first slot of the potential's symbols.
+    first: usize,
+}
+
+impl Parts<'_> {
+    /// The quantities, or the sizes of the terms of the Casimirs and of the energy.
+    fn program(&self, sizes: bool) -> Program {
+        let n = self.algebra.dim();
+        let entries = self.algebra.matrix_size().pow(2);
+        let graph = Graph::new();
+        let lists = [(0, n), (n, n), (2 * n, entries)];
+        let [spatial, mu, matrix] = lists.map(|(first, count)| inputs(&graph, first, count));
+        let size = |id: Id| if sizes { graph.abs(id) } else { id };
+        let polynomial = |polynomial: &Numeric, at: &[Id]| match sizes {
+            false => polynomial.node(&graph, at),
+            true => {
+                let at: Vec<Id> = at.iter().map(|&entry| graph.abs(entry)).collect();
+                polynomial.absolute().node(&graph, &at)
+            }
+        };
+        let mut outputs: Vec<Id> = match self.directions {
+            _ if sizes => Vec::new(),
+            None => spatial,
+            Some(directions) => {
+                let along = |xi: &Vec<f64>| {
+                    let terms = xi.iter().zip(&spatial).filter(|(xi, _)| **xi != 0.0);
+                    terms.fold(graph.zero(), |sum, (&xi, &j)| {
+                        graph.add(sum, graph.mul(graph.constant(xi), j))
+                    })
+                };
+                directions.iter().map(along).collect()
+            }
+        };
+        let casimirs = self.casimirs.iter();
+        outputs.extend(casimirs.map(|casimir| polynomial(&Numeric::new(casimir, n, &[]), &mu)));
+        if let Some(hamiltonian) = self.energy {
+            let mut energy = match (hamiltonian.polynomial(), hamiltonian.smooth()) {
+                (Some(problem), _) => {
+                    let own = Numeric::new(&problem.hamiltonian, n, &values(&problem.symbols));
+                    polynomial(&own, &mu)
+                }
+                // It does not depend on the time, or it is a function of the user's, whose value is added elsewhere.
+                (_, Some(smooth)) if smooth.given.is_none() => {
+                    size(graph.call(&smooth.value, &mu)[0])
+                }
+                _ => graph.zero(),
+            };
+            if let Some(potential) = self.potential {
+                let value = match &potential.force {
+                    Force::Polynomial(own) => {
+                        let symbols = values(&potential.symbols);
+                        polynomial(&Numeric::new(own, entries, &symbols), &matrix)
+                    }
+                    Force::Smooth(programs) => programs.value.as_ref().map_or_else(
+                        || graph.zero(),
+                        |value| size(graph.call_from(value, &matrix, self.first)[0]),
+                    ),
+                };
+                energy = graph.add(energy, value);
+            }
+            outputs.push(energy);
+        }
+        graph.finish(2 * n + entries, &outputs)
+    }
+}
