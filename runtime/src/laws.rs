@@ -374,8 +374,9 @@ struct Tangent<V> {
     nu: V,
 }
 
-/// Beyond this many dimensions ω is compared on [`SAMPLED`] tangent vectors: all of a basis take n steps for each of n².
-const MANY: usize = 64;
+/// Beyond this many dimensions laws are tried on few states: ω is compared on 8 tangent vectors, for all of a basis take n steps for
+/// each of n².
+pub const MANY: usize = 64;
 const SAMPLED: usize = 8;
 
 /// The tangent vectors at μ on which ω is compared: a basis, or some with parts in all of its directions.

@@ -11,15 +11,13 @@ use coadjoint::groups::{Cayley, Chart, DirectProduct, Exponential, MatrixGroup};
 use coadjoint::steps::advance;
 use coadjoint::{Phase, StepError, laws};
 use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::lie;
 use coadjoint_codegen::step::{Convergence, rounding};
 use course::{Course, starts as starts_in};
 use nalgebra::DVector;
 use order::measured;
 
 use crate::engine::{
-    Group, Interpreter, Motion, Numbers, Restore, STEEP, advise, cayley_group, entries_of,
-    phase_of, product_group,
+    Group, Interpreter, Motion, Numbers, Restore, STEEP, advise, entries_of, phase_of,
 };
 use crate::error::RunError;
 use crate::grid::Grid;
@@ -53,20 +51,17 @@ pub fn unmeasured(system: &Derived) -> Option<String> {
 pub fn check(system: &Derived, trial: &Trial) -> Result<(Vec<Law>, Option<f64>), RunError> {
     let course = Course::new(system, trial)?;
     if system.damping.is_some() {
-        return Ok((laws_of_steps(system, trial, &course, &system.group.exponential)?, None));
+        return Ok((laws_of_steps(system, trial, &course)?, None));
     }
-    let group = product_group(&system.file, system.facts().algebra)?;
-    let (mut laws, ratio) = match system.series() {
-        None => {
+    let (mut laws, ratio) = match (system.series(), &system.group.cayley) {
+        (None, _) => {
             let alone = system.without_kicks();
-            (laws_of_steps(alone.as_ref().unwrap_or(system), trial, &course, &group)?, None)
+            (laws_of_steps(alone.as_ref().unwrap_or(system), trial, &course)?, None)
         }
-        Some(series) => match series.problem.chart {
-            lie::Chart::Exponential => laws_of::<_, Exponential>(series, trial, &course, group)?,
-            lie::Chart::Cayley => {
-                laws_of::<_, Cayley>(series, trial, &course, cayley_group(&system.file, &group)?)?
-            }
-        },
+        (Some(series), None) => {
+            laws_of::<_, Exponential>(series, trial, &course, &*system.group.exponential)?
+        }
+        (Some(series), Some(group)) => laws_of::<_, Cayley>(series, trial, &course, &**group)?,
     };
     if let Some(kicks) = system.kicks() {
         laws.extend(kicked(system, kicks.torque().is_none(), trial, &course)?);
@@ -92,7 +87,7 @@ fn laws_of<G: Group + Restore, C: Chart<G> + Send + Sync>(
     integrator: &Integrator,
     trial: &Trial,
     course: &Course,
-    group: G,
+    group: &G,
 ) -> Result<(Vec<Law>, Option<f64>), RunError> {
     let h = trial.step;
     let make = |h| Interpreter::<G, C>::new(integrator, group.clone(), h, &[]);
@@ -108,7 +103,7 @@ fn laws_of<G: Group + Restore, C: Chart<G> + Send + Sync>(
         let works = |h| make(h).is_ok_and(|step| advance(&step, &mut start.clone()).is_ok());
         RunError::at(trial.start)(advise(error, h, works))
     };
-    let (points, starts) = course.states(trial, (&group, false), both).map_err(refused)?;
+    let (points, starts) = course.states(trial, (group, false), both).map_err(refused)?;
     let convergence = Convergence::new(integrator);
     let ratio = Convergence::fold(integrator, h, &[], STEEP).ok().map(|folded| {
         let momenta: Vec<&[f64]> = points.iter().map(|point| point.momentum.as_slice()).collect();
@@ -118,7 +113,7 @@ fn laws_of<G: Group + Restore, C: Chart<G> + Send + Sync>(
     let tried = laws::check(&there, Some(&back), &points).map_err(RunError::at(trial.start))?;
     let mut laws = printed(&tried);
     let expected = integrator.order() as f64;
-    laws.push(measured(h, expected, &group, &starts, &mut |(h, steps), _, state| {
+    laws.push(measured(h, expected, group, &starts, &mut |(h, steps), _, state| {
         let map = make(h)?;
         (0..steps).try_for_each(|_| advance(&map, state).map(|_| ()))
     }));
@@ -140,13 +135,8 @@ fn printed(tried: &[laws::Law]) -> Vec<Law> {
 }
 
 /// The laws of steps by collocation. Each is made as the first of a run: only then is it a map of the state alone.
-fn laws_of_steps(
-    system: &Derived,
-    trial: &Trial,
-    course: &Course,
-    group: &DirectProduct<MatrixGroup>,
-) -> Result<Vec<Law>, RunError> {
-    let &Trial { start, step: h, .. } = trial;
+fn laws_of_steps(system: &Derived, trial: &Trial, course: &Course) -> Result<Vec<Law>, RunError> {
+    let (&Trial { start, step: h, .. }, group) = (trial, &*system.group.exponential);
     let grids = [Grid { start, step: h }, Grid { start: start + h, step: -h }];
     let [forward, backward] = grids.map(|grid| system.steps(grid, None).map_err(RunError::unmade));
     let (forward, backward) = (forward?, backward?);
