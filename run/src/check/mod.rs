@@ -180,6 +180,8 @@ fn tried<G: Group>(
     Ok(printed.collect())
 }
 
+/// Steps of one size.
+type Steps<'a> = Box<dyn Varied + 'a>;
 /// The programs of steps, where there are any.
 type Programs = Option<Arc<Compiled>>;
 
@@ -187,7 +189,7 @@ type Programs = Option<Arc<Compiled>>;
 fn there_and_back<'a>(
     system: &'a Derived,
     &Trial { start, step: h, .. }: &Trial,
-) -> Result<(Box<dyn Varied + 'a>, Box<dyn Varied + 'a>, Programs), RunError> {
+) -> Result<(Steps<'a>, Steps<'a>, Programs), RunError> {
     let compiled = system.compiled(h, Backend::Auto, STEPS, Trajectories::One)?;
     let steps = |start, step| {
         let steps = system.steps(Grid { start, step }, compiled.as_ref());
