@@ -12,3 +12,7 @@ pub const NEAR: f64 = 0.05;
 /// of S. The other part of the rate, twice the spectral radius of ∂p/∂x·Hess S, is at most about 1.2 where the fixed point
 /// converges in the evaluations that it has.
 pub const RATE_OF_HALF_TURN: f64 = 4.0;
+
+/// The last term of a series that is what rounding leaves of one that cancels (of a spherical body, say), in units of the number
+/// type's rounding, for coordinates of order one: its ratio means nothing.
+pub const NEGLIGIBLE: f64 = 16.0;

@@ -8,7 +8,8 @@ use core::fmt;
 pub enum StepError {
     /// The equation J_L(∂S/∂p(p), p) = μ was not solved to the tolerance.
     #[error(
-        "the step did not converge: relative residual {residual:.1e} after {iterations} iterations; {at}"
+        "the step did not converge: {} after {iterations} iterations; {at}",
+        Known(*residual, format_args!("relative residual {residual:.1e}"), "the residual is not finite")
     )]
     NotConverged {
         /// Newton iterations, or evaluations of the fixed point.
@@ -30,7 +31,12 @@ pub enum StepError {
     },
     /// The step lies outside the chart.
     #[error(
-        "the step leaves the chart: it is {:.2} times as long as the chart reaches; {at}", Short(*extent)
+        "the step leaves the chart: {}; {at}",
+        Known(
+            *extent,
+            format_args!("it is {:.2} times as long as the chart reaches", Short(*extent)),
+            "its length is not finite"
+        )
     )]
     OutsideChart {
         /// The length of x as a multiple of the chart's reach: the square root of
@@ -40,14 +46,22 @@ pub enum StepError {
         at: Circumstances,
     },
     /// The series of the generating function has stopped to converge at this momentum.
-    #[error("the series means nothing for so long a step: its terms have the ratio {:.2}, and at most 0.5 is accepted; {at}", Short(at.ratio))]
+    #[error(
+        "the series means nothing for so long a step: {}; {at}",
+        Known(
+            at.ratio,
+            format_args!("its terms have the ratio {:.2}, and at most 0.5 is accepted", Short(at.ratio)),
+            "its terms are not finite"
+        )
+    )]
     SeriesDiverges {
         /// The circumstances of the step.
         at: Circumstances,
     },
     /// The velocity of a step of collocation varies too much for its nodes.
     #[error(
-        "the step is too long for its nodes: {tail:.1e} of the velocity or the force is not resolved, and at most {limit:.0e} is accepted; {at}"
+        "the step is too long for its nodes: {} of the velocity or the force is not resolved, and at most {limit:.0e} is accepted; {at}",
+        Known(*tail, format_args!("{tail:.1e}"), "an unknown share")
     )]
     Unresolved {
         /// The share of the highest polynomial in the velocity, or that in the force relative to the momentum; with one
@@ -115,6 +129,18 @@ impl fmt::Display for Short {
     }
 }
 
+/// A number in words, or other words where it is not finite.
+struct Known<'a>(f64, fmt::Arguments<'a>, &'static str);
+
+impl fmt::Display for Known<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0.is_finite() {
+            true => f.write_fmt(self.1),
+            false => f.write_str(self.2),
+        }
+    }
+}
+
 /// The argument of an expression that is not defined, where it is known.
 struct Of(f64);
 
@@ -141,8 +167,8 @@ pub struct Circumstances {
 
 impl fmt::Display for Circumstances {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "|x| = {:.1e}", self.x)?;
-        if self.ratio > 0.0 {
+        write!(f, "{}", Known(self.x, format_args!("|x| = {:.1e}", self.x), "|x| is not finite"))?;
+        if self.ratio > 0.0 && self.ratio.is_finite() {
             write!(f, ", last terms of the series in the ratio {:.1e}", self.ratio)?;
         }
         match self.usable_step {

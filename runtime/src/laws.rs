@@ -72,13 +72,30 @@ where
     let by_logarithm = laws.iter().any(|law| law.name == "symplectic");
     for point in points {
         if !by_logarithm {
-            note_settled(&mut laws, "symplectic", symplectic_defect_in_chart(map, point)?);
+            check_in_chart(map, point, &mut laws)?;
         }
         let covered = poisson_map(map, &point.momentum)?;
         let back = poisson_map(&Reversed(map), &covered)?;
         note(&mut laws, "inverse", relative(&back, &point.momentum), ROUNDING);
     }
     Ok(laws)
+}
+
+/// Tries `symplectic` at one point more where the group has no logarithm: the chart gives the derivative.
+///
+/// # Errors
+/// [`StepError`] where the map cannot be made.
+pub fn check_in_chart<S>(
+    map: &S,
+    point: &Phase<S::Group>,
+    laws: &mut Vec<Law>,
+) -> Result<(), StepError>
+where
+    S: Integrator,
+    S::Group: LieGroup<Scalar = f64>,
+{
+    note_settled(laws, "symplectic", symplectic_defect_in_chart(map, point)?);
+    Ok(())
 }
 
 /// Makes a step of a state.
@@ -94,24 +111,61 @@ pub type Advance<'a, G> = dyn FnMut(&mut Phase<G>) -> Result<(), StepError> + 'a
 pub fn check_map<G: LieGroup<Scalar = f64>>(
     group: &G,
     there: &mut Advance<'_, G>,
+    back: Option<&mut Advance<'_, G>>,
+    points: &[Phase<G>],
+) -> Result<Vec<Law>, StepError> {
+    let mut laws = Vec::new();
+    for point in points {
+        check_derivatives(group, there, point, &mut laws)?;
+    }
+    laws.extend(check_exact(group, there, back, points)?);
+    Ok(laws)
+}
+
+/// Tries the laws of [`check_map`] that take derivatives, `poisson` and `symplectic`, at one point more than those that `laws` has
+/// been tried at.
+///
+/// # Errors
+/// [`StepError`] where a step cannot be made.
+pub fn check_derivatives<G: LieGroup<Scalar = f64>>(
+    group: &G,
+    there: &mut Advance<'_, G>,
+    point: &Phase<G>,
+    laws: &mut Vec<Law>,
+) -> Result<(), StepError> {
+    if group.dim() <= MANY {
+        let defect = poisson_defect(group, &point.momentum, &mut |mu| covered(group, there, mu))?;
+        note_settled(laws, "poisson", defect);
+    }
+    if let Some(defect) = symplectic_defect_of(group, point, there)? {
+        note_settled(laws, "symplectic", defect);
+    }
+    Ok(())
+}
+
+/// The map of momenta that a map of T\*G covers.
+fn covered<G: LieGroup<Scalar = f64>>(
+    group: &G,
+    there: &mut Advance<'_, G>,
+    mu: &G::Vector,
+) -> Result<G::Vector, StepError> {
+    let mut state = Phase::<G>::new(group.identity(), mu.clone());
+    there(&mut state).map(|()| state.momentum)
+}
+
+/// Tries the laws of [`check_map`] that take no derivatives.
+///
+/// # Errors
+/// [`StepError`] where a step cannot be made.
+pub fn check_exact<G: LieGroup<Scalar = f64>>(
+    group: &G,
+    there: &mut Advance<'_, G>,
     mut back: Option<&mut Advance<'_, G>>,
     points: &[Phase<G>],
 ) -> Result<Vec<Law>, StepError> {
     let mut laws: Vec<Law> = Vec::new();
     for (at, point) in points.iter().enumerate() {
-        let mut covered = |mu: &G::Vector| {
-            let mut state = Phase::<G>::new(group.identity(), mu.clone());
-            there(&mut state).map(|()| state.momentum)
-        };
-        if group.dim() <= MANY {
-            let defect = poisson_defect(group, &point.momentum, &mut covered)?;
-            note_settled(&mut laws, "poisson", defect);
-        }
-        let covered = covered(&point.momentum)?;
-        if let Some(defect) = symplectic_defect_of(group, point, there)? {
-            note_settled(&mut laws, "symplectic", defect);
-        }
-
+        let covered = covered(group, there, &point.momentum)?;
         let mut image = point.clone();
         there(&mut image)?;
         // Φ(k·α) = k·Φ(α) for some k other than the point's own element; the last point is its own neighbour's.
@@ -374,8 +428,9 @@ struct Tangent<V> {
     nu: V,
 }
 
-/// Beyond this many dimensions ω is compared on [`SAMPLED`] tangent vectors: all of a basis take n steps for each of n².
-const MANY: usize = 64;
+/// Beyond this many dimensions laws are tried on few states: ω is compared on 8 tangent vectors, for all of a basis take n steps for
+/// each of n².
+pub const MANY: usize = 64;
 const SAMPLED: usize = 8;
 
 /// The tangent vectors at μ on which ω is compared: a basis, or some with parts in all of its directions.

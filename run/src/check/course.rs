@@ -1,6 +1,6 @@
 //! The states at which laws are tried: those of the file's own run, and others near to them.
 
-use coadjoint::{Phase, StepError};
+use coadjoint::{Phase, StepError, laws};
 use coadjoint_codegen::step::{Drift, nudge};
 use coadjoint_program::Trajectories;
 use nalgebra::DVector;
@@ -25,7 +25,7 @@ const SPREAD: f64 = 0.1;
 /// The number of starts from which the order is measured, in this number of dimensions: in many of them a leading term of the
 /// error hardly cancels.
 pub(super) fn starts(dim: usize) -> usize {
-    if dim > 64 { 1 } else { 5 }
+    if dim > laws::MANY { 1 } else { 5 }
 }
 
 /// Attempts to find a point from which steps can be made, each four times as near to the run as the one before.

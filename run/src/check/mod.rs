@@ -4,22 +4,27 @@
 
 mod course;
 mod law;
+mod limit;
 mod order;
 mod trial;
+
+use std::sync::Arc;
 
 use coadjoint::groups::{Cayley, Chart, DirectProduct, Exponential, MatrixGroup};
 use coadjoint::steps::advance;
 use coadjoint::{Phase, StepError, laws};
 use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::lie;
 use coadjoint_codegen::step::{Convergence, Seen, rounding};
+use coadjoint_program::Trajectories;
 use course::{Course, starts as starts_in};
+use limit::{LATE, Limit};
 use nalgebra::DVector;
 use order::measured;
 
+use crate::backend::Backend;
 use crate::engine::{
-    Group, Interpreter, Motion, Numbers, Restore, STEEP, advise, cayley_group, entries_of,
-    phase_of, product_group,
+    Compiled, Group, Interpreter, Motion, Numbers, Restore, STEEP, Varied, advise, entries_of,
+    phase_of,
 };
 use crate::error::RunError;
 use crate::grid::Grid;
@@ -53,20 +58,17 @@ pub fn unmeasured(system: &Derived) -> Option<String> {
 pub fn check(system: &Derived, trial: &Trial) -> Result<(Vec<Law>, Option<f64>), RunError> {
     let course = Course::new(system, trial)?;
     if system.damping.is_some() {
-        return Ok((laws_of_steps(system, trial, &course, &system.group.exponential)?, None));
+        return Ok((laws_of_steps(system, trial, &course)?, None));
     }
-    let group = product_group(&system.file, system.facts().algebra)?;
-    let (mut laws, ratio) = match system.series() {
-        None => {
+    let (mut laws, ratio) = match (system.series(), &system.group.cayley) {
+        (None, _) => {
             let alone = system.without_kicks();
-            (laws_of_steps(alone.as_ref().unwrap_or(system), trial, &course, &group)?, None)
+            (laws_of_steps(alone.as_ref().unwrap_or(system), trial, &course)?, None)
         }
-        Some(series) => match series.problem.chart {
-            lie::Chart::Exponential => laws_of::<_, Exponential>(series, trial, &course, group)?,
-            lie::Chart::Cayley => {
-                laws_of::<_, Cayley>(series, trial, &course, cayley_group(&system.file, &group)?)?
-            }
-        },
+        (Some(series), None) => {
+            laws_of::<_, Exponential>(series, trial, &course, &*system.group.exponential)?
+        }
+        (Some(series), Some(group)) => laws_of::<_, Cayley>(series, trial, &course, &**group)?,
     };
     if let Some(kicks) = system.kicks() {
         laws.extend(kicked(system, kicks.torque().is_none(), trial, &course)?);
@@ -77,6 +79,9 @@ pub fn check(system: &Derived, trial: &Trial) -> Result<(Vec<Law>, Option<f64>),
     }
     Ok((laws, ratio))
 }
+
+/// About the steps that are made of each size.
+const STEPS: f64 = 1e4;
 
 /// The laws of [`coadjoint::laws::check_map`] that are printed: its name, ours, and what it says.
 const LAWS: [(&str, &str, &str); 6] = [
@@ -92,7 +97,7 @@ fn laws_of<G: Group + Restore, C: Chart<G> + Send + Sync>(
     integrator: &Integrator,
     trial: &Trial,
     course: &Course,
-    group: G,
+    group: &G,
 ) -> Result<(Vec<Law>, Option<f64>), RunError> {
     let h = trial.step;
     let make = |h| Interpreter::<G, C>::new(integrator, group.clone(), h, &[]);
@@ -108,54 +113,102 @@ fn laws_of<G: Group + Restore, C: Chart<G> + Send + Sync>(
         let works = |h| make(h).is_ok_and(|step| advance(&step, &mut start.clone()).is_ok());
         RunError::at(trial.start)(advise(error, h, works))
     };
-    let (points, starts) = course.states(trial, (&group, false), both).map_err(refused)?;
+    let (points, starts) = course.states(trial, (group, false), both).map_err(refused)?;
     let convergence = Convergence::new(integrator);
     let ratio = Convergence::fold(integrator, h, &[], STEEP).ok().map(|folded| {
         let momenta: Vec<&[f64]> = points.iter().map(|point| point.momentum.as_slice()).collect();
         convergence.ratios(&folded, &momenta).into_iter().fold(0.0, maximum)
     });
     let ratio = ratio.filter(|ratio| *ratio > STEEP);
-    let tried = laws::check(&there, Some(&back), &points).map_err(RunError::at(trial.start))?;
-    let mut laws = printed(&tried);
+    let steps = |map: &Interpreter<'_, G, C>, state: &mut _| advance(map, state).map(drop);
+    let (ahead, behind) =
+        (|state: &mut _| steps(&there, state), |state: &mut _| steps(&back, state));
+    let in_chart = |point: &_, laws: &mut _| laws::check_in_chart(&there, point, laws);
+    let tried = tried((group, &points), (&ahead, &behind), Some(&in_chart));
+    let mut laws = tried.map_err(RunError::at(trial.start))?;
     let expected = integrator.order() as f64;
-    laws.push(measured(h, expected, &group, &starts, &mut |(h, steps), _, state| {
+    laws.push(measured(h, expected, group, &starts, &mut |(h, steps), _, state| {
         let map = make(h)?;
         (0..steps).try_for_each(|_| advance(&map, state).map(|_| ()))
     }));
     Ok((laws, ratio))
 }
 
-/// The laws of those tried that are printed.
-fn printed(tried: &[laws::Law]) -> Vec<Law> {
-    let printed = LAWS.iter().filter_map(|&(known, name, statement)| {
-        let law = tried.iter().find(|law| law.name == known);
-        if law.is_none() && known == "poisson" {
-            let why = "too many dimensions: it follows from the two laws below";
-            let verdict = Verdict::NotMeasured(why);
-            return Some(Law { name, statement, value: f64::NAN, bound: f64::NAN, verdict });
+/// A step of a state.
+type Step<'a, G> = dyn Fn(&mut Phase<G>) -> Result<(), StepError> + 'a;
+/// The symplectic law of a map on a group without logarithm.
+type InChart<'a, G> = dyn Fn(&Phase<G>, &mut Vec<laws::Law>) -> Result<(), StepError> + 'a;
+
+/// The laws that are printed of a step there and back, at these points; those of derivatives at as many of them as there is time for.
+fn tried<G: Group>(
+    (group, points): (&G, &[Phase<G>]),
+    (there, back): (&Step<'_, G>, &Step<'_, G>),
+    in_chart: Option<&InChart<'_, G>>,
+) -> Result<Vec<Law>, StepError> {
+    let mut tried: Vec<laws::Law> = Vec::new();
+    let limit = Limit::new();
+    let in_chart = in_chart.filter(|_| group.log(&group.identity()).is_none());
+    for point in points {
+        let mut further = tried.clone();
+        let mut step = |state: &mut _| limit.within(|| there(state));
+        let made = laws::check_derivatives(group, &mut step, point, &mut further);
+        if limit.is_over() {
+            break;
         }
-        law.map(|law| Law::at_most(name, statement, law.value, law.bound))
+        made?;
+        if let Some(in_chart) = in_chart {
+            in_chart(point, &mut further)?;
+        }
+        tried = further;
+    }
+    let (mut there, mut back) = (|state: &mut _| there(state), |state: &mut _| back(state));
+    tried.extend(laws::check_exact(group, &mut there, Some(&mut back), points)?);
+    let printed = LAWS.iter().filter_map(|&(known, name, statement)| {
+        if let Some(law) = tried.iter().find(|law| law.name == known) {
+            return Some(limit.said(Law::at_most(name, statement, law.value, law.bound)));
+        }
+        let why = match known {
+            "poisson" if group.dim() > laws::MANY => {
+                "too many dimensions: it follows from the two laws below"
+            }
+            "poisson" | "symplectic" if limit.is_over() => LATE,
+            _ => return None,
+        };
+        let verdict = Verdict::NotMeasured(why);
+        Some(Law { name, statement, value: f64::NAN, bound: f64::NAN, verdict })
     });
-    printed.collect()
+    Ok(printed.collect())
+}
+
+/// Steps of one size.
+type Steps<'a> = Box<dyn Varied + 'a>;
+/// The programs of steps, where there are any.
+type Programs = Option<Arc<Compiled>>;
+
+/// The steps of a trial and those back, and their programs.
+fn there_and_back<'a>(
+    system: &'a Derived,
+    &Trial { start, step: h, .. }: &Trial,
+) -> Result<(Steps<'a>, Steps<'a>, Programs), RunError> {
+    let compiled = system.compiled(h, Backend::Auto, STEPS, Trajectories::One)?;
+    let steps = |start, step| {
+        let steps = system.steps(Grid { start, step }, compiled.as_ref());
+        steps.map_err(RunError::unmade)
+    };
+    let (there, back) = (steps(start, h)?, steps(start + h, -h)?);
+    Ok((there, back, compiled))
 }
 
 /// The laws of steps by collocation. Each is made as the first of a run: only then is it a map of the state alone.
-fn laws_of_steps(
-    system: &Derived,
-    trial: &Trial,
-    course: &Course,
-    group: &DirectProduct<MatrixGroup>,
-) -> Result<Vec<Law>, RunError> {
-    let &Trial { start, step: h, .. } = trial;
-    let grids = [Grid { start, step: h }, Grid { start: start + h, step: -h }];
-    let [forward, backward] = grids.map(|grid| system.steps(grid, None).map_err(RunError::unmade));
-    let (forward, backward) = (forward?, backward?);
+fn laws_of_steps(system: &Derived, trial: &Trial, course: &Course) -> Result<Vec<Law>, RunError> {
+    let (&Trial { start, step: h, .. }, group) = (trial, &*system.group.exponential);
+    let (forward, backward, compiled) = there_and_back(system, trial)?;
     let one = |motion: &dyn Motion, state: &mut Phase<_>| {
         moved(motion, group, state, |motion, state| {
             motion.advance(state, 0, 1).map(drop).map_err(|(_, error)| error)
         })
     };
-    let (mut there, mut back) =
+    let (there, back) =
         (|state: &mut _| one(&*forward, state), |state: &mut _| one(&*backward, state));
     // With damping a potential is a part of these steps, which then have no law of [`LAWS`] to keep; back in time there may be
     // none where the run has one.
@@ -167,12 +220,11 @@ fn laws_of_steps(
     let (points, starts) = states.map_err(RunError::at(start))?;
     let mut laws = Vec::new();
     if !kicked {
-        let tried = laws::check_map(group, &mut there, Some(&mut back), &points);
-        laws = printed(&tried.map_err(RunError::at(start))?);
+        laws = tried((group, &points), (&there, &back), None).map_err(RunError::at(start))?;
     }
     let expected = f64::from(system.order());
     laws.push(measured(h, expected, group, &starts, &mut |steps, from, state| {
-        advanced(system, group, state, steps, from)
+        advanced((system, &compiled), group, state, steps, from)
     }));
     if system.damping.is_some() {
         laws.retain(|law| !["Poisson", "symplectic"].contains(&law.name));
@@ -217,9 +269,7 @@ fn kicked(
     course: &Course,
 ) -> Result<Vec<Law>, RunError> {
     let (&Trial { start, step: h, .. }, group) = (trial, &*system.group.exponential);
-    let grids = [Grid { start, step: h }, Grid { start: start + h, step: -h }];
-    let [there, back] = grids.map(|grid| system.steps(grid, None).map_err(RunError::unmade));
-    let (there, back) = (there?, back?);
+    let (there, back, compiled) = there_and_back(system, trial)?;
     let made = |motion: &dyn Motion, state: &mut Phase<_>, time| {
         moved(motion, group, state, |motion, state| motion.one_at(state, time))
     };
@@ -229,10 +279,14 @@ fn kicked(
     });
     let (points, starts) = states.map_err(RunError::at(start))?;
     let (mut symplectic, mut symmetric): (Option<f64>, _) = (None, 0.0_f64);
+    let limit = Limit::new();
     for point in points.iter().filter(|_| hamiltonian) {
-        let mut step = |state: &mut _| made(&*there, state, start);
+        let mut step = |state: &mut _| limit.within(|| made(&*there, state, start));
         let defect = laws::symplectic_defect_of(group, point, &mut step);
-        let defect = defect.map_err(RunError::at(start))?;
+        let defect = match limit.is_over() {
+            true => Some(f64::NAN),
+            false => defect.map_err(RunError::at(start))?,
+        };
         // Differences may not settle; the other points then decide.
         symplectic = match (symplectic, defect) {
             (Some(worst), Some(defect)) => Some(worst.max(defect)),
@@ -245,7 +299,8 @@ fn kicked(
         symmetric = maximum(symmetric, difference);
     }
     let statement = "flows and kicks: Φ*ω = ω on T*G";
-    let symplectic = symplectic.map(|value| Law::at_most("symplectic+V", statement, value, 1e-9));
+    let symplectic =
+        symplectic.map(|value| limit.said(Law::at_most("symplectic+V", statement, value, 1e-9)));
     let statement = "flows and kicks: Φ₋ₕ(Φₕ(α)) = α";
     let symmetric = Law::at_most("symmetric+V", statement, symmetric, 1e-11);
     let order = unmeasured(system).is_none().then(|| {
@@ -255,7 +310,7 @@ fn kicked(
         };
         let expected = f64::from(system.order());
         let mut order = measured(h, expected, group, &starts, &mut |steps, from, state| {
-            advanced(system, group, state, steps, from)
+            advanced((system, &compiled), group, state, steps, from)
         });
         if starts.is_empty() {
             let why = "the force does not act on the part of the run that is looked at";
@@ -270,15 +325,20 @@ fn kicked(
 
 /// Makes steps of this size and number of a state from this time on.
 fn advanced(
-    system: &Derived,
+    (system, compiled): (&Derived, &Programs),
     group: &DirectProduct<MatrixGroup>,
     state: &mut Phase<DirectProduct<MatrixGroup>>,
     (step, steps): (f64, u32),
     start: f64,
 ) -> Result<(), StepError> {
-    moved(&*system.steps(Grid { start, step }, None)?, group, state, |motion, state| {
-        motion.advance(state, 0, steps.into()).map(drop).map_err(|(_, error)| error)
-    })
+    moved(
+        &*system.steps(Grid { start, step }, compiled.as_ref())?,
+        group,
+        state,
+        |motion, state| {
+            motion.advance(state, 0, steps.into()).map(drop).map_err(|(_, error)| error)
+        },
+    )
 }
 
 /// Moves a state by steps of a motion.

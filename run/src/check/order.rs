@@ -5,6 +5,7 @@ use coadjoint::{Phase, StepError};
 
 use super::course::Start;
 use super::law::{Law, Verdict};
+use super::limit::Limit;
 use crate::engine::Group;
 
 /// Steps of the coarsest run.
@@ -32,8 +33,9 @@ pub(super) fn measured<G: Group>(
     starts: &[Start<G>],
     run: &mut Steps<'_, G>,
 ) -> Law {
-    let bound = expected - SLACK;
-    let found = starts.iter().filter_map(|start| order_from((step, bound), group, start, run));
+    let (bound, limit) = (expected - SLACK, Limit::new());
+    let mut run = |steps, from, state: &mut _| limit.within(|| run(steps, from, state));
+    let found = starts.iter().filter_map(|start| order_from((step, bound), group, start, &mut run));
     let mut orders: Vec<f64> = found.collect();
     orders.sort_by(f64::total_cmp);
     let (value, verdict) = match orders.get(orders.len() / 2) {
@@ -41,7 +43,8 @@ pub(super) fn measured<G: Group>(
         Some(&order) => (order, Verdict::Fails),
         None => (f64::NAN, Verdict::NotMeasured("no two halvings of the step show the same order")),
     };
-    Law { name: "order", statement: "error ∝ h^(K+1), by step halving", value, bound, verdict }
+    let statement = "error ∝ h^(K+1), by step halving";
+    limit.said(Law { name: "order", statement, value, bound, verdict })
 }
 
 /// The order from one start: infinite where all differences are rounding, since the map is then exact; none where no two

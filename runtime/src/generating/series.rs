@@ -1,12 +1,8 @@
 //! The convergence of a truncated series: the ratio of its last two terms.
 
-use crate::number::Scalar;
+use coadjoint_program::limits::NEGLIGIBLE;
 
-/// A last term that adds no more than rounding to coordinates of order one: what is left of a term that cancels (of a
-/// spherical body, say) is of this size, and its ratio means nothing.
-fn negligible<T: Scalar>() -> T {
-    T::of(16.0) * T::epsilon()
-}
+use crate::number::Scalar;
 
 /// The ratio of S_K and S_{K−2} at p, given their terms as (coefficient, whether it is one of S_K, monomial): of the sums
 /// of the absolute values of all monomials of their gradients, the largest of those of the direct factors of the group.
@@ -34,7 +30,8 @@ pub fn ratio<'a, T: Scalar>(
     // Nothing against nothing is no ratio, nor is that of roundings; NaN stays.
     let zero = T::of(0.0);
     sums.iter().fold(zero, |largest, &[last, before]| {
-        let compared = before.simd_gt(zero) & last.simd_gt(negligible()) | last.simd_ne(last);
+        let compared = before.simd_gt(zero) & last.simd_gt(T::of(NEGLIGIBLE) * T::epsilon())
+            | last.simd_ne(last);
         largest.worse((last / before).select(compared, zero * last))
     })
 }

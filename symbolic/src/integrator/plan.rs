@@ -134,7 +134,7 @@ impl Plan {
         let limit = TermLimit { products: most, ..limit };
         let Problem { algebra, chart, .. } = problem;
         let mut rows = PredictorRows::new(algebra, *chart, problem.generated(), limit)?;
-        let (last, every) = if newton { (highest, 2) } else { (HIGHEST_CHEAP_DEGREE, 1) };
+        let last = if newton { highest } else { HIGHEST_CHEAP_DEGREE };
         let (mut monomials, mut data) = (HashSet::new(), 0);
         let mut polynomials = Vec::new();
         let mut explicit: Vec<(usize, Self)> = Vec::new();
@@ -160,7 +160,9 @@ impl Plan {
             if own > least {
                 break;
             }
-            if degree % every == 0 {
+            // From the constant guess Newton's method is near enough to be accepted only where steps are short.
+            let possible = !newton || degree == 1 || degree > 0 && degree % 2 == 0;
+            if possible {
                 let plan = costs.cheapest(Predictor::Explicit(degree), own);
                 explicit.extend(plan);
                 least = plan.map_or(least, |(cost, _)| cost.min(least));

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use coadjoint_program::fold::FoldError;
-use coadjoint_program::limits::{LARGEST_RATIO, RATE_OF_HALF_TURN};
+use coadjoint_program::limits::{LARGEST_RATIO, NEGLIGIBLE, RATE_OF_HALF_TURN};
 
 use super::part;
 use super::product::{Part, Product};
@@ -12,9 +12,6 @@ use super::vector::Matrix;
 use crate::graph::{Graph, Id, Program};
 use crate::integrator::{FoldTable, Integrator};
 use crate::lie::LieAlgebra;
-
-/// A last term that adds no more than this to coordinates of order one is what rounding leaves of a term that cancels.
-const NEGLIGIBLE: f64 = 16.0 * f64::EPSILON;
 
 /// Programs of the ratios by which the steps of a series are judged, at a momentum.
 #[derive(Debug)]
@@ -104,7 +101,7 @@ fn terms(integrator: &Integrator) -> Program {
             *sum = graph.times_plus(weight, product, *sum);
         }
     }
-    let negligible = graph.constant(NEGLIGIBLE);
+    let negligible = graph.constant(NEGLIGIBLE * f64::EPSILON);
     let ratio = |&[last, before]: &[Id; 2]| {
         // Nothing against nothing is no ratio.
         let ratio = graph.select(before, graph.zero(), graph.zero(), graph.div(last, before));
