@@ -107,10 +107,15 @@ fn by_series(
 
 /// The most steps of a run that is tried: a minute for a small system.
 const MOST_STEPS: f64 = 2e7;
+/// As long as steps are refused, or the end is not resolved: an input may jump.
+const MOST_REFUSED: f64 = 1e6;
 /// A step that meets a tolerance is confirmed by one that is shorter by this factor.
 const CONFIRMING: f64 = 0.93;
 /// Errors that hardly fall, this many times in a row, are made of rounding.
 const STUCK: u32 = 3;
+/// Steps of a run from which on errors must fall with at least half the order: until then a motion may be steeper than the steps
+/// see, and beyond it jumps.
+const STEEPEST: f64 = 2e4;
 /// The fewest steps of a run whose equations depend on the time: no pulse of half a step's width is passed over.
 const SEEN: f64 = 512.0;
 /// The starts in a region, at which errors are estimated.
@@ -198,14 +203,17 @@ impl<'a> Trial<'a> {
         let longest = if self.derived.moves() { self.duration / SEEN } else { self.duration };
         let (mut next, mut before) = (choice.step.min(longest), choice.error);
         let (mut nearest, mut stuck): (Option<(f64, f64)>, _) = (None, 0);
-        while self.duration / next <= MOST_STEPS && stuck < STUCK {
+        let most = |made: bool| if made { MOST_STEPS } else { MOST_REFUSED };
+        while self.duration / next <= most(nearest.is_some()) && stuck < STUCK {
             let step = self.duration / (self.duration / next * (1.0 - 1e-12)).ceil();
             let error = self.error(step).unwrap_or(f64::INFINITY);
             if error.max(before) <= goal {
                 return Some((step, error));
             }
-            let least = nearest.map_or(f64::INFINITY, |(_, least)| least);
-            stuck = if error.is_infinite() || error < 0.8 * least { 0 } else { stuck + 1 };
+            let (longer, least) = nearest.unwrap_or((step, f64::INFINITY));
+            let smooth = (step / longer).powf(0.5 * order);
+            let falls = if self.duration / step < STEEPEST { 0.8 } else { smooth.min(0.8) };
+            stuck = if error.is_infinite() || error < falls * least { 0 } else { stuck + 1 };
             if error < least {
                 nearest = Some((step, error));
             }

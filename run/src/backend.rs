@@ -8,7 +8,7 @@ use std::time::Duration;
 use std::time::Instant;
 
 use coadjoint_native::{COptions, Entry, Native};
-use coadjoint_program::{Kernel, Stepper, Trajectories};
+use coadjoint_program::{Kernel, Programs, Stepper, Trajectories};
 
 use crate::error::RunError;
 
@@ -49,6 +49,9 @@ const COMPILERS: &[Cost] = &[
 
 /// Programs of more operations than this are not given to a C compiler unless it is named: its time grows faster.
 const MOST_FOR_COMPILER: f64 = 40_000.0;
+
+/// A kernel allows this many times the corrections that its steps usually take: 60 sweeps of collocation, of which 7 to 9 are made.
+const SPARE: u32 = 8;
 
 /// The backends that made the steps of a run.
 #[derive(Clone, Debug)]
@@ -251,11 +254,12 @@ impl Backend {
 
 /// The backends that take less time for this number of steps than the interpreter, the best one first.
 fn plan(kernel: &Kernel, steps: f64, trajectories: Trajectories) -> Vec<Backend> {
-    let operations = operations(kernel) as f64;
+    let operations = operations(kernel, 1);
+    let work = steps * self::operations(kernel, (kernel.corrections / SPARE).max(1));
     let lanes = usize::from(trajectories == Trajectories::Lanes);
     let time = |cost: &Cost| {
         let [start, each] = cost.ready;
-        start + operations * (each + steps * cost.pace[lanes] * 1e-9)
+        start + operations * each + work * cost.pace[lanes] * 1e-9
     };
     let worth = |cost: &&Cost| {
         let small = cost.backend != Backend::C || operations <= MOST_FOR_COMPILER;
@@ -266,9 +270,10 @@ fn plan(kernel: &Kernel, steps: f64, trajectories: Trajectories) -> Vec<Backend>
     plan.into_iter().map(|cost| cost.backend).collect()
 }
 
-/// The operations of a step, if one correction is enough.
-fn operations(kernel: &Kernel) -> usize {
-    let programs = &kernel.programs;
-    let list = [&programs.guess, &programs.correct, &programs.accept, &programs.transport];
-    list.iter().map(|program| program.nodes().len()).sum()
+/// The operations of a step of this number of corrections.
+fn operations(kernel: &Kernel, corrections: u32) -> f64 {
+    let Programs { guess, correct, accept, transport, .. } = &kernel.programs;
+    let once =
+        [guess, accept, transport].map(|program| program.nodes().len()).iter().sum::<usize>();
+    once as f64 + f64::from(corrections) * correct.nodes().len() as f64
 }

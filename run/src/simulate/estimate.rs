@@ -29,8 +29,15 @@ const ROUNDING: f64 = 0.5;
 /// An error above this is worth a warning.
 pub const LARGE: f64 = 0.01;
 
-/// The differences of two runs, each after a number of steps of the first.
-type Differences = Vec<(u64, f64)>;
+/// A run beside another.
+struct Beside {
+    /// The times between its steps.
+    grid: Grid,
+    /// The state at its end.
+    end: Numbers,
+    /// States on its way.
+    way: Vec<Milestone>,
+}
 
 /// A system with values of the parameters that are kept, and its programs where there are any.
 #[derive(Clone, Copy)]
@@ -89,8 +96,9 @@ impl Made<'_> {
             if number > 0 {
                 states = self.states()?;
             }
-            let Some((ratio, way)) = self.compare(ratio, &states)? else { continue };
-            let difference = way.last().map_or(0.0, |(_, difference)| *difference);
+            let Some(Beside { grid, end, way }) = self.beside(ratio, &states)? else { continue };
+            let ratio = grid.step / self.grid.step;
+            let difference = self.apart(self.ends[1], &end);
             found = if difference <= UNRESOLVED {
                 let truncation = difference / (ratio.powi(order) - 1.0).abs();
                 let rounding = ROUNDING * self.steps.ceil() * f64::EPSILON;
@@ -98,8 +106,18 @@ impl Made<'_> {
                 let least = if moved { 0.5 * f64::EPSILON } else { 0.0 };
                 Ok(truncation.max(difference.min(rounding)).max(least))
             } else {
-                let near = |(_, difference): &&(u64, f64)| *difference <= UNRESOLVED;
-                let until = way.iter().take_while(near).last().map_or(0, |(place, _)| *place);
+                let mut until = 0;
+                for ((place, kept), (at, state)) in states.iter().zip(&way) {
+                    let part = *place as f64 * self.grid.step - *at as f64 * grid.step;
+                    // A refusal of this one step says nothing of the run.
+                    let Ok(here) = self.motion.beside(state, grid.time(*at), part) else {
+                        continue;
+                    };
+                    if self.apart(kept, &here) > UNRESOLVED {
+                        break;
+                    }
+                    until = *place;
+                }
                 Err(Unknown::Unresolved { until: self.grid.time(until) })
             };
             if difference <= LARGE {
@@ -109,13 +127,9 @@ impl Made<'_> {
         found
     }
 
-    /// Runs beside the run in steps of about this ratio, which it returns with the differences of the two after numbers of steps of
-    /// the run: in these states on the way, not further than to where they part, and at the end. None if a step is refused.
-    fn compare(
-        &self,
-        ratio: f64,
-        states: &[Milestone],
-    ) -> Result<Option<(f64, Differences)>, Unknown> {
+    /// Runs beside the run in steps of about this ratio, and keeps the last state before each of these on the way. None if a step
+    /// is refused.
+    fn beside(&self, ratio: f64, states: &[Milestone]) -> Result<Option<Beside>, Unknown> {
         let mut count = (self.steps / ratio).ceil() as u64;
         let whole = self.steps.fract() == 0.0 && count > 2;
         while whole && common(self.steps as u64, count) > 1 {
@@ -125,25 +139,16 @@ impl Made<'_> {
         let grid = Grid { step: ratio * self.grid.step, ..self.grid };
         let Ok(motion) = self.maker.steps(grid) else { return Ok(None) };
         let steps = (motion.as_ref(), ratio < 1.0);
-        let (mut state, mut at, mut way) = (self.ends[0].clone(), 0, Vec::new());
-        for (place, kept) in states {
-            let next = (*place as f64 / ratio) as u64;
-            if self.go(steps, &mut state, [at, next])?.is_err() {
+        let (mut end, mut at, mut way) = (self.ends[0].clone(), 0, Vec::new());
+        let places = states.iter().map(|(place, _)| (*place as f64 / ratio) as u64);
+        for next in places.chain([count]) {
+            if self.go(steps, &mut end, [at, next])?.is_err() {
                 return Ok(None);
             }
             at = next;
-            let part = (*place as f64 - next as f64 * ratio) * self.grid.step;
-            // A refusal of this one step says nothing of the run.
-            let Ok(here) = motion.beside(&state, grid.time(next), part) else { continue };
-            let difference = self.apart(kept, &here);
-            way.push((*place, difference));
-            if difference > UNRESOLVED {
-                return Ok(Some((ratio, way)));
-            }
+            way.push((at, end.clone()));
         }
-        let made = self.go(steps, &mut state, [at, count])?;
-        way.push((self.steps as u64, self.apart(self.ends[1], &state)));
-        Ok(made.ok().map(|()| (ratio, way)))
+        Ok(Some(Beside { grid, end, way }))
     }
 
     /// The states on the way: those kept, and before them, where a run was resumed, those that are made anew.
