@@ -25,8 +25,8 @@ pub const LARGEST_FORCE: f64 = 0.25;
 /// alone is looked at.
 pub const LARGEST_REACH: [f64; MAX_NODES] = [0.25, 2.25, 2.25, 2.25, 2.25, 2.25, 2.25, 2.25];
 
-/// Sweeps of an ordinary step at most.
-pub const ORDINARY_SWEEPS: f64 = 14.0;
+/// Sweeps of an ordinary step at most: where the first guess is that far from the solution, H bends much along the step.
+pub const ORDINARY_SWEEPS: f64 = 18.0;
 
 /// The share of its limit from which on the measure of a step with one node is taken with the Hessian at the solution.
 pub const NEAR_LIMIT: f64 = 0.5;

@@ -22,6 +22,9 @@ const MOST: u32 = 7;
 /// The largest difference of the momenta after a step and after its parts, relative to the momentum.
 const LARGEST_DIFFERENCE: f64 = 0.1;
 
+/// Sweeps that ordinary steps of a closure take at most.
+const CLOSURE_SWEEPS: u32 = 8;
+
 /// exp(x), and the momentum after the step.
 pub(super) type Moved<G> = (<G as LieGroup>::Element, <G as LieGroup>::Vector);
 
@@ -112,7 +115,8 @@ where
 
     /// Checks that a solved step cannot be wrong without its nodes showing it: that it took few sweeps, and that the arguments of H's
     /// functions go not far from the start to the first node, from node to node, and to the end, while the time moves by this share of
-    /// the step. Of a closure that is not known, and steps from a cold guess, or whose measure is near its limit, are not ordinary instead.
+    /// the step. Of a closure that is not known, and steps from a cold guess, with more sweeps than a few, or whose measure is near its limit, are
+    /// not ordinary instead.
     fn ordinary(
         &self,
         attempt: &Attempt<G::Vector, M>,
@@ -133,8 +137,8 @@ where
                 _ => (time(0.5), end.clone()),
             };
             let Some(square) = self.energy.reach((last.0, &last.1), (next.0, &next.1)) else {
-                let measure = if cold { f64::INFINITY } else { measure };
-                return within(attempt, measure, NEAR_LIMIT);
+                let long = cold || attempt.sweeps > CLOSURE_SWEEPS;
+                return within(attempt, if long { f64::INFINITY } else { measure }, NEAR_LIMIT);
             };
             within(attempt, square, LARGEST_REACH[M - 1])?;
             last = next;
