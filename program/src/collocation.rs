@@ -21,8 +21,12 @@ pub const LARGEST_FORCE: f64 = 0.25;
 
 /// The largest square of a reach, by the number of nodes, up to which a step is an ordinary one: of the arguments of H's
 /// functions from the start to the first node, from node to node and to the end, each in the units in which its function varies. Steps
-/// that reach farther are accepted only where parts that do not lead to their end.
+/// that reach farther are accepted only where parts that do not lead to their end; in the shortest parts the way of the momentum
+/// alone is looked at.
 pub const LARGEST_REACH: [f64; MAX_NODES] = [0.25, 2.25, 2.25, 2.25, 2.25, 2.25, 2.25, 2.25];
+
+/// Sweeps of an ordinary step at most: where the first guess is that far from the solution, H bends much along the step.
+pub const ORDINARY_SWEEPS: f64 = 18.0;
 
 /// The share of its limit from which on the measure of a step with one node is taken with the Hessian at the solution.
 pub const NEAR_LIMIT: f64 = 0.5;

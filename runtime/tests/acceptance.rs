@@ -584,3 +584,141 @@ fn waves_shorter_than_a_step_are_refused() {
         assert!(bent::<4>(&waves(1e-6, true), h, mu, 1).is_ok(), "{h}");
     }
 }
+
+/// A step or a few, and whether they are to be accepted; found by a search among random ones near poles. Each is decided by one rule.
+struct Case {
+    rule: &'static str,
+    nodes: usize,
+    accepted: bool,
+    h: f64,
+    mu: [f64; 3],
+    energy: Bent,
+}
+
+fn cases() -> Vec<Case> {
+    let of = |rule,
+              (nodes, tells),
+              accepted,
+              h,
+              (mu, form): ([f64; 3], [f64; 3]),
+              height,
+              slope: [f64; 3],
+              offset| {
+        let (form, slope, shape) = (form.into(), slope.into(), Shape::Pole);
+        let energy = Bent { form, height, width: 1.0, slope, offset, shape, tells };
+        Case { rule, nodes, accepted, h, mu, energy }
+    };
+    vec![
+        of(
+            "short parts",
+            (2, true),
+            true,
+            2.5,
+            ([0.848, -0.732, -0.809], [0.492, 0.515, 0.54]),
+            -0.137,
+            [1.36, 1.7, -1.42],
+            3.25,
+        ),
+        of(
+            "shortest parts",
+            (1, true),
+            false,
+            -0.0182,
+            ([-0.41, -0.669, -1.84], [-0.468, 1.35, 0.936]),
+            1.05e-7,
+            [0.00783, -1.92, -0.691],
+            2.55,
+        ),
+        of(
+            "difference",
+            (2, true),
+            false,
+            0.485,
+            ([-1.38, -0.509, -1.56], [1.32, 0.232, 0.835]),
+            0.00914,
+            [1.02, -1.78, 1.65],
+            -4.15,
+        ),
+        of(
+            "reach",
+            (1, true),
+            false,
+            -0.124,
+            ([-1.33, 1.83, 0.0], [-1.15, 0.828, 0.989]),
+            -0.00661,
+            [-0.896, 0.581, -0.137],
+            2.13,
+        ),
+        of(
+            "reach of the end",
+            (2, true),
+            false,
+            -0.102,
+            ([-1.18, 1.56, -1.8], [-0.544, -0.437, -1.49]),
+            -0.00209,
+            [0.486, 1.57, -1.02],
+            3.21,
+        ),
+        of(
+            "sweeps of a closure",
+            (1, false),
+            false,
+            0.0596,
+            ([1.68, 1.75, 0.837], [-1.11, 0.791, 0.697]),
+            -0.00102,
+            [0.843, 1.94, -1.88],
+            2.7,
+        ),
+        of(
+            "parts of a closure",
+            (2, false),
+            false,
+            0.175,
+            ([0.665, 0.731, 0.352], [0.368, 1.17, 0.771]),
+            -9.38e-8,
+            [0.243, 1.82, -0.187],
+            1.42,
+        ),
+        of(
+            "a cold start",
+            (1, false),
+            false,
+            0.0996,
+            ([0.112, -0.0328, -0.337], [0.697, 0.311, -0.934]),
+            -1.67e-7,
+            [1.46, 0.861, -0.128],
+            0.171,
+        ),
+        of(
+            "a closure's end",
+            (1, false),
+            true,
+            0.46,
+            ([-0.215, 0.351, -0.308], [0.896, 1.31, 0.611]),
+            1e-3,
+            [0.979, -0.86, -1.71],
+            4.0,
+        ),
+    ]
+}
+
+/// Steps are accepted, and then lead to where short ones do, or refused, as they are to be: all those that are not are named.
+#[test]
+fn each_rule_decides_a_step() {
+    let judged = |case: &Case| {
+        let Case { nodes, accepted, h, mu, energy, .. } = case;
+        let made = match nodes {
+            1 => bent::<1>(energy, *h, *mu, 1),
+            _ => bent::<2>(energy, *h, *mu, 1),
+        };
+        let right = |end: Vector3<f64>| {
+            let told = Bent { tells: true, ..energy.clone() };
+            let exact = bent::<4>(&told, h / 500.0, *mu, 500);
+            (end - exact.unwrap()).amax() < 0.1 * Vector3::from(*mu).amax()
+        };
+        made.is_ok() == *accepted && made.ok().is_none_or(right)
+    };
+    let failed: Vec<_> =
+        cases().iter().filter(|case| !judged(case)).map(|case| case.rule).collect();
+    assert!(failed.is_empty(), "{failed:?}");
+}

@@ -1,7 +1,7 @@
 //! An integrator by collocation: for Hamiltonians that are no polynomials.
 
 use coadjoint_program::quoting::rust_comment;
-use proc_macro2::{Group, Literal, TokenStream, TokenTree};
+use proc_macro2::{Group, Ident, Literal, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 
 use super::generating_function::unit;
@@ -155,21 +155,20 @@ pub(crate) fn collocation(smooth: &Smooth, options: &Options) -> Items {
     Items { opening: vec![opening], struct_and_methods, programs, legend: Vec::new() }
 }
 
-/// `impl Energy`: value, gradient, and what is outside its domain.
-fn programs(
-    smooth: &Smooth,
-    options: &Options,
-    types: &Types,
-    energy: &proc_macro2::Ident,
-) -> TokenStream {
+/// `impl Energy`: value, gradient, reach, and what is outside its domain.
+fn programs(smooth: &Smooth, options: &Options, types: &Types, energy: &Ident) -> TokenStream {
     let Options { krate, .. } = options;
     let vector = over_f64(types.vector.clone());
-    let names = ["c", "mu", "time"].map(|name| options.bound(name));
-    let [c, mu, time] = &names;
+    let names = ["c", "mu", "time", "next", "then"].map(|name| options.bound(name));
+    let [c, mu, time, next, then] = &names;
     let n = Literal::usize_unsuffixed(types.dim);
-    let function = |name: &str, program: &Program| {
+    let function = |name: &str, program: &Program, states: &[(&Ident, &Ident)]| {
         let name = format_ident!("{name}");
-        let inputs = vec![Field::array(mu.clone(), types.dim), Field::number(time.clone())];
+        let fields = |&(mu, time): &(&Ident, &Ident)| {
+            [Field::array(mu.clone(), types.dim), Field::number(time.clone())]
+        };
+        let inputs = states.iter().flat_map(fields).collect();
+        let parameters = states.iter().map(|(mu, time)| quote!(#mu: &[T; #n], #time: T));
         let scope = Scope { krate, inputs, operations: None, suffix: options.suffix };
         let Body { statements, outputs } = body(program, &scope);
         let count = Literal::usize_unsuffixed(outputs.len());
@@ -177,17 +176,17 @@ fn programs(
             #[inline]
             fn #name<T: #krate::plumbing::Number, C: #krate::plumbing::Coefficients<T>>(
                 #c: C,
-                #mu: &[T; #n],
-                #time: T,
+                #(#parameters),*
             ) -> [T; #count] {
                 #statements
                 [#(#outputs),*]
             }
         }
     };
-    let value = function("value", &smooth.value);
-    let gradient = function("gradient", &smooth.gradient);
-    let watched = function("watched", &smooth.watched);
+    let value = function("value", &smooth.value, &[(mu, time)]);
+    let gradient = function("gradient", &smooth.gradient, &[(mu, time)]);
+    let watched = function("watched", &smooth.watched, &[(mu, time)]);
+    let reach = function("reach", &smooth.reach, &[(mu, time), (next, then)]);
     let expressions = &smooth.expressions;
     let (allow, aliases) = (allow(), &types.aliases);
     let unit = unit(&smooth.units);
@@ -205,6 +204,16 @@ fn programs(
                 #[inline]
                 fn gradient(&self, time: f64, mu: &#vector) -> #vector {
                     <#vector as From<_>>::from(gradient(&self.symbols, &mu.data.0[0], time))
+                }
+
+                fn reach(
+                    &self,
+                    (time, mu): (f64, &#vector),
+                    (then, next): (f64, &#vector),
+                ) -> ::core::option::Option<f64> {
+                    let [mu, next] = [&mu.data.0[0], &next.data.0[0]];
+                    let [square] = reach(&self.symbols, mu, time, next, then);
+                    ::core::option::Option::Some(square)
                 }
 
                 #unit
@@ -225,6 +234,8 @@ fn programs(
             #gradient
 
             #watched
+
+            #reach
         };
     }
 }
@@ -233,7 +244,7 @@ fn programs(
 fn over_f64(tokens: TokenStream) -> TokenStream {
     let replaced = tokens.into_iter().map(|token| match token {
         TokenTree::Ident(ident) if ident == "T" => {
-            TokenTree::Ident(proc_macro2::Ident::new("f64", ident.span()))
+            TokenTree::Ident(Ident::new("f64", ident.span()))
         }
         TokenTree::Group(group) => {
             let mut inner = Group::new(group.delimiter(), over_f64(group.stream()));

@@ -1,6 +1,8 @@
 //! The judgement of a solution: its nodes have to resolve it, and where it is not ordinary it is made again in parts that are.
 
-use coadjoint_program::collocation::{LARGEST_FORCE, LARGEST_REACH, LARGEST_TAIL, NEAR_LIMIT};
+use coadjoint_program::collocation::{
+    LARGEST_FORCE, LARGEST_REACH, LARGEST_TAIL, NEAR_LIMIT, ORDINARY_SWEEPS,
+};
 use nalgebra::SimdComplexField;
 
 use super::energy::{Energy, UNKNOWN, Undefined};
@@ -20,8 +22,8 @@ const MOST: u32 = 7;
 /// The largest difference of the momenta after a step and after its parts, relative to the momentum.
 const LARGEST_DIFFERENCE: f64 = 0.1;
 
-/// Sweeps that steps of a closure take at most where they are ordinary.
-const ORDINARY_SWEEPS: u32 = 14;
+/// Sweeps that ordinary steps of a closure take at most.
+const CLOSURE_SWEEPS: u32 = 8;
 
 /// exp(x), and the momentum after the step.
 pub(super) type Moved<G> = (<G as LieGroup>::Element, <G as LieGroup>::Vector);
@@ -39,13 +41,13 @@ where
         cold: bool,
     ) -> Result<Moved<G>, StepError> {
         let (moved, measure) = self.resolve(attempt)?;
-        if self.ordinary(attempt, &moved.1, measure, cold).is_err() {
+        if self.ordinary(attempt, &moved.1, measure, (cold, 1.0)).is_err() {
             self.follow(attempt, &moved.1)?;
         }
         Ok(moved)
     }
 
-    /// Checks that parts of a step, each an ordinary one or among the shortest, lead to its end: to about this momentum, and as near to it as H's
+    /// Checks that parts of a step, each an ordinary one, lead to its end: to about this momentum, and as near to it as H's
     /// functions ask for.
     #[cold]
     fn follow(&self, attempt: &Attempt<G::Vector, M>, end: &G::Vector) -> Result<(), StepError> {
@@ -64,17 +66,17 @@ where
         within(attempt, square, LARGEST_REACH[M - 1])
     }
 
-    /// The momentum after parts that are ordinary steps, made by this many halvings at least and at most: a jump in time is short
-    /// against the shortest parts, which need not be ordinary.
+    /// The momentum after parts that are ordinary steps, made by this many halvings at least and at most: in the shortest parts, which a
+    /// jump in time may be short against, the time stands still for this.
     fn in_parts(&self, least: u32, most: u32) -> Result<G::Vector, StepError> {
         if least == 0 {
             let attempt = self.solve(Rates::zero(self.mu.dim()));
-            let made = self.resolve(&attempt);
-            let ordinary = made.as_ref().is_ok_and(|((_, end), measure)| {
-                self.ordinary(&attempt, end, *measure, false).is_ok()
+            let moves = if most == 0 { 0.0 } else { 1.0 };
+            let made = self.resolve(&attempt).and_then(|((_, end), measure)| {
+                self.ordinary(&attempt, &end, measure, (false, moves)).map(|()| end)
             });
-            if ordinary || most == 0 {
-                return made.map(|((_, end), _)| end);
+            if made.is_ok() || most == 0 {
+                return made;
             }
         }
         let half = |mu: &G::Vector, part: f64| {
@@ -111,18 +113,20 @@ where
         Ok((moved, (tail / limit).max(force / LARGEST_FORCE)))
     }
 
-    /// Checks that a solved step cannot be wrong without its nodes showing it: that the arguments of H's functions go not far from the start
-    /// to the first node, from node to node, and to the end. Of a closure that is not known, and steps from a cold guess, or that took
-    /// many sweeps, or whose measure is near its limit, are not ordinary instead.
+    /// Checks that a solved step cannot be wrong without its nodes showing it: that it took few sweeps, and that the arguments of H's
+    /// functions go not far from the start to the first node, from node to node, and to the end, while the time moves by this share of
+    /// the step. Of a closure that is not known, and steps from a cold guess, with more sweeps than a few, or whose measure is near its limit, are
+    /// not ordinary instead.
     fn ordinary(
         &self,
         attempt: &Attempt<G::Vector, M>,
         end: &G::Vector,
         measure: f64,
-        cold: bool,
+        (cold, moves): (bool, f64),
     ) -> Result<(), StepError> {
+        within(attempt, f64::from(attempt.sweeps), ORDINARY_SWEEPS)?;
         let dim = self.mu.dim();
-        let time = |at: f64| at.times_plus(self.step, self.middle);
+        let time = |at: f64| (moves * at).times_plus(self.step, self.middle);
         let mut last = (time(-0.5), self.mu.clone());
         for node in 0..=M {
             let next = match node {
@@ -132,13 +136,11 @@ where
                 }
                 _ => (time(0.5), end.clone()),
             };
-            match self.energy.reach((last.0, &last.1), (next.0, &next.1)) {
-                Some(square) => within(attempt, square, LARGEST_REACH[M - 1])?,
-                None if cold || attempt.sweeps > ORDINARY_SWEEPS => {
-                    return within(attempt, f64::INFINITY, NEAR_LIMIT);
-                }
-                None => return within(attempt, measure, NEAR_LIMIT),
-            }
+            let Some(square) = self.energy.reach((last.0, &last.1), (next.0, &next.1)) else {
+                let long = cold || attempt.sweeps > CLOSURE_SWEEPS;
+                return within(attempt, if long { f64::INFINITY } else { measure }, NEAR_LIMIT);
+            };
+            within(attempt, square, LARGEST_REACH[M - 1])?;
             last = next;
         }
         Ok(())

@@ -1,13 +1,13 @@
 //! A step by collocation as a kernel: the equations, the solution and the acceptance of the runtime's `collocation`, in which a
 //! sweep is a correction.
 //!
-//! The numbers solved for are hẋᵢ of all nodes, then hṗᵢ of all, then the residual of the sweep before. A solution is read as x, two
-//! measures of how well the nodes resolve the step, each as a share of its limit, the rates, and the momenta at the nodes. Steps leave differences of
+//! The numbers solved for are hẋᵢ of all nodes, then hṗᵢ of all, then the residual of the sweep before and the sweeps made. A solution is
+//! read as x, two measures of how well the nodes resolve the step and the sweeps made, each as a share of its limit, the rates, and the momenta at the nodes. Steps leave differences of
 //! their rates to the next one, beside the group element. Steps that are not ordinary ones are refused: the runtime makes them in parts.
 
 use coadjoint_program::collocation::{
     KEPT, KEPT_LONG, LARGEST_FORCE, LARGEST_MODEL, LARGEST_REACH, LARGEST_TAIL, LONG, MAX_SWEEPS,
-    NEAR_LIMIT, Nodes, ROUNDING, SOLVED, degree,
+    NEAR_LIMIT, Nodes, ORDINARY_SWEEPS, ROUNDING, SOLVED, degree,
 };
 use coadjoint_program::{Kernel, KernelParts, Programs};
 
@@ -21,8 +21,11 @@ use crate::integrator::Kicks;
 use crate::smooth::Smooth;
 use crate::step::StepError;
 
-/// The measures of how well the nodes resolve a step.
-const MEASURES: usize = 2;
+/// The measures of how well the nodes resolve a step, and its sweeps.
+const MEASURES: usize = 3;
+
+/// The numbers solved for beside the rates.
+const OTHERS: usize = 2;
 
 /// The coefficients of the nodes of a step, for a number of nodes known at run time.
 struct Gauss {
@@ -110,7 +113,7 @@ pub(super) fn kernel(smooth: &Smooth, group: &Product) -> Result<Kernel, StepErr
     let kernel = Kernel::new(KernelParts {
         dim: step.n,
         element: group.element(),
-        unknowns: rates + 1,
+        unknowns: rates + OTHERS,
         solution: step.n + MEASURES + rates + step.n * step.nodes(),
         tolerance: SOLVED,
         near: 0.0,
@@ -289,7 +292,7 @@ impl<'a> Collocation<'a> {
             None => vec![zero; self.rates()],
         };
         let mut outputs = guess.clone();
-        outputs.push(zero);
+        outputs.extend([zero; OTHERS]);
         if self.models() {
             let (_, p) = self.whole(&graph, &Rates::new(self.n, &guess), &mu);
             let hessian = self.hessian(&graph, &p);
@@ -332,15 +335,15 @@ impl<'a> Collocation<'a> {
         self.at(graph, &program, mu, 1)
     }
 
-    /// The rates, the residual of the sweep before, μ, the momentum in the middle, the Hessian ↦ the next rates, this sweep's
-    /// residual; the solution; the error that is left, about; 0 or, where a number is not finite, none.
+    /// The rates, the residual of the sweep before, the sweeps made, μ, the momentum in the middle, the Hessian ↦ the next rates, this sweep's
+    /// residual, the sweeps made; the solution; the error that is left, about; 0 or, where a number is not finite, none.
     fn correct(&self) -> Program {
         let (graph, n, count) = (Graph::new(), self.n, self.rates());
         let rates = Rates::new(n, &inputs(&graph, 0, count));
-        let before = graph.input(count);
-        let mu = inputs(&graph, count + 1, n);
+        let [before, sweeps] = [count, count + 1].map(|i| graph.input(i));
+        let mu = inputs(&graph, count + OTHERS, n);
         let constants = if self.models() { n + n * (n + 1) / 2 } else { 0 };
-        let model = inputs(&graph, count + 1 + n, constants);
+        let model = inputs(&graph, count + OTHERS + n, constants);
         let [zero, one, half] = [0.0, 1.0, 0.5].map(|value| graph.constant(value));
 
         let (next, momenta) = self.sweep(&graph, &rates, &mu);
@@ -373,11 +376,14 @@ impl<'a> Collocation<'a> {
         let (x, _) = self.whole(&graph, &next, &mu);
         let measures = self.measures(&graph, &next, &mu, &model);
         let mut outputs = next.numbers();
-        outputs.push(residual);
+        let sweeps = graph.add(sweeps, one);
+        outputs.extend([residual, sweeps]);
+        let most = graph.constant(1.0 / ORDINARY_SWEEPS);
+        let measures = measures.into_iter().chain([graph.mul(sweeps, most)]);
         outputs.extend(x.into_iter().chain(measures).chain(next.numbers()));
         outputs.extend(momenta.into_iter().flatten());
         outputs.extend([left, finite(&graph, &change.numbers())]);
-        graph.finish(count + 1 + n + constants, &outputs)
+        graph.finish(count + OTHERS + n + constants, &outputs)
     }
 
     /// The rates that follow from others, and the momenta at the nodes.

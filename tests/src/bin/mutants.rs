@@ -89,13 +89,19 @@ const MUTANTS: &[(&str, &[[&str; 2]])] = &[
         "runtime/src/collocation/following.rs",
         &[
             ["LEAST: [u32; 2] = [1, 4]", "LEAST: [u32; 2] = [0, 0]"],
-            ["MOST: u32 = 7", "MOST: u32 = 4"],
+            ["MOST: u32 = 7", "MOST: u32 = 1"],
             ["LARGEST_DIFFERENCE: f64 = 0.1", "LARGEST_DIFFERENCE: f64 = 10.0"],
-            ["None if cold || attempt.sweeps > ORDINARY_SWEEPS", "None if attempt.sweeps > 60"],
-            ["within(attempt, square, LARGEST_REACH[M - 1])?,", "{}"],
+            ["cold || attempt.sweeps > CLOSURE_SWEEPS", "attempt.sweeps > CLOSURE_SWEEPS"],
+            ["CLOSURE_SWEEPS: u32 = 8", "CLOSURE_SWEEPS: u32 = 1000"],
+            ["within(attempt, square, LARGEST_REACH[M - 1])?;", ""],
             ["within(attempt, square, LARGEST_REACH[M - 1])\n", "Ok(())\n"],
             ["self.follow(attempt, &moved.1)?;", ""],
             ["(time(0.5), end.clone())", "last.clone()"],
+            [
+                "if made.is_ok() || most == 0 {\n                return made;",
+                "if most == 0 {\n                return self.resolve(&attempt).map(|((_, end), _)| end);\n            }\n            if made.is_ok() {\n                return made;",
+            ],
+            ["unwrap_or(0.0)", "unwrap_or(f64::INFINITY)"],
         ],
     ),
     (
