@@ -25,8 +25,11 @@ pub const LARGEST_FORCE: f64 = 0.25;
 /// alone is looked at.
 pub const LARGEST_REACH: [f64; MAX_NODES] = [0.25, 2.25, 2.25, 2.25, 2.25, 2.25, 2.25, 2.25];
 
-/// Sweeps of an ordinary step at most: where the first guess is that far from the solution, H bends much along the step.
-pub const ORDINARY_SWEEPS: f64 = 18.0;
+/// Sweeps of an ordinary step in this dimension at most: where the first guess is that far from the solution, H bends much
+/// along the step. Beyond [`LARGEST_MODEL`] sweeps converge linearly, and their number says nothing of H.
+pub fn ordinary_sweeps(dim: usize) -> f64 {
+    if dim > LARGEST_MODEL { f64::from(MAX_SWEEPS) } else { 18.0 }
+}
 
 /// The share of its limit from which on the measure of a step with one node is taken with the Hessian at the solution.
 pub const NEAR_LIMIT: f64 = 0.5;

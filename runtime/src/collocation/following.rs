@@ -1,7 +1,7 @@
 //! The judgement of a solution: its nodes have to resolve it, and where it is not ordinary it is made again in parts that are.
 
 use coadjoint_program::collocation::{
-    LARGEST_FORCE, LARGEST_REACH, LARGEST_TAIL, NEAR_LIMIT, ORDINARY_SWEEPS,
+    LARGEST_FORCE, LARGEST_REACH, LARGEST_TAIL, NEAR_LIMIT, ordinary_sweeps,
 };
 use nalgebra::SimdComplexField;
 
@@ -124,8 +124,8 @@ where
         measure: f64,
         (cold, moves): (bool, f64),
     ) -> Result<(), StepError> {
-        within(attempt, f64::from(attempt.sweeps), ORDINARY_SWEEPS)?;
         let dim = self.mu.dim();
+        within(attempt, f64::from(attempt.sweeps), ordinary_sweeps(dim))?;
         let time = |at: f64| (moves * at).times_plus(self.step, self.middle);
         let mut last = (time(-0.5), self.mu.clone());
         for node in 0..=M {

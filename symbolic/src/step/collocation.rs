@@ -7,7 +7,7 @@
 
 use coadjoint_program::collocation::{
     KEPT, KEPT_LONG, LARGEST_FORCE, LARGEST_MODEL, LARGEST_REACH, LARGEST_TAIL, LONG, MAX_SWEEPS,
-    NEAR_LIMIT, Nodes, ORDINARY_SWEEPS, ROUNDING, SOLVED, degree,
+    NEAR_LIMIT, Nodes, ROUNDING, SOLVED, degree, ordinary_sweeps,
 };
 use coadjoint_program::{Kernel, KernelParts, Programs};
 
@@ -378,7 +378,7 @@ impl<'a> Collocation<'a> {
         let mut outputs = next.numbers();
         let sweeps = graph.add(sweeps, one);
         outputs.extend([residual, sweeps]);
-        let most = graph.constant(1.0 / ORDINARY_SWEEPS);
+        let most = graph.constant(1.0 / ordinary_sweeps(self.n));
         let measures = measures.into_iter().chain([graph.mul(sweeps, most)]);
         outputs.extend(x.into_iter().chain(measures).chain(next.numbers()));
         outputs.extend(momenta.into_iter().flatten());

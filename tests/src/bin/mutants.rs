@@ -92,7 +92,7 @@ const MUTANTS: &[(&str, &[[&str; 2]])] = &[
             ["MOST: u32 = 7", "MOST: u32 = 1"],
             ["LARGEST_DIFFERENCE: f64 = 0.1", "LARGEST_DIFFERENCE: f64 = 10.0"],
             ["cold || attempt.sweeps > CLOSURE_SWEEPS", "attempt.sweeps > CLOSURE_SWEEPS"],
-            ["within(attempt, f64::from(attempt.sweeps), ORDINARY_SWEEPS)?;", ""],
+            ["within(attempt, f64::from(attempt.sweeps), ordinary_sweeps(dim))?;", ""],
             ["CLOSURE_SWEEPS: u32 = 8", "CLOSURE_SWEEPS: u32 = 1000"],
             ["within(attempt, square, LARGEST_REACH[M - 1])?;", ""],
             ["within(attempt, square, LARGEST_REACH[M - 1])\n", "Ok(())\n"],
