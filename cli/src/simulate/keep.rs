@@ -45,6 +45,8 @@ struct Keeper<'a> {
     /// Which drifts records have.
     known: [bool; 3],
     records: Option<Records>,
+    /// The numbers of a record.
+    row: Vec<f64>,
     /// The moments kept for pictures, if any are.
     samples: Option<Samples>,
     /// When the last checkpoint was written.
@@ -70,6 +72,7 @@ pub(crate) fn keep(
         header: &header,
         known: [false; 3],
         records: None,
+        row: Vec::new(),
         samples: settings.sampled.then(|| Samples::new(coordinates.len())),
         saved: now,
         guard: None,
@@ -241,9 +244,13 @@ impl Sink for Keeper<'_> {
         let Some(records) = &mut self.records else { return Ok(()) };
         let drifts = record.moment.drift.numbers().into_iter().zip(self.known);
         let drifts = drifts.filter_map(|(drift, known)| known.then_some(drift));
-        let last = record.moment.energy.into_iter().chain(drifts);
-        let state = record.momentum.iter().copied().chain(record.element.iter().copied());
-        let written = records.row(std::iter::once(record.time).chain(state).chain(last));
+        self.row.clear();
+        self.row.push(record.time);
+        self.row.extend_from_slice(record.momentum);
+        self.row.extend_from_slice(record.element);
+        self.row.extend(record.moment.energy);
+        self.row.extend(drifts);
+        let written = records.row(&self.row);
         self.note(written)
     }
 

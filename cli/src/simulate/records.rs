@@ -126,9 +126,8 @@ impl Records {
     }
 
     /// Adds a record.
-    pub(crate) fn row(&mut self, values: impl Iterator<Item = f64>) -> Result<(), CliError> {
-        let values: Vec<f64> = values.collect();
-        self.target.form.append(&values, values.len(), &mut self.buffer);
+    pub(crate) fn row(&mut self, values: &[f64]) -> Result<(), CliError> {
+        self.target.form.append(values, values.len(), &mut self.buffer);
         self.waiting += 1;
         if self.buffer.len() >= BUFFER { self.flush() } else { Ok(()) }
     }

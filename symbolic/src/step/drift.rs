@@ -26,13 +26,19 @@ impl Drift {
 
     /// Spatial momentum, Casimirs, energy; NaN for `None`.
     pub fn numbers(self) -> [f64; 3] {
-        [self.spatial_momentum, self.casimirs, self.energy].map(|drift| drift.unwrap_or(f64::NAN))
+        let number = |drift: Option<f64>| drift.unwrap_or(f64::NAN);
+        [number(self.spatial_momentum), number(self.casimirs), number(self.energy)]
     }
 
     /// The inverse of [`Self::numbers`].
     pub fn of_numbers(numbers: [f64; 3]) -> Self {
-        let [spatial_momentum, casimirs, energy] = numbers.map(|x| (!x.is_nan()).then_some(x));
-        Self { spatial_momentum, casimirs, energy }
+        let known = |x: f64| (!x.is_nan()).then_some(x);
+        let [spatial_momentum, casimirs, energy] = numbers;
+        Self {
+            spatial_momentum: known(spatial_momentum),
+            casimirs: known(casimirs),
+            energy: known(energy),
+        }
     }
 }
 
@@ -105,9 +111,10 @@ impl Start {
     /// more than 1e-11 of its scale, as it does after long motions in groups that are not compact, there is none. `beside`
     /// is what is conserved of the state whose numbers are [nudged](nudge).
     pub fn measured(&self, now: &[f64], beside: &[f64]) -> Drift {
-        let moved = self.between(beside, now).numbers().map(|moved| moved * (f64::EPSILON / NUDGE));
+        let moved = self.between(beside, now).numbers();
         let mut drift = self.drift(now).numbers();
         for (drift, moved) in drift.iter_mut().zip(moved) {
+            let moved = moved * (f64::EPSILON / NUDGE);
             // NaN is not measured either.
             if !drift.is_finite() || moved.is_nan() || moved > MEASURABLE {
                 *drift = f64::NAN;
