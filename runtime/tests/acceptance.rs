@@ -3,13 +3,13 @@
 
 use coadjoint::collocation::{Collocation, Energy};
 use coadjoint::generating::{GeneratingFunction, PolynomialFunction};
-use coadjoint::groups::{Cayley, Chart, Exponential, Power};
+use coadjoint::groups::{Cayley, Chart, Exponential, Power, SL2};
 use coadjoint::lanes::F64x4;
 use coadjoint::plumbing::{Driven, DrivenOf};
 use coadjoint::solve::Integrator;
 use coadjoint::solve::{Solver, solve, solve_from};
 use coadjoint::steps::advance;
-use coadjoint::{Phase, SO3, StepError};
+use coadjoint::{LieGroup, Phase, SO3, StepError};
 use nalgebra::{Matrix3, SimdValue, Vector3, Vector6};
 
 type Terms = Vec<(f64, Vec<(usize, u32)>)>;
@@ -731,4 +731,60 @@ fn each_rule_decides_a_step() {
     let failed: Vec<_> =
         cases().iter().filter(|case| !judged(case)).map(|case| case.rule).collect();
     assert!(failed.is_empty(), "{failed:?}");
+}
+
+/// √(1 + Σ wᵢ μᵢ²) + ½ Σ qᵢⱼ μᵢ μⱼ + Σ bᵢ μᵢ
+#[derive(Clone)]
+struct Rooted {
+    w: [f64; 3],
+    q: Matrix3<f64>,
+    b: [f64; 3],
+}
+
+impl Energy<Vector3<f64>> for Rooted {
+    fn value(&self, _: f64, mu: &Vector3<f64>) -> f64 {
+        self.root(mu) + 0.5 * mu.dot(&(self.q * mu)) + mu.dot(&Vector3::from(self.b))
+    }
+
+    fn gradient(&self, _: f64, mu: &Vector3<f64>) -> Vector3<f64> {
+        Vector3::from(self.w).component_mul(mu) / self.root(mu)
+            + self.q * mu
+            + Vector3::from(self.b)
+    }
+}
+
+impl Rooted {
+    fn root(&self, mu: &Vector3<f64>) -> f64 {
+        (1.0 + Vector3::from(self.w).dot(&mu.component_mul(mu))).sqrt()
+    }
+}
+
+/// On SL(2) momenta grow along a step: its velocity is resolved, and what drives the momentum is not. Both ends are off by 2 %.
+#[test]
+fn steps_whose_force_is_not_resolved_are_refused() {
+    let off = |a, b, c| Matrix3::new(0.0, a, b, a, 0.0, c, b, c, 0.0);
+    let first = Rooted {
+        w: [1.3357448231335372, 0.20996356402648853, 0.6113285931768799],
+        q: off(-0.18438829143773516, -0.13413061283260636, -0.11412763513002128),
+        b: [0.19080266456955208, 0.3142907242599553, -0.335152111885053],
+    };
+    let second = Rooted {
+        w: [0.7248648954140484, 0.22215483147838389, 0.2092225032138857],
+        q: off(-0.15562462049841647, -0.01054439435411303, 0.1265195751729769),
+        b: [0.2788512507990901, 0.15653261123391504, -0.17631726306227957],
+    };
+    for (h, mu, energy) in [
+        (0.5283690832138258, [1.525975797167215, -1.7543053712224537, -1.7392089846605367], first),
+        (
+            1.5045251674193219,
+            [0.6452214235212912, -0.4503963946271431, 0.12624425233865733],
+            second,
+        ),
+    ] {
+        let group = SL2::new();
+        let mut state = Phase::<SL2<f64>>::new(group.identity(), Vector3::from(mu));
+        let mut step = Collocation::<_, _, 3>::new(group, energy, h).unwrap();
+        let error = step.advance(&mut state, 0.0).unwrap_err();
+        assert!(matches!(error, StepError::Unresolved { .. }), "{error}");
+    }
 }
