@@ -56,9 +56,9 @@ pub struct Scales {
 /// The start of a run, from which drifts are measured.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Start {
-    /// What is conserved: momenta, Casimirs, the energy if there is one.
+    /// The conserved quantities: momenta, Casimirs, the energy if there is one.
     pub(super) conserved: Vec<f64>,
-    /// How many of these are momenta.
+    /// The number of momenta among them.
     pub(super) momenta: usize,
     /// The sizes that drifts are relative to.
     pub scales: Scales,
@@ -76,7 +76,7 @@ impl Scales {
 }
 
 impl Start {
-    /// What is conserved there.
+    /// The conserved quantities there.
     pub fn conserved(&self) -> &[f64] {
         &self.conserved
     }

@@ -26,7 +26,7 @@ pub struct Seen<'a> {
 pub struct Invariants {
     /// The ξ with ⟨J_L, ξ⟩ conserved, their largest coordinate being 1; `None` where all of J_L is conserved.
     pub directions: Option<Vec<Vec<f64>>>,
-    /// How many Casimirs of low degree are conserved.
+    /// The number of Casimirs of low degree that are conserved.
     pub casimirs: usize,
     /// True if an energy is known and conserved.
     pub energy: bool,
@@ -109,12 +109,12 @@ impl Invariants {
         Self { energy: false, given: None, values, sizes, ..self }
     }
 
-    /// How many components of the spatial momentum are conserved.
+    /// The number of components of the spatial momentum that are conserved.
     pub fn momenta(&self) -> usize {
         self.directions.as_ref().map_or(self.dim, Vec::len)
     }
 
-    /// What is conserved of states of this time, one after the other.
+    /// The conserved quantities of states of this time, one after the other.
     pub fn conserved(&self, time: f64, states: &[Seen<'_>]) -> Vec<Vec<f64>> {
         self.evaluate(&self.values, time, states)
     }
@@ -144,8 +144,12 @@ impl Invariants {
         let n = self.dim;
         let input = |row: usize, i: usize| {
             let Seen { spatial, matrix, momentum } = states[row];
-            let list = [spatial, momentum, matrix][(i / n.max(1)).min(2)];
-            list.get(i - n * (i / n.max(1)).min(2)).copied().unwrap_or(f64::NAN)
+            let number = match i {
+                _ if i < n => spatial.get(i),
+                _ if i < 2 * n => momentum.get(i - n),
+                _ => matrix.get(i - 2 * n),
+            };
+            number.copied().unwrap_or(f64::NAN)
         };
         let width = program.outputs().len();
         let found = program.run_each(states.len(), input, &self.symbols);
