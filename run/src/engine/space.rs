@@ -129,7 +129,7 @@ pub(crate) trait Space {
 }
 
 /// The spatial momentum and the matrix of each of some states.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(crate) struct Observed {
     numbers: Vec<f64>,
     /// The numbers of the spatial momentum, and of both.

@@ -104,7 +104,7 @@ impl Subject<'_> {
         let time = setup.schedule.start;
         let mut recorder = Recorder::new(watched, time, motion.space(), &state);
         let orbit = recorder.orbit();
-        let (found, wrong) = recorder.measure(motion.space(), &[(time, &state)]);
+        let (found, wrong) = recorder.measure(motion.space(), &[(time, &state)], |_, _| Ok(()));
         let mut measured = found.into_iter().next().ok_or_else(|| {
             let what = wrong.unwrap_or_default();
             RunError::Run { time, step: 0, what }
@@ -203,15 +203,12 @@ impl March<'_> {
         Ok(measured)
     }
 
-    /// Measures states up to the first in which something is not defined or not finite, and what that is.
+    /// As [`Recorder::measure`], with what the motion says is not defined.
     fn measure_all(&self, states: &[(f64, &Numbers)]) -> (Vec<Measured>, Option<String>) {
-        let defined = states.iter().map(|(time, state)| self.motion.defined(state, *time));
-        let mut lost = None;
-        let count = defined
-            .map_while(|found| found.map_err(|error| lost = Some(error.to_string())).ok())
-            .count();
-        let (found, wrong) = self.recorder.measure(self.motion.space(), &states[..count]);
-        (found, wrong.or(lost))
+        let motion = self.motion;
+        self.recorder.measure(motion.space(), states, |time, state| {
+            motion.defined(state, time).map_err(|error| error.to_string())
+        })
     }
 
     /// As [`measure`](Self::measure) for the state of the run, whose drift counts.

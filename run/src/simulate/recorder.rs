@@ -189,14 +189,18 @@ impl<'a> Recorder<'a> {
         measured.moment.drift = Drift::of_numbers(drift);
     }
 
-    /// Measures states of these times, up to the first that has a number that is not finite; its name.
+    /// Measures states of these times, up to the first in which something is not defined, as `defined` says, or not finite; and
+    /// what that is.
     pub(crate) fn measure(
         &self,
         space: &dyn Space,
         states: &[(f64, &Numbers)],
+        defined: impl Fn(f64, &Numbers) -> Result<(), String>,
     ) -> (Vec<Measured>, Option<String>) {
-        let sound = states.iter().map(|(_, state)| self.sound(state));
         let mut wrong = None;
+        let sound = states
+            .iter()
+            .map(|(time, state)| defined(*time, state).and_then(|()| self.sound(state)));
         let count = sound.map_while(|sound| sound.map_err(|what| wrong = Some(what)).ok()).count();
         let states = &states[..count];
         let mut beside: Vec<Numbers> = states.iter().map(|(_, state)| (*state).clone()).collect();
@@ -208,6 +212,7 @@ impl<'a> Recorder<'a> {
         let observed = space.observe(&all);
         let seen = all.iter().enumerate().map(|(at, state)| observed.seen(at, &state.mu));
         let invariants = self.watched.invariants;
+        // An energy that is conserved does not depend on the time.
         let time = states.first().map_or(f64::NAN, |(time, _)| *time);
         let conserved = invariants.conserved(time, &seen.collect::<Vec<_>>());
         let mut measured = Vec::with_capacity(count);
