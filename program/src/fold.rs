@@ -107,51 +107,93 @@ impl core::error::Error for FoldError {}
 pub const DEGREES: usize = 64;
 
 impl Fold<'_> {
+    /// The numbers of the room that folding works in: the products, then the parts.
+    pub const fn room(&self) -> usize {
+        1 + self.products.len() + self.parts.len()
+    }
+
     /// Writes all coefficients for a step size and the values of the symbols; places that no list names stay as they are.
     ///
     /// # Errors
-    /// [`FoldError`]; the coefficients then mean nothing.
+    /// [`FoldError`]; the coefficients then mean nothing. [`FoldError::Coefficient`] too where the room has fewer numbers than
+    /// [`Fold::room`].
+    // Not generic, so that users' debug builds have it optimised.
     pub fn fold(
         &self,
         step: f64,
         symbols: &[f64],
+        room: &mut [f64],
         coefficients: &mut [f64],
     ) -> Result<(), FoldError> {
-        self.fold_by(step, symbols, |number| self.product(number, symbols), coefficients)
+        self.fold_rows(step, symbols, room, coefficients)
     }
 
-    /// Folds with known products of symbols ([`Fold::products`] defines them), for rows side by side. An error does not tell
-    /// which lane is not finite; folding each alone does.
+    /// Folds for rows side by side. An error does not tell which lane is not finite; folding each alone does.
     ///
     /// # Errors
     /// As [`Fold::fold`].
-    #[inline(always)]
-    pub fn fold_by<T: Values>(
+    pub fn fold_rows<T: Values>(
         &self,
         step: f64,
         symbols: &[T],
-        product: impl Fn(u32) -> T,
+        room: &mut [T],
+        coefficients: &mut [T],
+    ) -> Result<(), FoldError> {
+        if let Some(symbol) = symbols.iter().position(|value| !value.all(f64::is_finite)) {
+            return Err(FoldError::Symbol(symbol));
+        }
+        let [nothing, one] = [f64::NAN, 1.0].map(|value| T::each(|_| value));
+        if let Some(first) = room.first_mut() {
+            *first = one;
+        }
+        for (made, &(of, symbol)) in (1..).zip(self.products) {
+            let value = symbols.get(symbol as usize).copied().unwrap_or(nothing);
+            let product = at(room, of);
+            set(room, made, T::each(|l| product.lane(l) * value.lane(l)));
+        }
+        self.fold_products(step, room, coefficients)
+    }
+
+    /// Folds with what stands for the products of symbols at the beginning of the room, in which coefficients are linear.
+    ///
+    /// # Errors
+    /// As [`Fold::fold`].
+    pub fn fold_products<T: Values>(
+        &self,
+        step: f64,
+        room: &mut [T],
         coefficients: &mut [T],
     ) -> Result<(), FoldError> {
         if step == 0.0 || !step.is_finite() {
             return Err(FoldError::Step);
         }
-        if let Some(symbol) = symbols.iter().position(|value| !value.all(f64::is_finite)) {
-            return Err(FoldError::Symbol(symbol));
-        }
+        let Some((products, parts)) = room.split_at_mut_checked(1 + self.products.len()) else {
+            return Err(FoldError::Coefficient(f64::NAN));
+        };
         let zero = T::each(|_| 0.0);
+        let mut terms = self.terms.iter();
+        let mut start = 0;
+        for (number, &(power, end)) in (0..).zip(self.parts) {
+            let own = terms.by_ref().take((end - start) as usize);
+            let sum = own.fold(zero, |sum, &(factor, product)| {
+                let product = at(products, product);
+                T::each(|l| sum.lane(l) + factor * product.lane(l))
+            });
+            let power = (0..power).fold(1.0, |product, _| product * step);
+            set(parts, number, T::each(|l| sum.lane(l) * power));
+            start = end;
+        }
         for &(.., place) in self.bound {
             set(coefficients, place, zero);
         }
         let (mut slots, mut bound) = (self.slots.iter().peekable(), self.bound.iter().peekable());
-        let mut part = 0;
+        let mut start = 0;
         for (base, &end) in (0..).zip(self.bases) {
-            let mut value = zero;
-            while part < end as usize {
-                let own = self.part(part, step, &product);
-                value = T::each(|l| value.lane(l) + own.lane(l));
-                part += 1;
-            }
+            let value = (start..end).fold(zero, |sum, part| {
+                let own = at(parts, part);
+                T::each(|l| sum.lane(l) + own.lane(l))
+            });
+            start = end;
             if !value.all(f64::is_finite) {
                 return Err(FoldError::Coefficient(value.lane(0)));
             }
@@ -159,77 +201,36 @@ impl Fold<'_> {
                 set(coefficients, place, T::each(|l| value.lane(l) * f64::from(scale)));
             }
             while let Some(&(_, weight, place)) = bound.next_if(|term| term.0 == base) {
-                let sum = coefficients.get(place as usize).copied().unwrap_or(zero);
+                let sum = at(coefficients, place);
                 let sum = T::each(|l| sum.lane(l) + value.lane(l).abs() * weight);
                 set(coefficients, place, sum);
             }
         }
         for &(part, place) in self.kept {
-            set(coefficients, place, self.part(part as usize, step, &product));
+            set(coefficients, place, at(parts, part));
         }
         if let Some(place) = self.radius {
-            let radius = self.radius_by(step, &product, LARGEST_RATIO);
+            let radius = self.radius(room, LARGEST_RATIO);
             set(coefficients, place, T::each(|l| radius.lane(l) * radius.lane(l)));
         }
         Ok(())
     }
 
-    /// The value of a part.
-    #[inline(always)]
-    fn part<T: Values>(&self, number: usize, step: f64, product: &impl Fn(u32) -> T) -> T {
-        let zero = T::each(|_| 0.0);
-        let Some(&(power, end)) = self.parts.get(number) else { return zero };
-        let start = number.checked_sub(1).and_then(|before| self.parts.get(before));
-        let start = start.map_or(0, |&(_, end)| end as usize);
-        let terms = self.terms.get(start..end as usize).unwrap_or(&[]);
-        let sum = terms.iter().fold(zero, |sum, &(factor, number)| {
-            let product = product(number);
-            T::each(|l| sum.lane(l) + factor * product.lane(l))
-        });
-        let power = (0..power).fold(1.0, |product, _| product * step);
-        T::each(|l| sum.lane(l) * power)
-    }
-
-    /// The value of a product of symbols.
-    fn product(&self, number: u32, symbols: &[f64]) -> f64 {
-        let made = number.checked_sub(1).and_then(|before| self.products.get(before as usize));
-        made.map_or(1.0, |&(of, symbol)| {
-            let value = symbols.get(symbol as usize).copied().unwrap_or(f64::NAN);
-            self.product(of, symbols) * value
-        })
-    }
-
     /// The |p| of each direct factor of the group up to which the last two terms of the series have at most this ratio in
-    /// every direction.
-    pub fn radius(&self, step: f64, symbols: &[f64], ratio: f64) -> f64 {
-        self.radius_by(step, |number| self.product(number, symbols), ratio)
-    }
-
-    /// The coefficients of rows side by side, whose products of symbols are known, and the radius for this ratio.
-    ///
-    /// # Errors
-    /// As [`Fold::fold`].
-    pub fn fold_rows<T: Values>(
-        &self,
-        step: f64,
-        (symbols, products): (&[T], &[T]),
-        ratio: f64,
-        coefficients: &mut [T],
-    ) -> Result<T, FoldError> {
-        let nothing = T::each(|_| f64::NAN);
-        let product = |number: u32| products.get(number as usize).copied().unwrap_or(nothing);
-        self.fold_by(step, symbols, product, coefficients)?;
-        Ok(self.radius_by(step, product, ratio))
-    }
-
-    /// The radius where the products of symbols are known, for rows side by side.
-    #[inline(always)]
-    fn radius_by<T: Values>(&self, step: f64, product: impl Fn(u32) -> T, ratio: f64) -> T {
-        let value = |&(part, ..): &LastTerm| self.part(part as usize, step, &product);
-        radius(self.last.iter().map(|term| (value(term), *term)), ratio)
+    /// every direction, by the room that coefficients were folded in.
+    pub fn radius<T: Values>(&self, room: &[T], ratio: f64) -> T {
+        let parts = room.get(1 + self.products.len()..).unwrap_or(&[]);
+        radius(self.last.iter().map(|term| (at(parts, term.0), *term)), ratio)
     }
 }
 
+/// The number at a place; not a number where there is none.
+#[inline(always)]
+fn at<T: Values>(list: &[T], place: u32) -> T {
+    list.get(place as usize).copied().unwrap_or(T::each(|_| f64::NAN))
+}
+
+#[inline(always)]
 fn set<T>(coefficients: &mut [T], place: u32, value: T) {
     if let Some(coefficient) = coefficients.get_mut(place as usize) {
         *coefficient = value;

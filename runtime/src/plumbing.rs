@@ -16,15 +16,16 @@ pub use crate::step::printed::{
     BLOCK, called, choose, choose_all, is_one, load, load_lanes, store, store_lanes,
 };
 
-/// All coefficients of a generated step or potential, in each lane for its step size and symbols.
+/// All coefficients of a generated step or potential, in each lane for its step size and symbols, folded in this room of
+/// [`Fold::room`] numbers.
 ///
 /// # Errors
 /// [`StepError::InvalidStep`], [`StepError::InvalidParameter`].
-pub fn fold<T: Scalar, const SYMBOLS: usize, const LEN: usize>(
+pub fn fold<T: Scalar, const SYMBOLS: usize, const ROOM: usize, const LEN: usize>(
     fold: &Fold<'_>,
     names: [&'static str; SYMBOLS],
-    step: T,
-    symbols: &[T; SYMBOLS],
+    (step, symbols): (T, &[T; SYMBOLS]),
+    mut room: [f64; ROOM],
 ) -> Result<[T; LEN], StepError> {
     const OF_SERIES: &str = "of the generating function";
     let mut coefficients = [T::of(0.0); LEN];
@@ -32,7 +33,7 @@ pub fn fold<T: Scalar, const SYMBOLS: usize, const LEN: usize>(
         let number = |value: T| nalgebra::try_convert(value.extract(lane)).unwrap_or(f64::NAN);
         let (step, symbols) = (number(step), symbols.map(number));
         let mut row = [0.0; LEN];
-        fold.fold(step, &symbols, &mut row).map_err(|error| match error {
+        fold.fold(step, &symbols, &mut room, &mut row).map_err(|error| match error {
             FoldError::Step => StepError::InvalidStep { step },
             FoldError::Symbol(i) => {
                 StepError::InvalidParameter { name: names[i], value: symbols[i] }

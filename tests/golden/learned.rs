@@ -90,8 +90,8 @@ const _: () = {
             let coefficients = ::coadjoint::plumbing::fold(
                 Self::table(),
                 [],
-                step,
-                symbols,
+                (step, symbols),
+                [0.0; 102],
             )?;
             ::core::result::Result::Ok(Self {
                 step,

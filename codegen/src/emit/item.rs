@@ -49,7 +49,7 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
     let fold = FoldTable::new(integrator);
     let count = fold.len();
     let slots = Literal::usize_unsuffixed(count);
-    let constructor = constructor(integrator, krate, group);
+    let constructor = constructor(integrator, &fold, krate, group);
     let generating = generating_function(integrator, options, &types, count);
     let programs = match &step {
         Some(step) => programs(step, options, group, &solver(integrator, krate)),
@@ -212,8 +212,9 @@ fn lanes(options: &Options, printed: bool) -> TokenStream {
 }
 
 /// The constructor `new(step, parameters…)`, which folds.
-pub(crate) fn constructor(
+fn constructor(
     integrator: &Integrator,
+    fold: &FoldTable,
     krate: &TokenStream,
     group: &TokenStream,
 ) -> TokenStream {
@@ -223,7 +224,7 @@ pub(crate) fn constructor(
     let symbols = problem.symbols.iter().map(|s| parameter::expression(&s.expr, &scalars));
     let symbols = quote!([#(#symbols),*]);
     let texts = problem.symbols.iter().map(|s| &s.text);
-    let count = Literal::usize_unsuffixed(problem.symbols.len());
+    let [count, room] = [problem.symbols.len(), fold.lists().room()].map(Literal::usize_unsuffixed);
     quote! {
         /// Folds all coefficients for the step size `step` (negative: backwards in time) and the
         /// parameters.
@@ -242,7 +243,12 @@ pub(crate) fn constructor(
             step: T,
             symbols: &[T; #count],
         ) -> ::core::result::Result<Self, #krate::StepError> {
-            let coefficients = #krate::plumbing::fold(Self::table(), [#(#texts),*], step, symbols)?;
+            let coefficients = #krate::plumbing::fold(
+                Self::table(),
+                [#(#texts),*],
+                (step, symbols),
+                [0.0; #room],
+            )?;
             ::core::result::Result::Ok(Self { step, symbols: *symbols, coefficients })
         }
 

@@ -29,7 +29,9 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
     let texts = potential.symbols.iter().map(|s| &s.text);
     let symbol_count = Literal::usize_unsuffixed(potential.symbols.len());
     let slots = Literal::usize_unsuffixed(kick.coefficients.slots().len());
-    let table = fold_item(krate, &FoldTable::of_kick(kick));
+    let fold = FoldTable::of_kick(kick);
+    let room = Literal::usize_unsuffixed(fold.lists().room());
+    let table = fold_item(krate, &fold);
 
     let energy = kick.energy.as_ref().map(|energy| scalar_function(energy, options, "g"));
     let torque = vector_function(&kick.torque, vector, options, "g");
@@ -79,8 +81,12 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
                 ) -> ::core::result::Result<Self, #krate::StepError> {
                     let symbols: [T; #symbol_count] = [#(#symbols),*];
                     // No coefficient holds the step size.
-                    let coefficients =
-                        #krate::plumbing::fold(&FOLD, [#(#texts),*], T::of(1.0), &symbols)?;
+                    let coefficients = #krate::plumbing::fold(
+                        &FOLD,
+                        [#(#texts),*],
+                        (T::of(1.0), &symbols),
+                        [0.0; #room],
+                    )?;
                     ::core::result::Result::Ok(Self { coefficients })
                 }
 

@@ -177,7 +177,8 @@ impl FoldTable {
         }
         let lists = Fold { bound: &[], radius: None, ..self.lists() };
         let mut coefficients = vec![0.0; self.len];
-        lists.fold_by(step, change, |number| at(&slopes, number), &mut coefficients)?;
+        slopes.resize(lists.room(), 0.0);
+        lists.fold_products(step, &mut slopes, &mut coefficients)?;
         Ok(coefficients)
     }
 
@@ -186,24 +187,15 @@ impl FoldTable {
     /// # Errors
     /// [`FoldError`] where one is not finite.
     pub fn fold(&self, step: f64, symbols: &[f64]) -> Result<Vec<f64>, FoldError> {
-        let products = self.products_of(symbols);
-        let product = |number: u32| products.get(number as usize).copied().unwrap_or(f64::NAN);
-        let mut coefficients = vec![0.0; self.len];
-        self.lists().fold_by(step, symbols, product, &mut coefficients)?;
-        Ok(coefficients)
+        self.folded(step, symbols).map(|(coefficients, _)| coefficients)
     }
 
-    /// The products of symbols, each made of an earlier one, once.
-    fn products_of<T: Values>(&self, symbols: &[T]) -> Vec<T> {
-        let [nothing, one] = [f64::NAN, 1.0].map(|value| T::each(|_| value));
-        let mut products = Vec::with_capacity(self.products.len() + 1);
-        products.push(one);
-        for &(of, symbol) in &self.products {
-            let value = symbols.get(symbol as usize).copied().unwrap_or(nothing);
-            let product = products[of as usize];
-            products.push(T::each(|l| product.lane(l) * value.lane(l)));
-        }
-        products
+    /// The coefficients of rows side by side, and the room they were folded in.
+    fn folded<T: Values>(&self, step: f64, symbols: &[T]) -> Result<(Vec<T>, Vec<T>), FoldError> {
+        let [mut coefficients, mut room] =
+            [self.len, self.lists().room()].map(|len| vec![T::each(|_| 0.0); len]);
+        self.lists().fold_rows(step, symbols, &mut room, &mut coefficients)?;
+        Ok((coefficients, room))
     }
 
     /// Folds for rows of symbols side by side. Also returns the |p| up to which the last two terms of the series have at
@@ -217,11 +209,8 @@ impl FoldTable {
         symbols: &[T],
         ratio: f64,
     ) -> Result<(Vec<T>, T), FoldError> {
-        let mut coefficients = vec![T::each(|_| 0.0); self.len];
-        let products = self.products_of(symbols);
-        let known = (symbols, &products[..]);
-        let radius = self.lists().fold_rows(step, known, ratio, &mut coefficients)?;
-        Ok((coefficients, radius))
+        let (coefficients, room) = self.folded(step, symbols)?;
+        Ok((coefficients, self.lists().radius(&room, ratio)))
     }
 }
 
