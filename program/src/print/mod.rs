@@ -11,6 +11,7 @@ mod device;
 mod function;
 mod native;
 mod steps;
+mod template;
 mod vectors;
 
 pub use c::{C, Dialect, Field, Signature, signatures};
@@ -18,3 +19,4 @@ pub use device::{DeviceLanguage, KERNEL_NAME, device_unit};
 pub use function::function;
 pub use native::{ABI, native_unit};
 pub use steps::{LoopStyle, steps};
+pub use template::{Value, fill};
