@@ -16,7 +16,7 @@ mod vectors;
 
 pub use c::{C, Dialect, Field, Signature, signatures};
 pub use device::{DeviceLanguage, KERNEL_NAME, device_unit};
-pub use function::function;
+pub use function::{Body, body, function};
 pub use native::{ABI, native_unit};
-pub use steps::{LoopStyle, steps};
+pub use steps::{Loop, LoopStyle, Name, statements, steps};
 pub use template::{Value, fill};

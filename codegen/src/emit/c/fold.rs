@@ -95,8 +95,7 @@ impl Folding {
         let fold = self.table.lists();
         let (given, own) = (origin.facts().parameters, origin.symbols());
         let scalars = parameter::scalars(given, names);
-        let expressions: Vec<String> =
-            own.iter().map(|symbol| parameter::expression(&symbol.expr, &scalars, names)).collect();
+        let expressions = parameter::symbols(own, &scalars, names);
         let has = |part: &str| expressions.iter().any(|text| text.contains(part));
         let degrees = fold.last.iter().map(|term| term.3 as usize + 1).max().unwrap_or(0);
         let factors = fold.last.iter().map(|term| term.1 as usize + 1).max().unwrap_or(0);
