@@ -933,6 +933,16 @@ static inline toutatis_status toutatis_internal_reason(const double *c, const do
     return status;
 }
 
+/* Internal: why a state is not right. */
+static inline toutatis_status toutatis_internal_broken(const double *g, const double *mu)
+{
+    toutatis_status status = TOUTATIS_OFF_GROUP;
+    if ((!toutatis_internal_finite(g, TOUTATIS_ELEMENT)) || (!toutatis_internal_finite(mu, TOUTATIS_DIMENSION))) {
+        status = TOUTATIS_NOT_FINITE;
+    }
+    return status;
+}
+
 /**
  * Makes `steps` steps of the size that the map was made for, and tells in `made` how many it has made.
  *
@@ -993,10 +1003,7 @@ static inline toutatis_status toutatis_advance(const toutatis_map *map, toutatis
             double right = 0.0;
             toutatis_internal_sound(c, g, mu, &right);
             if (!(right > 0.5)) {
-                status = TOUTATIS_OFF_GROUP;
-                if ((!toutatis_internal_finite(g, TOUTATIS_ELEMENT)) || (!toutatis_internal_finite(mu, TOUTATIS_DIMENSION))) {
-                    status = TOUTATIS_NOT_FINITE;
-                }
+                status = toutatis_internal_broken(g, mu);
                 toutatis_internal_copy(g, g_start, TOUTATIS_ELEMENT);
                 toutatis_internal_copy(mu, mu_start, TOUTATIS_DIMENSION);
                 done -= count;
@@ -1063,15 +1070,8 @@ static inline double toutatis_internal_radius(const double *last, const double *
     return r;
 }
 
-/**
- * Folds the coefficients for steps of size h (negative: backwards in time). Call it once, and again whenever h or
- * a parameter changes; steps only read the map. It needs about 328 bytes of stack.
- *
- * Returns TOUTATIS_OK, TOUTATIS_BAD_STEP (h is zero or not finite) or TOUTATIS_BAD_PARAMETER (a coefficient is not
- * finite: a parameter is not, or one that is divided by is zero). The map keeps the status: steps with a map that
- * could not be made return it and do nothing.
- */
-static inline toutatis_status toutatis_init(toutatis_map *map, double h)
+/* Internal: the coefficients of a step, or of one flow of it. */
+static inline toutatis_status toutatis_internal_fold(double *c, double h)
 {
     /* Summands factor * product * h^power of each coefficient. */
     static const double factor[181] = {
@@ -1236,9 +1236,9 @@ static inline toutatis_status toutatis_init(toutatis_map *map, double h)
         0.8888888888888888, 0.5, 0.8888888888888888, 0.125,
         0.5, 0.84375, 0.84375,
     };
-    double power[9];
-    double last[8] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-    double before[8] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    double power[9u];
+    double last[8u];
+    double before[8u];
     double radius = DBL_MAX;
     toutatis_status status = TOUTATIS_OK;
     uint32_t term = 0u;
@@ -1250,12 +1250,16 @@ static inline toutatis_status toutatis_init(toutatis_map *map, double h)
     if ((!(fabs(h) <= DBL_MAX)) || (!(fabs(h) > 0.0))) {
         status = TOUTATIS_BAD_STEP;
     }
+    for (i = 0u; i < 8u; i++) {
+        last[i] = 0.0;
+        before[i] = 0.0;
+    }
     power[0] = 1.0;
     for (i = 1u; i < 9u; i++) {
         power[i] = power[i - 1u] * h;
     }
     for (i = 0u; i < TOUTATIS_COEFFICIENTS; i++) {
-        map->c[i] = 0.0;
+        c[i] = 0.0;
     }
     for (base = 0u; base < 181u; base++) {
         double value = 0.0;
@@ -1277,7 +1281,7 @@ static inline toutatis_status toutatis_init(toutatis_map *map, double h)
             value = value + sum;
         }
         for (; slot < slot_end[base]; slot++) {
-            map->c[slot] = value * (double)scale[slot];
+            c[slot] = value * (double)scale[slot];
         }
     }
     for (i = 0u; i < 8u; i += 8u) {
@@ -1285,16 +1289,30 @@ static inline toutatis_status toutatis_init(toutatis_map *map, double h)
         radius = (own < radius) ? own : radius;
     }
     for (i = 0u; i < (TOUTATIS_COEFFICIENTS - 1u); i++) {
-        if ((status == TOUTATIS_OK) && (!(fabs(map->c[i]) <= DBL_MAX))) {
+        if ((status == TOUTATIS_OK) && (!(fabs(c[i]) <= DBL_MAX))) {
             status = TOUTATIS_BAD_PARAMETER;
         }
     }
-    map->c[TOUTATIS_COEFFICIENTS - 1u] = radius * radius;
+    c[TOUTATIS_COEFFICIENTS - 1u] = radius * radius;
     if (status != TOUTATIS_OK) {
         for (i = 0u; i < TOUTATIS_COEFFICIENTS; i++) {
-            map->c[i] = (double)NAN;
+            c[i] = (double)NAN;
         }
     }
+    return status;
+}
+
+/**
+ * Folds the coefficients for steps of size h (negative: backwards in time). Call it once, and again whenever h or
+ * a parameter changes; steps only read the map. It needs about 328 bytes of stack.
+ *
+ * Returns TOUTATIS_OK, TOUTATIS_BAD_STEP (h is zero or not finite) or TOUTATIS_BAD_PARAMETER (a coefficient is not
+ * finite: a parameter is not, or one that is divided by is zero). The map keeps the status: steps with a map that
+ * could not be made return it and do nothing.
+ */
+static inline toutatis_status toutatis_init(toutatis_map *map, double h)
+{
+    const toutatis_status status = toutatis_internal_fold(map->c, h);
     map->status = status;
     return status;
 }

@@ -1,11 +1,9 @@
 //! The work that both attributes share: read the function, keep it, report mistakes.
 
-use std::collections::BTreeSet;
-
 use coadjoint_codegen::emit;
 use proc_macro2::{Ident, TokenStream};
 use quote::{ToTokens, quote};
-use syn::{FnArg, ItemFn, Pat};
+use syn::ItemFn;
 
 use crate::arguments::{self, Arguments, help_without_runtime};
 use crate::fallback;
@@ -50,11 +48,8 @@ pub(crate) fn expand(
         let own = items.struct_and_methods;
         emit::Items { struct_and_methods: quote!(#errors #own), ..items }
     });
-    let kept = parameters(&function);
-    let taken = emit::identifiers(function.to_token_stream());
-    let items = emit::hygienic(struct_and_methods, &kept, &taken);
     // Many users only want what is generated; then the function is not dead code either.
-    quote!(#[allow(dead_code)] #function #items #programs)
+    quote!(#[allow(dead_code)] #function #struct_and_methods #programs)
 }
 
 /// Named after the function, as visible as it, with its doc comments.
@@ -68,16 +63,4 @@ fn options(function: &ItemFn, krate: TokenStream) -> emit::Options {
         attributes: quote!(#(#docs)*),
         suffix: "_",
     }
-}
-
-/// The names of the function's parameters.
-fn parameters(function: &ItemFn) -> BTreeSet<String> {
-    let name = |argument: &FnArg| match argument {
-        FnArg::Typed(typed) => match &*typed.pat {
-            Pat::Ident(pattern) => Some(pattern.ident.to_string()),
-            _ => None,
-        },
-        FnArg::Receiver(_) => None,
-    };
-    function.sig.inputs.iter().skip(1).filter_map(name).collect()
 }

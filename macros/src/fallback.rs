@@ -94,23 +94,23 @@ fn stand_in(function: &ItemFn, options: &Options, first: &TokenStream) -> TokenS
                     loop {}
                 }
 
-                pub fn energy<V>(&self, at: &V) -> T {
+                pub fn energy<V>(&self, _: &V) -> T {
                     loop {}
                 }
 
-                pub fn torque<E, V>(&self, g: &E) -> V {
+                pub fn torque<E, V>(&self, _: &E) -> V {
                     loop {}
                 }
 
-                pub fn advance<P>(&self, phase: &mut P) -> #report {
+                pub fn advance<P>(&self, _: &mut P) -> #report {
                     loop {}
                 }
 
-                pub fn advance_by<P>(&self, phase: &mut P, steps: u64) -> #report {
+                pub fn advance_by<P>(&self, _: &mut P, _: u64) -> #report {
                     loop {}
                 }
 
-                pub fn poisson_map<V>(&self, mu: &V) -> #result<V, #krate::StepError> {
+                pub fn poisson_map<V>(&self, _: &V) -> #result<V, #krate::StepError> {
                     loop {}
                 }
             }

@@ -18,7 +18,7 @@ pub fn lie_poisson(
     arguments: proc_macro::TokenStream,
     item: proc_macro::TokenStream,
 ) -> proc_macro::TokenStream {
-    expansion::expand(arguments.into(), item.into(), generate::lie_poisson, quote!(step: T,)).into()
+    expansion::expand(arguments.into(), item.into(), generate::lie_poisson, quote!(_: T,)).into()
 }
 
 /// Turns a function computing a potential into its torque. See `coadjoint::potential`.

@@ -112,9 +112,18 @@ mod table;
 /// # The function
 ///
 /// The first argument is the momentum, `[f64; n]` or an nalgebra vector; the others are parameters.
-/// The body is evaluated while compiling, so anything whose course is known then works: `let`,
-/// patterns, constants, loops over literal ranges, `powi`, `dot`. Decimal literals are exact: `0.1` is
-/// 1/10. Expressions of parameters alone may be anything.
+/// The body is evaluated while compiling, as far as its course is known then. It may have
+///
+/// - `let` with patterns (names, `[a, b, ..]`, tuples, `_`), assignments, also `+=` and the like, `const`, `use`, `return`;
+/// - `for` over ranges, arrays and their iterators, `while` and `if` whose conditions compare integers known beforehand;
+/// - `+ - * /` of numbers, and of integers `%` too; `as`, `f64::from`, the constants `PI`, `TAU`, `E` and `SQRT_2`;
+/// - the functions below, `abs`, `recip`, `powi`, `powf`, `mul_add`, of numbers;
+/// - arrays and tuples by index; closures and `fn` items; `iter`, `copied`, `map`, `zip`, `enumerate`, `rev`, `fold`, `sum`,
+///   `len`;
+/// - nalgebra's vectors and matrices: sums, products, entries (`v.x`, `v[i]`, `a[(i, j)]`), `dot`, `cross`, `norm`,
+///   `norm_squared`, `component_mul`, `component_div`, `fixed_rows`, and `new`, `from` and `x`, `y`, `z` of types of vectors.
+///
+/// Anything else is an error that says what to write instead. Decimal literals are exact: `0.1` is 1/10.
 ///
 /// A polynomial in the momentum has a series. With functions (`sqrt`, `exp`, `ln`, `sin`, `cos`, `tan`, `atan`,
 /// `tanh`, real powers) or quotients of the momentum it has none, and steps are made by [`collocation`], in `f64`

@@ -847,6 +847,16 @@ static inline rigid_body_status rigid_body_internal_reason(const double *c, cons
     return status;
 }
 
+/* Internal: why a state is not right. */
+static inline rigid_body_status rigid_body_internal_broken(const double *g, const double *mu)
+{
+    rigid_body_status status = RIGID_BODY_OFF_GROUP;
+    if ((!rigid_body_internal_finite(g, RIGID_BODY_ELEMENT)) || (!rigid_body_internal_finite(mu, RIGID_BODY_DIMENSION))) {
+        status = RIGID_BODY_NOT_FINITE;
+    }
+    return status;
+}
+
 /**
  * Makes `steps` steps of the size that the map was made for, and tells in `made` how many it has made.
  *
@@ -907,10 +917,7 @@ static inline rigid_body_status rigid_body_advance(const rigid_body_map *map, ri
             double right = 0.0;
             rigid_body_internal_sound(c, g, mu, &right);
             if (!(right > 0.5)) {
-                status = RIGID_BODY_OFF_GROUP;
-                if ((!rigid_body_internal_finite(g, RIGID_BODY_ELEMENT)) || (!rigid_body_internal_finite(mu, RIGID_BODY_DIMENSION))) {
-                    status = RIGID_BODY_NOT_FINITE;
-                }
+                status = rigid_body_internal_broken(g, mu);
                 rigid_body_internal_copy(g, g_start, RIGID_BODY_ELEMENT);
                 rigid_body_internal_copy(mu, mu_start, RIGID_BODY_DIMENSION);
                 done -= count;
@@ -977,15 +984,8 @@ static inline double rigid_body_internal_radius(const double *last, const double
     return r;
 }
 
-/**
- * Folds the coefficients for steps of size h (negative: backwards in time). Call it once, and again whenever h or
- * a parameter changes; steps only read the map. It needs about 280 bytes of stack.
- *
- * Returns RIGID_BODY_OK, RIGID_BODY_BAD_STEP (h is zero or not finite) or RIGID_BODY_BAD_PARAMETER (a coefficient is not
- * finite: a parameter is not, or one that is divided by is zero). The map keeps the status: steps with a map that
- * could not be made return it and do nothing.
- */
-static inline rigid_body_status rigid_body_init(rigid_body_map *map, double h)
+/* Internal: the coefficients of a step, or of one flow of it. */
+static inline rigid_body_status rigid_body_internal_fold(double *c, double h)
 {
     /* Summands factor * product * h^power of each coefficient. */
     static const double factor[97] = {
@@ -1087,9 +1087,9 @@ static inline rigid_body_status rigid_body_init(rigid_body_map *map, double h)
         0.8888888888888888, 1.0, 0.2222222222222222, 0.8888888888888888,
         0.8888888888888888, 0.8888888888888888,
     };
-    double power[7];
-    double last[6] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-    double before[6] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    double power[7u];
+    double last[6u];
+    double before[6u];
     double radius = DBL_MAX;
     rigid_body_status status = RIGID_BODY_OK;
     uint32_t term = 0u;
@@ -1101,12 +1101,16 @@ static inline rigid_body_status rigid_body_init(rigid_body_map *map, double h)
     if ((!(fabs(h) <= DBL_MAX)) || (!(fabs(h) > 0.0))) {
         status = RIGID_BODY_BAD_STEP;
     }
+    for (i = 0u; i < 6u; i++) {
+        last[i] = 0.0;
+        before[i] = 0.0;
+    }
     power[0] = 1.0;
     for (i = 1u; i < 7u; i++) {
         power[i] = power[i - 1u] * h;
     }
     for (i = 0u; i < RIGID_BODY_COEFFICIENTS; i++) {
-        map->c[i] = 0.0;
+        c[i] = 0.0;
     }
     for (base = 0u; base < 97u; base++) {
         double value = 0.0;
@@ -1128,7 +1132,7 @@ static inline rigid_body_status rigid_body_init(rigid_body_map *map, double h)
             value = value + sum;
         }
         for (; slot < slot_end[base]; slot++) {
-            map->c[slot] = value * (double)scale[slot];
+            c[slot] = value * (double)scale[slot];
         }
     }
     for (i = 0u; i < 6u; i += 6u) {
@@ -1136,16 +1140,30 @@ static inline rigid_body_status rigid_body_init(rigid_body_map *map, double h)
         radius = (own < radius) ? own : radius;
     }
     for (i = 0u; i < (RIGID_BODY_COEFFICIENTS - 1u); i++) {
-        if ((status == RIGID_BODY_OK) && (!(fabs(map->c[i]) <= DBL_MAX))) {
+        if ((status == RIGID_BODY_OK) && (!(fabs(c[i]) <= DBL_MAX))) {
             status = RIGID_BODY_BAD_PARAMETER;
         }
     }
-    map->c[RIGID_BODY_COEFFICIENTS - 1u] = radius * radius;
+    c[RIGID_BODY_COEFFICIENTS - 1u] = radius * radius;
     if (status != RIGID_BODY_OK) {
         for (i = 0u; i < RIGID_BODY_COEFFICIENTS; i++) {
-            map->c[i] = (double)NAN;
+            c[i] = (double)NAN;
         }
     }
+    return status;
+}
+
+/**
+ * Folds the coefficients for steps of size h (negative: backwards in time). Call it once, and again whenever h or
+ * a parameter changes; steps only read the map. It needs about 280 bytes of stack.
+ *
+ * Returns RIGID_BODY_OK, RIGID_BODY_BAD_STEP (h is zero or not finite) or RIGID_BODY_BAD_PARAMETER (a coefficient is not
+ * finite: a parameter is not, or one that is divided by is zero). The map keeps the status: steps with a map that
+ * could not be made return it and do nothing.
+ */
+static inline rigid_body_status rigid_body_init(rigid_body_map *map, double h)
+{
+    const rigid_body_status status = rigid_body_internal_fold(map->c, h);
     map->status = status;
     return status;
 }

@@ -790,6 +790,16 @@ static inline three_wave_status three_wave_internal_reason(const double *c, cons
     return status;
 }
 
+/* Internal: why a state is not right. */
+static inline three_wave_status three_wave_internal_broken(const double *g, const double *mu)
+{
+    three_wave_status status = THREE_WAVE_OFF_GROUP;
+    if ((!three_wave_internal_finite(g, THREE_WAVE_ELEMENT)) || (!three_wave_internal_finite(mu, THREE_WAVE_DIMENSION))) {
+        status = THREE_WAVE_NOT_FINITE;
+    }
+    return status;
+}
+
 /**
  * Makes `steps` steps of the size that the map was made for, and tells in `made` how many it has made.
  *
@@ -850,10 +860,7 @@ static inline three_wave_status three_wave_advance(const three_wave_map *map, th
             double right = 0.0;
             three_wave_internal_sound(c, g, mu, &right);
             if (!(right > 0.5)) {
-                status = THREE_WAVE_OFF_GROUP;
-                if ((!three_wave_internal_finite(g, THREE_WAVE_ELEMENT)) || (!three_wave_internal_finite(mu, THREE_WAVE_DIMENSION))) {
-                    status = THREE_WAVE_NOT_FINITE;
-                }
+                status = three_wave_internal_broken(g, mu);
                 three_wave_internal_copy(g, g_start, THREE_WAVE_ELEMENT);
                 three_wave_internal_copy(mu, mu_start, THREE_WAVE_DIMENSION);
                 done -= count;
@@ -938,15 +945,8 @@ static inline double three_wave_internal_radius(const double *last, const double
     return r;
 }
 
-/**
- * Folds the coefficients for steps of size h (negative: backwards in time). Call it once, and again whenever h or
- * a parameter changes; steps only read the map. It needs about 464 bytes of stack.
- *
- * Returns THREE_WAVE_OK, THREE_WAVE_BAD_STEP (h is zero or not finite) or THREE_WAVE_BAD_PARAMETER (a coefficient is not
- * finite: a parameter is not, or one that is divided by is zero). The map keeps the status: steps with a map that
- * could not be made return it and do nothing.
- */
-static inline three_wave_status three_wave_init(three_wave_map *map, double h, const three_wave_parameters *parameters)
+/* Internal: the coefficients of a step, or of one flow of it. */
+static inline three_wave_status three_wave_internal_fold(double *c, double h, const three_wave_parameters *parameters)
 {
     /* Summands factor * product * h^power of each coefficient. */
     static const double factor[64] = {
@@ -1024,11 +1024,11 @@ static inline three_wave_status three_wave_init(three_wave_map *map, double h, c
         1.0, 1.0, 2.0, 0.5,
         4.0,
     };
-    double symbol[2];
-    double product[15];
-    double power[5];
-    double last[4] = {0.0, 0.0, 0.0, 0.0};
-    double before[4] = {0.0, 0.0, 0.0, 0.0};
+    double symbol[2u];
+    double product[14u + 1u];
+    double power[5u];
+    double last[4u];
+    double before[4u];
     double radius = DBL_MAX;
     three_wave_status status = THREE_WAVE_OK;
     uint32_t term = 0u;
@@ -1051,12 +1051,16 @@ static inline three_wave_status three_wave_init(three_wave_map *map, double h, c
     for (i = 0u; i < 14u; i++) {
         product[i + 1u] = product[made_of[i]] * symbol[made_by[i]];
     }
+    for (i = 0u; i < 4u; i++) {
+        last[i] = 0.0;
+        before[i] = 0.0;
+    }
     power[0] = 1.0;
     for (i = 1u; i < 5u; i++) {
         power[i] = power[i - 1u] * h;
     }
     for (i = 0u; i < THREE_WAVE_COEFFICIENTS; i++) {
-        map->c[i] = 0.0;
+        c[i] = 0.0;
     }
     for (base = 0u; base < 31u; base++) {
         double value = 0.0;
@@ -1078,7 +1082,7 @@ static inline three_wave_status three_wave_init(three_wave_map *map, double h, c
             value = value + sum;
         }
         for (; slot < slot_end[base]; slot++) {
-            map->c[slot] = value * (double)scale[slot];
+            c[slot] = value * (double)scale[slot];
         }
     }
     for (i = 0u; i < 4u; i += 4u) {
@@ -1086,16 +1090,30 @@ static inline three_wave_status three_wave_init(three_wave_map *map, double h, c
         radius = (own < radius) ? own : radius;
     }
     for (i = 0u; i < (THREE_WAVE_COEFFICIENTS - 1u); i++) {
-        if ((status == THREE_WAVE_OK) && (!(fabs(map->c[i]) <= DBL_MAX))) {
+        if ((status == THREE_WAVE_OK) && (!(fabs(c[i]) <= DBL_MAX))) {
             status = THREE_WAVE_BAD_PARAMETER;
         }
     }
-    map->c[THREE_WAVE_COEFFICIENTS - 1u] = radius * radius;
+    c[THREE_WAVE_COEFFICIENTS - 1u] = radius * radius;
     if (status != THREE_WAVE_OK) {
         for (i = 0u; i < THREE_WAVE_COEFFICIENTS; i++) {
-            map->c[i] = (double)NAN;
+            c[i] = (double)NAN;
         }
     }
+    return status;
+}
+
+/**
+ * Folds the coefficients for steps of size h (negative: backwards in time). Call it once, and again whenever h or
+ * a parameter changes; steps only read the map. It needs about 464 bytes of stack.
+ *
+ * Returns THREE_WAVE_OK, THREE_WAVE_BAD_STEP (h is zero or not finite) or THREE_WAVE_BAD_PARAMETER (a coefficient is not
+ * finite: a parameter is not, or one that is divided by is zero). The map keeps the status: steps with a map that
+ * could not be made return it and do nothing.
+ */
+static inline three_wave_status three_wave_init(three_wave_map *map, double h, const three_wave_parameters *parameters)
+{
+    const three_wave_status status = three_wave_internal_fold(map->c, h, parameters);
     map->status = status;
     return status;
 }

@@ -13,6 +13,11 @@ pub fn read(path: &str) -> String {
 
 /// The paths from the root of all Rust files below a folder, with their texts; folders of builds are left out.
 pub fn rust(folder: &str) -> Vec<(String, String)> {
+    files(folder, ".rs")
+}
+
+/// As [`rust`], of all files whose names end so.
+pub fn files(folder: &str, ending: &str) -> Vec<(String, String)> {
     let root = root();
     let (mut folders, mut files) = (vec![root.join(folder)], Vec::new());
     while let Some(folder) = folders.pop() {
@@ -22,7 +27,7 @@ pub fn rust(folder: &str) -> Vec<(String, String)> {
             if path.is_dir() {
                 let skipped = name.starts_with('.') || name == "target" || name == "node_modules";
                 folders.extend((!skipped).then_some(path));
-            } else if name.ends_with(".rs") {
+            } else if name.ends_with(ending) {
                 let inside = path.strip_prefix(&root).unwrap().to_string_lossy();
                 files.push((inside.into_owned(), fs::read_to_string(&path).unwrap()));
             }

@@ -1,15 +1,15 @@
 //! An integrator by collocation: for Hamiltonians that are no polynomials.
 
+use coadjoint_program::print::{Dialect, Field, Signature};
 use coadjoint_program::quoting::rust_comment;
 use proc_macro2::{Group, Ident, Literal, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 
 use super::generating_function::unit;
-use super::hygiene::fresh;
-use super::program::{Body, Field, Scope, body};
+use super::program::{Rust, tokens};
 use crate::emit::group::Types;
 use crate::emit::item::{Arguments, Items, arguments};
-use crate::emit::{Options, allow, parameter};
+use crate::emit::{Options, allow, fresh, parameter};
 use crate::graph::Program;
 use crate::lie::Chart;
 use crate::smooth::Smooth;
@@ -39,13 +39,16 @@ pub(crate) fn collocation(smooth: &Smooth, options: &Options) -> Items {
     ];
     let about = format!(" The Hamiltonian of [`{name}`], with the values of its parameters.");
     let Arguments { arguments, names, scalars } = arguments(&smooth.parameters, krate);
-    let step = format_ident!("{}", fresh("step", &names));
-    let values = smooth.symbols.iter().map(|s| parameter::expression(&s.expr, &scalars));
+    let step = format_ident!("{}", fresh(&options.bound("step").to_string(), &names));
+    let names = ["time", "phase", "steps", "mu", "symbols", "collocation"];
+    let [time, phase, steps, mu, symbols_given, collocation] =
+        names.map(|name| options.bound(name));
+    let values = parameter::symbols(&smooth.symbols, &scalars);
     let texts = smooth.symbols.iter().map(|s| &s.text);
     let allow = allow();
     // If H depends on the time, methods take the time of the state.
-    let argument = smooth.moves.then(|| quote!(time: f64,));
-    let now = if smooth.moves { quote!(time) } else { quote!(0.0) };
+    let argument = smooth.moves.then(|| quote!(#time: f64,));
+    let now = if smooth.moves { quote!(#time) } else { quote!(0.0) };
     let of = if smooth.moves { "(t, μ)" } else { "(μ)" };
     let reduced =
         format!(" The reduced Hamiltonian H_red{of}, with the parameters given at construction.");
@@ -59,10 +62,13 @@ pub(crate) fn collocation(smooth: &Smooth, options: &Options) -> Items {
             #step: T,
             #(#arguments),*
         ) -> ::core::result::Result<Self, #krate::StepError> {
-            let symbols = #krate::plumbing::finite([#(#texts),*], [#(#values),*])?;
-            let collocation =
-                #krate::collocation::Collocation::new(<#group>::new(), #energy { symbols }, #step)?;
-            ::core::result::Result::Ok(Self { collocation })
+            let #symbols_given = #krate::plumbing::finite([#(#texts),*], [#(#values),*])?;
+            let #collocation = #krate::collocation::Collocation::new(
+                <#group>::new(),
+                #energy { symbols: #symbols_given },
+                #step,
+            )?;
+            ::core::result::Result::Ok(Self { collocation: #collocation })
         }
     });
     let struct_and_methods = quote! {
@@ -111,10 +117,10 @@ pub(crate) fn collocation(smooth: &Smooth, options: &Options) -> Items {
                 #[inline]
                 pub fn advance(
                     &mut self,
-                    phase: &mut #krate::Phase<#group>,
+                    #phase: &mut #krate::Phase<#group>,
                     #argument
                 ) -> ::core::result::Result<#krate::steps::StepReport<f64>, #krate::StepError> {
-                    self.collocation.advance(phase, #now)
+                    self.collocation.advance(#phase, #now)
                 }
 
                 /// Advances (g, μ) by `steps` steps; the report is of the worst of them, and on error `phase` is left
@@ -124,17 +130,17 @@ pub(crate) fn collocation(smooth: &Smooth, options: &Options) -> Items {
                 /// `Stopped`: how many steps were made, and why the next was not.
                 pub fn advance_by(
                     &mut self,
-                    phase: &mut #krate::Phase<#group>,
+                    #phase: &mut #krate::Phase<#group>,
                     #argument
-                    steps: u64,
+                    #steps: u64,
                 ) -> ::core::result::Result<#krate::steps::StepReport<f64>, #krate::steps::Stopped> {
-                    self.collocation.advance_by(phase, #now, steps)
+                    self.collocation.advance_by(#phase, #now, #steps)
                 }
 
                 #[doc = #reduced]
                 #[inline]
-                pub fn energy(&self, #argument mu: &#vector) -> f64 {
-                    #krate::collocation::Energy::value(self.collocation.energy(), #now, mu)
+                pub fn energy(&self, #argument #mu: &#vector) -> f64 {
+                    #krate::collocation::Energy::value(self.collocation.energy(), #now, #mu)
                 }
             }
         };
@@ -159,34 +165,20 @@ pub(crate) fn collocation(smooth: &Smooth, options: &Options) -> Items {
 fn programs(smooth: &Smooth, options: &Options, types: &Types, energy: &Ident) -> TokenStream {
     let Options { krate, .. } = options;
     let vector = over_f64(types.vector.clone());
-    let names = ["c", "mu", "time", "next", "then"].map(|name| options.bound(name));
-    let [c, mu, time, next, then] = &names;
-    let n = Literal::usize_unsuffixed(types.dim);
-    let function = |name: &str, program: &Program, states: &[(&Ident, &Ident)]| {
-        let name = format_ident!("{name}");
-        let fields = |&(mu, time): &(&Ident, &Ident)| {
-            [Field::array(mu.clone(), types.dim), Field::number(time.clone())]
+    let dialect = Rust::alone(options.suffix);
+    let function = |name: &str, program: &Program, states: &[[&str; 2]]| {
+        let fields = |[mu, time]: &[&str; 2]| {
+            [Field::array(&dialect.bound(mu), types.dim), Field::number(&dialect.bound(time))]
         };
         let inputs = states.iter().flat_map(fields).collect();
-        let parameters = states.iter().map(|(mu, time)| quote!(#mu: &[T; #n], #time: T));
-        let scope = Scope { krate, inputs, operations: None, suffix: options.suffix };
-        let Body { statements, outputs } = body(program, &scope);
-        let count = Literal::usize_unsuffixed(outputs.len());
-        quote! {
-            #[inline]
-            fn #name<T: #krate::plumbing::Number, C: #krate::plumbing::Coefficients<T>>(
-                #c: C,
-                #(#parameters),*
-            ) -> [T; #count] {
-                #statements
-                [#(#outputs),*]
-            }
-        }
+        let outputs = vec![Field::array("", program.outputs().len())];
+        let signature = Signature { name: name.to_owned(), program, inputs, outputs };
+        tokens(&dialect.function(&signature, &dialect.body(&signature)))
     };
-    let value = function("value", &smooth.value, &[(mu, time)]);
-    let gradient = function("gradient", &smooth.gradient, &[(mu, time)]);
-    let watched = function("watched", &smooth.watched, &[(mu, time)]);
-    let reach = function("reach", &smooth.reach, &[(mu, time), (next, then)]);
+    let value = function("value", &smooth.value, &[["mu", "time"]]);
+    let gradient = function("gradient", &smooth.gradient, &[["mu", "time"]]);
+    let watched = function("watched", &smooth.watched, &[["mu", "time"]]);
+    let reach = function("reach", &smooth.reach, &[["mu", "time"], ["next", "then"]]);
     let expressions = &smooth.expressions;
     let (allow, aliases) = (allow(), &types.aliases);
     let unit = unit(&smooth.units);

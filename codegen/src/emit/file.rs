@@ -48,33 +48,11 @@ const LONGEST_ROW: usize = 100;
 
 pub(crate) fn text(tokens: TokenStream) -> String {
     match syn::parse2(tokens.clone()) {
-        Ok(items) => spaced(&filled(&comments(&prettyplease::unparse(&items)))),
+        Ok(items) => spaced(&filled(&prettyplease::unparse(&items))),
         // Emitted tokens are items by construction; if not, unformatted text still compiles or
         // shows the compiler what is wrong.
         Err(_) => tokens.to_string(),
     }
-}
-
-/// Doc comments of `let` statements as plain comments. (Tokens hold no plain comments.)
-fn comments(text: &str) -> String {
-    let lines: Vec<&str> = text.lines().collect();
-    let mut result = String::with_capacity(text.len());
-    for (number, line) in lines.iter().enumerate() {
-        let mut after = lines[number..].iter().map(|line| line.trim_start());
-        let documented = after.find(|line| !line.starts_with("///"));
-        let is_let = documented.is_some_and(|line| line.starts_with("let "));
-        match line.trim_start().strip_prefix("///") {
-            Some(text) if is_let => {
-                let indent = line.len() - line.trim_start().len();
-                result.push_str(&line[..indent]);
-                result.push_str("//");
-                result.push_str(text);
-            }
-            _ => result.push_str(line),
-        }
-        result.push('\n');
-    }
-    result
 }
 
 /// An empty line after every item that ends in a brace, but for the last of its block.

@@ -3,7 +3,7 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::program::{Body, Field, Scope, body};
+use super::program::{Rust, list, tuple};
 use crate::emit::Options;
 use crate::emit::group::Types;
 use crate::graph::Program;
@@ -155,16 +155,9 @@ pub(crate) fn without_programs(
     }
 }
 
-fn written(program: &Program, options: &Options, input: &str) -> Body {
-    let inputs = vec![Field::array(options.bound(input), program.inputs())];
-    let Options { krate, suffix, .. } = options;
-    body(program, &Scope { krate, inputs, operations: None, suffix })
-}
-
 /// The body of a function with one output; it reads `input` and `c`.
 pub(crate) fn scalar_function(program: &Program, options: &Options, input: &str) -> TokenStream {
-    let Body { statements, outputs } = written(program, options, input);
-    quote!(#statements #(#outputs)*)
+    Rust::alone(options.suffix).block(program, input, tuple)
 }
 
 /// The body of a function with as many outputs as `vector` has entries.
@@ -174,25 +167,21 @@ pub(crate) fn vector_function(
     options: &Options,
     input: &str,
 ) -> TokenStream {
-    let Body { statements, outputs } = written(program, options, input);
-    quote!(#statements <#vector as From<_>>::from([#(#outputs),*]))
+    let result = |outputs: &[String]| format!("<{vector} as From<_>>::from({})", list(outputs));
+    Rust::alone(options.suffix).block(program, input, result)
 }
 
 fn hessian_function(program: &Program, types: &Types, options: &Options) -> TokenStream {
     let Types { dim, vector, matrix, .. } = types;
     let dim = *dim;
-    let Body { statements, outputs } = written(program, options, "p");
-    let (gradient, triangle) = outputs.split_at(dim.min(outputs.len()));
-    // Entry (i, j) of an upper triangle, row by row.
-    let entry = |i: usize, j: usize| triangle.get(i * dim - i * (i + 1) / 2 + j);
-    let columns = (0..dim).map(|j| {
-        let column = (0..dim).map(|i| entry(i.min(j), i.max(j)));
-        quote!([#(#column),*])
-    });
-    quote! {
-        #statements
-        (<#vector>::from([#(#gradient),*]), <#matrix>::from([#(#columns),*]))
-    }
+    Rust::alone(options.suffix).block(program, "p", |outputs| {
+        let (gradient, triangle) = outputs.split_at(dim.min(outputs.len()));
+        // Entry (i, j) of an upper triangle, row by row.
+        let entry = |i: usize, j: usize| triangle.get(i * dim - i * (i + 1) / 2 + j);
+        let column = |j: usize| list((0..dim).filter_map(|i| entry(i.min(j), i.max(j))));
+        let columns: Vec<String> = (0..dim).map(column).collect();
+        format!("(<{vector}>::from({}), <{matrix}>::from({}))", list(gradient), list(&columns))
+    })
 }
 
 /// The method that gives the factors of coordinates where sizes are compared, where these are not 1.

@@ -6,8 +6,10 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::emit::Options;
-use crate::emit::program::exact;
+use crate::emit::program::{float, tokens};
+use crate::emit::table::list;
 use crate::lie::{Chart, LieAlgebra, catalogue, watched_casimirs};
+use crate::number::Rational;
 
 /// Groups the runtime has closed forms for, under the catalogue's name.
 const CLOSED_FORMS: [&str; 4] = ["SO3", "SE3", "SU2", "SE2"];
@@ -101,22 +103,18 @@ fn own_tables(
     let n = algebra.dim();
     let basis = algebra.basis();
     let size = algebra.matrix_size();
-    let structure = algebra.structure().iter().map(|c| {
-        let (i, j, k, value) = (index(c.i), index(c.j), index(c.k), exact(&c.value));
-        quote!((#i, #j, #k, #value))
-    });
+    let number = |value: &Rational| value.to_f64().unwrap_or(f64::NAN);
+    let structure = algebra.structure().iter().map(|c| (c.i, c.j, c.k, number(&c.value)));
+    let structure = tokens(&list(&structure.collect::<Vec<_>>()));
     let basis = match basis {
         Some(matrices) => {
             let entries = matrices.iter().enumerate().flat_map(|(i, matrix)| {
-                let i = index(i);
-                matrix.entries().filter(|(_, _, value)| value.to_f64() != Some(0.0)).map(
-                    move |(row, column, value)| {
-                        let (row, column, value) = (index(row), index(column), exact(value));
-                        quote!((#i, #row, #column, #value))
-                    },
-                )
+                let entry =
+                    move |(row, column, value): (_, _, &Rational)| (i, row, column, number(value));
+                matrix.entries().map(entry).filter(|entry| entry.3 != 0.0)
             });
-            quote!(::core::option::Option::Some(&[#(#entries),*]))
+            let entries = tokens(&list(&entries.collect::<Vec<_>>()));
+            quote!(::core::option::Option::Some(&[#entries]))
         }
         None => quote!(::core::option::Option::None),
     };
@@ -131,14 +129,10 @@ fn own_tables(
     let casimirs = watched.into_iter().map(|casimir| {
         let terms = casimir.terms().map(|(exponents, value)| {
             let powers = exponents.iter().enumerate().filter(|(_, power)| **power > 0);
-            let factors = powers.map(|(i, &power)| {
-                let (i, power) = (index(i), Literal::u32_unsuffixed(power));
-                quote!((#i, #power))
-            });
-            let value = exact(&value);
-            quote!((#value, &[#(#factors),*]))
+            format!("({}, &{:?}), ", float(number(&value)), powers.collect::<Vec<_>>())
         });
-        quote!(&[#(#terms),*])
+        let terms = tokens(&terms.collect::<String>());
+        quote!(&[#terms])
     });
     let about = format!(" The Lie algebra of {} as tables.", rust_comment(algebra.name()));
     let about_group = format!(" The group of {}.", rust_comment(algebra.name()));
@@ -154,7 +148,7 @@ fn own_tables(
         impl #krate::groups::StaticAlgebra for #marker {
             const DIM: usize = #n;
             const MATRIX_SIZE: usize = #d;
-            const STRUCTURE: &'static [#krate::groups::StructureConstant] = &[#(#structure),*];
+            const STRUCTURE: &'static [#krate::groups::StructureConstant] = &[#structure];
             const BASIS: ::core::option::Option<&'static [#krate::groups::BasisEntry]> = #basis;
             const CASIMIRS: &'static [&'static [#krate::groups::CasimirTerm]] = &[#(#casimirs),*];
         }
@@ -218,7 +212,7 @@ impl Types {
             aliases: quote! {
                 // Whatever names the user has in scope.
                 use ::core::prelude::v1::*;
-                use #krate::plumbing::Coefficients as _;
+                use #krate::plumbing::{self, Coefficients as _};
 
                 type #vector<T> = #krate::nalgebra::SVector<T, #n>;
                 type #matrix<T> = #krate::nalgebra::SMatrix<T, #n, #n>;

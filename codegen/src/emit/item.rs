@@ -9,10 +9,9 @@ use crate::emit::generating_function::{
     generating_function, scalar_function, solver, without_programs,
 };
 use crate::emit::group::Types;
-use crate::emit::hygiene::fresh;
 use crate::emit::programs::{MOST_OPERATIONS, programs, step_operations};
 use crate::emit::table::{fold_item, last_item};
-use crate::emit::{Options, allow, header, identifier, parameter};
+use crate::emit::{Options, allow, fresh, header, identifier, parameter};
 use crate::integrator::{FoldTable, Integrator};
 use crate::problem::{Parameter, Shape};
 use crate::step::Step;
@@ -49,7 +48,7 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
     let fold = FoldTable::new(integrator);
     let count = fold.len();
     let slots = Literal::usize_unsuffixed(count);
-    let constructor = constructor(integrator, &fold, krate, group);
+    let constructor = constructor(integrator, &fold, options, group);
     let generating = generating_function(integrator, options, &types, count);
     let programs = match &step {
         Some(step) => programs(step, options, group, &solver(integrator, krate)),
@@ -59,11 +58,12 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
     let symbols = Literal::usize_unsuffixed(integrator.problem.symbols.len());
     let lanes = lanes(options, step.is_some());
     let energy = scalar_function(&integrator.energy, options, "mu");
-    let (table, last) = (fold_item(krate, &fold), last_item(krate, integrator));
+    let (table, last) = (fold_item(&fold), last_item(integrator));
     let truncation = Literal::usize_unsuffixed(integrator.problem.truncation);
     let order = Literal::usize_unsuffixed(integrator.order());
     let allow = allow();
-    let [mu, c] = ["mu", "c"].map(|name| options.bound(name));
+    let names = ["mu", "c", "phase", "steps", "error", "stopped"];
+    let [mu, c, phase, steps, error, stopped] = names.map(|name| options.bound(name));
     let struct_and_methods = quote! {
         #definition
 
@@ -108,9 +108,9 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
                 #[inline]
                 pub fn advance(
                     &self,
-                    phase: &mut #krate::Phase<#group>,
+                    #phase: &mut #krate::Phase<#group>,
                 ) -> ::core::result::Result<#krate::steps::StepReport<T>, #krate::StepError> {
-                    #krate::steps::advance(self, phase).map_err(|error| self.advise(error, phase))
+                    #krate::steps::advance(self, #phase).map_err(|#error| self.advise(#error, #phase))
                 }
 
                 /// Advances (g, μ) by `steps` steps, faster than one by one; the report is of the
@@ -120,12 +120,12 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
                 /// `Stopped`: how many steps were made, and why the next was not.
                 pub fn advance_by(
                     &self,
-                    phase: &mut #krate::Phase<#group>,
-                    steps: u64,
+                    #phase: &mut #krate::Phase<#group>,
+                    #steps: u64,
                 ) -> ::core::result::Result<#krate::steps::StepReport<T>, #krate::steps::Stopped> {
-                    #krate::steps::advance_by(self, phase, steps).map_err(|stopped| #krate::steps::Stopped {
-                        error: self.advise(stopped.error, phase),
-                        ..stopped
+                    #krate::steps::advance_by(self, #phase, #steps).map_err(|#stopped| #krate::steps::Stopped {
+                        error: self.advise(#stopped.error, #phase),
+                        ..#stopped
                     })
                 }
 
@@ -136,9 +136,9 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
                 #[inline]
                 pub fn poisson_map(
                     &self,
-                    mu: &#vector,
+                    #mu: &#vector,
                 ) -> ::core::result::Result<#vector, #krate::StepError> {
-                    #krate::steps::poisson_map(self, mu)
+                    #krate::steps::poisson_map(self, #mu)
                 }
             }
         };
@@ -215,13 +215,16 @@ fn lanes(options: &Options, printed: bool) -> TokenStream {
 fn constructor(
     integrator: &Integrator,
     fold: &FoldTable,
-    krate: &TokenStream,
+    options: &Options,
     group: &TokenStream,
 ) -> TokenStream {
+    let krate = &options.krate;
+    let names = ["step", "symbols", "coefficients", "error", "phase"];
+    let [own, given, coefficients, error, phase] = names.map(|name| options.bound(name));
     let problem = &integrator.problem;
     let Arguments { arguments, names, scalars } = arguments(&problem.parameters, krate);
-    let step = format_ident!("{}", fresh("step", &names));
-    let symbols = problem.symbols.iter().map(|s| parameter::expression(&s.expr, &scalars));
+    let step = format_ident!("{}", fresh(&own.to_string(), &names));
+    let symbols = parameter::symbols(&problem.symbols, &scalars);
     let symbols = quote!([#(#symbols),*]);
     let texts = problem.symbols.iter().map(|s| &s.text);
     let [count, room] = [problem.symbols.len(), fold.lists().room()].map(Literal::usize_unsuffixed);
@@ -240,27 +243,27 @@ fn constructor(
         }
 
         fn of_symbols(
-            step: T,
-            symbols: &[T; #count],
+            #own: T,
+            #given: &[T; #count],
         ) -> ::core::result::Result<Self, #krate::StepError> {
-            let coefficients = #krate::plumbing::fold(
+            let #coefficients = #krate::plumbing::fold(
                 Self::table(),
                 [#(#texts),*],
-                (step, symbols),
+                (#own, #given),
                 [0.0; #room],
             )?;
-            ::core::result::Result::Ok(Self { step, symbols: *symbols, coefficients })
+            ::core::result::Result::Ok(Self { step: #own, symbols: *#given, coefficients: #coefficients })
         }
 
         /// The error of a step, with a step size that works where one is found.
         #[cold]
         fn advise(
             &self,
-            error: #krate::StepError,
-            phase: &#krate::Phase<#group>,
+            #error: #krate::StepError,
+            #phase: &#krate::Phase<#group>,
         ) -> #krate::StepError {
-            #krate::plumbing::advise(error, phase, self.step, |step| {
-                Self::of_symbols(step, &self.symbols)
+            #krate::plumbing::advise(#error, #phase, self.step, |#own| {
+                Self::of_symbols(#own, &self.symbols)
             })
         }
     }
@@ -272,7 +275,7 @@ pub(crate) struct Arguments {
     /// The names.
     pub names: BTreeSet<String>,
     /// An expression for each of their scalars.
-    pub scalars: Vec<TokenStream>,
+    pub scalars: Vec<String>,
 }
 
 pub(crate) fn arguments(parameters: &[Parameter], krate: &TokenStream) -> Arguments {
@@ -286,8 +289,7 @@ pub(crate) fn arguments(parameters: &[Parameter], krate: &TokenStream) -> Argume
         result.scalars.extend(parameter.scalar_names().iter().map(|scalar| {
             // `inertia[0]`: the name, then how the scalar is reached.
             let access = scalar.strip_prefix(parameter.name.as_str()).unwrap_or_default();
-            let access: TokenStream = access.parse().unwrap_or_default();
-            quote!(#name #access)
+            format!("{name}{access}")
         }));
     }
     result.names = names;

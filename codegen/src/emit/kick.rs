@@ -25,13 +25,13 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
     let entries = Literal::usize_unsuffixed(potential.size() * potential.size());
 
     let Arguments { arguments, scalars, .. } = arguments(&potential.parameters, krate);
-    let symbols = potential.symbols.iter().map(|s| parameter::expression(&s.expr, &scalars));
+    let symbols = parameter::symbols(&potential.symbols, &scalars);
     let texts = potential.symbols.iter().map(|s| &s.text);
     let symbol_count = Literal::usize_unsuffixed(potential.symbols.len());
     let slots = Literal::usize_unsuffixed(kick.coefficients.slots().len());
     let fold = FoldTable::of_kick(kick);
     let room = Literal::usize_unsuffixed(fold.lists().room());
-    let table = fold_item(krate, &fold);
+    let table = fold_item(&fold);
 
     let energy = kick.energy.as_ref().map(|energy| scalar_function(energy, options, "g"));
     let torque = vector_function(&kick.torque, vector, options, "g");
@@ -46,11 +46,12 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
             cost.additions
         ),
     ];
-    let [own, c] = ["g", "c"].map(|name| options.bound(name));
+    let names = ["g", "c", "g", "group", "k", "symbols", "coefficients"];
+    let [own, c, element, by, k, own_symbols, coefficients] = names.map(|name| options.bound(name));
     let entries_of_g = quote! {
-        let group = const { &<#group>::new() };
-        let #own: [T; #entries] = ::core::array::from_fn(|k| {
-            #krate::LieGroup::matrix_entry(group, g, k / #size, k % #size)
+        let #by = const { &<#group>::new() };
+        let #own: [T; #entries] = ::core::array::from_fn(|#k| {
+            #krate::LieGroup::matrix_entry(#by, #element, #k / #size, #k % #size)
         });
         let (#own, #c) = (&#own, &self.coefficients);
     };
@@ -79,27 +80,27 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
                 pub fn new(
                     #(#arguments),*
                 ) -> ::core::result::Result<Self, #krate::StepError> {
-                    let symbols: [T; #symbol_count] = [#(#symbols),*];
+                    let #own_symbols: [T; #symbol_count] = [#(#symbols),*];
                     // No coefficient holds the step size.
-                    let coefficients = #krate::plumbing::fold(
+                    let #coefficients = #krate::plumbing::fold(
                         &FOLD,
                         [#(#texts),*],
-                        (T::of(1.0), &symbols),
+                        (T::of(1.0), &#own_symbols),
                         [0.0; #room],
                     )?;
-                    ::core::result::Result::Ok(Self { coefficients })
+                    ::core::result::Result::Ok(Self { coefficients: #coefficients })
                 }
 
                 /// V(g).
                 #[inline]
-                pub fn energy(&self, g: &<#group as #krate::LieGroup>::Element) -> T {
+                pub fn energy(&self, #element: &<#group as #krate::LieGroup>::Element) -> T {
                     #entries_of_g
                     #energy
                 }
 
                 /// The body torque −g⁻¹dV(g): component k is −d/ds V(g·exp(s e_k)) at s = 0.
                 #[inline]
-                pub fn torque(&self, g: &<#group as #krate::LieGroup>::Element) -> #vector {
+                pub fn torque(&self, #element: &<#group as #krate::LieGroup>::Element) -> #vector {
                     #entries_of_g
                     #torque
                 }

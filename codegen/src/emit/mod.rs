@@ -10,7 +10,6 @@ mod file;
 mod generating_function;
 mod group;
 mod header;
-mod hygiene;
 mod item;
 mod kick;
 mod origin;
@@ -20,6 +19,8 @@ mod programs;
 mod steps;
 mod table;
 
+use std::collections::BTreeSet;
+
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
@@ -27,7 +28,6 @@ use crate::integrator::Integrator;
 
 pub use file::{file, potential_items};
 pub use group::RUNTIME_TABLES;
-pub use hygiene::{hygienic, identifiers};
 pub use item::{Items, items};
 pub use kick::kick;
 pub use origin::items_of;
@@ -54,8 +54,8 @@ pub struct Options {
     pub name: Ident,
     /// Attributes for the struct: the user's doc comments.
     pub attributes: TokenStream,
-    /// The suffix of the names that programs bind: an underscore where a constant of the user's might have one of these
-    /// names.
+    /// The suffix of the names that patterns bind: an underscore where a constant of the user's might have one of these
+    /// names. A pattern that is a plain name means a constant where one of that name is in scope, and no span changes that.
     pub suffix: &'static str,
 }
 
@@ -91,6 +91,15 @@ pub(crate) fn identifier(name: &str) -> Ident {
         word.insert(0, 'n');
     }
     format_ident!("{word}")
+}
+
+/// `name`, with as many underscores at its end as make it differ from all of `taken`.
+fn fresh(name: &str, taken: &BTreeSet<String>) -> String {
+    let mut name = name.to_owned();
+    while taken.contains(&name) {
+        name.push('_');
+    }
+    name
 }
 
 /// `rigid_body` and `rigid-body` as `RigidBody`.

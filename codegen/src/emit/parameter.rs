@@ -1,51 +1,50 @@
-//! Opaque coefficients as Rust expressions in the user's parameters.
+//! Opaque coefficients as expressions in the user's parameters, in any language.
 
-use proc_macro2::{Literal, TokenStream};
-use quote::quote;
+use proc_macro2::TokenStream;
 
-use super::program::exact;
+use super::program::{float, tokens};
 use crate::expr::{Function, ParameterExpr};
+use crate::problem::Symbol;
 
-/// The value of `expr` as an expression of type `T`; `parameters[i]` is the expression of scalar
-/// parameter number i.
-pub(crate) fn expression(expr: &ParameterExpr, parameters: &[TokenStream]) -> TokenStream {
-    let sub = |e: &ParameterExpr| expression(e, parameters);
+/// How a language writes what is more than an infix operator.
+pub(crate) struct Notation<'a> {
+    /// The scalar parameters, in the order of their numbers.
+    pub parameters: &'a [String],
+    /// A number.
+    pub number: &'a dyn Fn(f64) -> String,
+    /// A whole power.
+    pub power: &'a dyn Fn(String, i32) -> String,
+    /// A function's value.
+    pub call: &'a dyn Fn(Function, String) -> String,
+}
+
+/// The value of an expression; what has no parameter in it is a number already.
+pub(crate) fn expression(expr: &ParameterExpr, notation: &Notation<'_>) -> String {
+    let known = expr.evaluate(&[]);
+    if !known.is_nan() {
+        return (notation.number)(known);
+    }
+    let sub = |e: &ParameterExpr| expression(e, notation);
     match expr {
-        ParameterExpr::Rational(value) => {
-            let value = exact(value);
-            quote!(T::of(#value))
-        }
-        ParameterExpr::Parameter(index) => parameters[*index].clone(),
-        ParameterExpr::Add(a, b) => binary(quote!(+), sub(a), sub(b)),
-        ParameterExpr::Sub(a, b) => binary(quote!(-), sub(a), sub(b)),
-        ParameterExpr::Mul(a, b) => binary(quote!(*), sub(a), sub(b)),
-        ParameterExpr::Div(a, b) => binary(quote!(/), sub(a), sub(b)),
-        ParameterExpr::Neg(a) => {
-            let a = sub(a);
-            quote!((-#a))
-        }
-        ParameterExpr::Powi(a, exponent) => {
-            let a = sub(a);
-            let exponent = Literal::i32_unsuffixed(*exponent);
-            quote!(#a.simd_powi(#exponent))
-        }
-        ParameterExpr::Call(function, a) => {
-            let a = sub(a);
-            match function {
-                Function::Sqrt => quote!(#a.simd_sqrt()),
-                Function::Sin => quote!(#a.simd_sin()),
-                Function::Cos => quote!(#a.simd_cos()),
-                Function::Tan => quote!(#a.simd_tan()),
-                Function::Atan => quote!(#a.simd_atan()),
-                Function::Tanh => quote!(#a.simd_tanh()),
-                Function::Exp => quote!(#a.simd_exp()),
-                Function::Ln => quote!(#a.simd_ln()),
-                Function::Abs => quote!(#a.simd_abs()),
-            }
-        }
+        ParameterExpr::Rational(_) => (notation.number)(known),
+        ParameterExpr::Parameter(index) => notation.parameters[*index].clone(),
+        ParameterExpr::Add(a, b) => format!("({} + {})", sub(a), sub(b)),
+        ParameterExpr::Sub(a, b) => format!("({} - {})", sub(a), sub(b)),
+        ParameterExpr::Mul(a, b) => format!("({} * {})", sub(a), sub(b)),
+        ParameterExpr::Div(a, b) => format!("({} / {})", sub(a), sub(b)),
+        ParameterExpr::Neg(a) => format!("(-{})", sub(a)),
+        ParameterExpr::Powi(a, exponent) => (notation.power)(sub(a), *exponent),
+        ParameterExpr::Call(function, a) => (notation.call)(*function, sub(a)),
     }
 }
 
-fn binary(operator: TokenStream, a: TokenStream, b: TokenStream) -> TokenStream {
-    quote!((#a #operator #b))
+/// The values of symbols as expressions of Rust, of type `T`.
+pub(crate) fn symbols(symbols: &[Symbol], parameters: &[String]) -> Vec<TokenStream> {
+    let notation = Notation {
+        parameters,
+        number: &|value| format!("T::of({})", float(value)),
+        power: &|base, exponent| format!("{base}.simd_powi({exponent})"),
+        call: &|function, argument| format!("{argument}.simd_{}()", function.name()),
+    };
+    symbols.iter().map(|symbol| tokens(&expression(&symbol.expr, &notation))).collect()
 }

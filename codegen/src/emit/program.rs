@@ -1,16 +1,10 @@
-//! Programs as straight-line Rust: a statement for each operation.
-//!
-//! The compiler's time grows faster than the length of a function, so a program of many operations becomes several
-//! functions of bounded length, which hand values to each other through an array.
+//! Rust as a dialect of programs: a statement for each operation.
 
-use std::collections::BTreeSet;
+use coadjoint_program::print::{Body, C, Dialect, Field, Signature, body};
+use proc_macro2::TokenStream;
+use quote::quote;
 
-use num_traits::ToPrimitive;
-use proc_macro2::{Ident, Literal, TokenStream};
-use quote::{format_ident, quote};
-
-use crate::graph::{Id, Node, Program};
-use crate::number::Rational;
+use crate::graph::{Node, Program};
 
 /// Programs with more operations than this are cut. Shorter ones the compiler takes in its stride, and inlines into a step
 /// for lanes, which makes use of wider registers.
@@ -22,234 +16,179 @@ const LONGEST_FUNCTION: usize = 1000;
 /// Code of at most this number of operations is inlined for lanes, and so has the wide instructions of its caller.
 const INLINED_IN_LANES: usize = 6000;
 
-/// A call of a function that belongs to `operations` operations. Where they are many the function is not inlined for a
-/// single number, since the compiler's time grows faster than their count; where they are very many, not for lanes either.
-pub(crate) fn apart(krate: &TokenStream, call: &TokenStream, operations: usize) -> TokenStream {
-    let called = quote!(#krate::plumbing::called(|| #call));
-    if operations <= LARGE {
-        call.clone()
-    } else if operations <= INLINED_IN_LANES {
-        quote!(if T::SINGLE { #called } else { #call })
-    } else {
-        called
-    }
+/// The head of a function of a program, without its name.
+const HEAD: &str = "<T: plumbing::Number, C: plumbing::Coefficients<T>>";
+
+/// A text of Rust as tokens.
+pub(crate) fn tokens(text: &str) -> TokenStream {
+    // What is written here are tokens; if not, the compiler shows what is wrong.
+    text.parse().unwrap_or_else(|_| quote!(::core::compile_error!(#text);))
 }
 
-/// A part of a program's inputs: an array of numbers `T` behind a reference, or a number.
-pub(crate) struct Field {
-    name: Ident,
-    len: Option<usize>,
-}
-
-impl Field {
-    pub(crate) fn array(name: Ident, len: usize) -> Self {
-        Self { name, len: Some(len) }
-    }
-
-    pub(crate) fn number(name: Ident) -> Self {
-        Self { name, len: None }
-    }
-
-    /// `name: type`, as a parameter of a function.
-    pub(crate) fn parameter(&self) -> TokenStream {
-        let name = &self.name;
-        match self.len {
-            Some(len) => {
-                let len = Literal::usize_unsuffixed(len);
-                quote!(#name: &[T; #len])
-            }
-            None => quote!(#name: T),
-        }
-    }
-}
-
-/// The names in scope around a program.
-pub(crate) struct Scope<'a> {
-    /// The path of the runtime crate.
-    pub krate: &'a TokenStream,
-    /// The inputs, in the order of their numbers.
-    pub inputs: Vec<Field>,
-    /// The operations of the step that the program is part of, where it is of one.
-    pub operations: Option<usize>,
+/// Rust over numbers `T`. Items of the runtime's module `plumbing` are in scope by that name.
+pub(crate) struct Rust<'a> {
+    /// C, which has the same infix operators.
+    c: C,
     /// The suffix of the names that are bound.
-    pub suffix: &'a str,
+    suffix: &'a str,
+    /// The operations of the step that a program is part of; as many as can be where it is of none.
+    operations: usize,
 }
 
-/// The statements of a program, and the expressions of its outputs.
-pub(crate) struct Body {
-    /// `let` statements, in order.
-    pub statements: TokenStream,
-    /// One expression per output.
-    pub outputs: Vec<TokenStream>,
-}
-
-/// Writes `program` down, in several functions where it is large.
-pub(crate) fn body(program: &Program, scope: &Scope<'_>) -> Body {
-    let nodes = program.nodes();
-    let parts = match program.operations() {
-        0..=LARGE => vec![0; nodes.len()],
-        _ => program.parts(LONGEST_FUNCTION),
-    };
-    let mut writer = Writer { program, scope, read: Vec::new(), statements: TokenStream::new() };
-    if parts.last().is_none_or(|&last| last == 0) {
-        (0..nodes.len()).for_each(|index| writer.write(index));
-        let outputs = program.outputs().iter().map(|&id| writer.value(id)).collect();
-        return Body { statements: writer.statements, outputs };
+impl<'a> Rust<'a> {
+    pub(crate) fn new(suffix: &'a str, operations: usize) -> Self {
+        Self { c: C::default(), suffix, operations }
     }
-    let handed = handed_on(program, &parts);
-    let places = Literal::usize_unsuffixed(handed.len());
-    let mut next_place = handed.iter().copied().enumerate().peekable();
-    let (generics, parameters, call) = scope.part();
-    let shared = scope.bound("shared");
-    let mut functions = TokenStream::new();
-    let mut calls = TokenStream::new();
-    for part in 0..=parts[nodes.len() - 1] {
-        while writer.read.len() < nodes.len() && parts[writer.read.len()] == part {
-            writer.write(writer.read.len());
+
+    /// The dialect for programs that are of no step.
+    pub(crate) fn alone(suffix: &'a str) -> Self {
+        Self::new(suffix, usize::MAX)
+    }
+
+    /// A call of a function. Where it belongs to many operations the function is not inlined for a single number, since
+    /// the compiler's time grows faster than their count; where they are very many, not for lanes either.
+    pub(crate) fn apart(&self, call: &str) -> String {
+        let called = format!("plumbing::called(|| {call})");
+        match self.operations {
+            ..=LARGE => call.to_owned(),
+            ..=INLINED_IN_LANES => format!("if T::SINGLE {{ {called} }} else {{ {call} }}"),
+            _ => called,
         }
-        let mut handed_here = Vec::new();
-        while let Some((place, index)) = next_place.next_if(|&(_, index)| index < writer.read.len())
-        {
-            let place = Literal::usize_unsuffixed(place);
-            let value = &writer.read[index];
-            writer.statements.extend(quote!(#shared[#place] = #value;));
-            handed_here.push((index, quote!(#shared[#place])));
-        }
-        for (index, place) in handed_here {
-            writer.read[index] = place;
-        }
-        let name = format_ident!("part{part}");
-        let statements = std::mem::take(&mut writer.statements);
-        functions.extend(quote! {
-            #[inline(always)]
-            fn #name #generics (#parameters, #shared: &mut [T; #places]) { #statements }
+    }
+
+    /// The text of a program whose inputs have these names.
+    pub(crate) fn body(&self, signature: &Signature<'_>) -> Body {
+        let cut = signature.program.operations() > LARGE;
+        body(self, signature, if cut { LONGEST_FUNCTION } else { usize::MAX })
+    }
+
+    /// A block whose last expression is made of the outputs of a program, which reads the array `input`.
+    pub(crate) fn block(
+        &self,
+        program: &Program,
+        input: &str,
+        result: impl Fn(&[String]) -> String,
+    ) -> TokenStream {
+        let inputs = vec![Field::array(&self.bound(input), program.inputs())];
+        let signature = Signature { name: String::new(), program, inputs, outputs: Vec::new() };
+        let Body { pieces, statements, outputs } = self.body(&signature);
+        tokens(&(pieces + &statements + &result(&outputs)))
+    }
+
+    fn parameters(&self, signature: &Signature<'_>) -> String {
+        let parameters = signature.inputs.iter().map(|Field { name, len }| match len {
+            Some(len) => format!(", {name}: &[T; {len}]"),
+            None => format!(", {name}: T"),
         });
-        let call = quote!(#name(#call, &mut #shared));
-        calls.extend(apart(scope.krate, &call, scope.operations.unwrap_or(usize::MAX)));
-        calls.extend(quote!(;));
-    }
-    let zero = scope.constant(0.0);
-    let statements = quote! {
-        #functions
-        let mut #shared = [#zero; #places];
-        #calls
-    };
-    Body { statements, outputs: program.outputs().iter().map(|&id| writer.value(id)).collect() }
-}
-
-impl Scope<'_> {
-    /// The name of something that is bound here.
-    pub(crate) fn bound(&self, name: &str) -> Ident {
-        format_ident!("{name}{}", self.suffix)
-    }
-
-    /// The generics and the parameters of a part of a program, and the arguments of a call.
-    fn part(&self) -> (TokenStream, TokenStream, TokenStream) {
-        let Self { krate, inputs, .. } = self;
-        let c = self.bound("c");
-        let parameters = inputs.iter().map(Field::parameter);
-        let names = inputs.iter().map(|field| &field.name);
-        let generics = quote!(<T: #krate::plumbing::Number, C: #krate::plumbing::Coefficients<T>>);
-        let parameters = quote!(#c: C, #(#parameters),*);
-        (generics, parameters, quote!(#c, #(#names),*))
-    }
-
-    /// The expression that reads input number `index`.
-    fn input(&self, index: usize) -> TokenStream {
-        let mut left = index;
-        for Field { name, len } in &self.inputs {
-            match len {
-                Some(len) if left < *len => {
-                    let index = Literal::usize_unsuffixed(left);
-                    return quote!(#name[#index]);
-                }
-                None if left == 0 => return quote!(#name),
-                _ => left -= len.unwrap_or(1),
-            }
-        }
-        self.constant(0.0)
-    }
-
-    fn constant(&self, value: f64) -> TokenStream {
-        let (c, value) = (self.bound("c"), Literal::f64_unsuffixed(value));
-        quote!(#c.of(#value))
+        format!("{}: C{}", self.bound("c"), parameters.collect::<String>())
     }
 }
 
-/// Turns the nodes of a program into statements, one after the other.
-struct Writer<'a> {
-    program: &'a Program,
-    scope: &'a Scope<'a>,
-    /// For each node written so far, the expression that reads it.
-    read: Vec<TokenStream>,
-    statements: TokenStream,
-}
+impl Dialect for Rust<'_> {
+    fn c(&self) -> &C {
+        &self.c
+    }
 
-impl Writer<'_> {
-    /// Writes the next node: an operation as a `let` statement; others are read in place.
-    fn write(&mut self, index: usize) {
-        let node = &self.program.nodes()[index];
-        let operands: Vec<_> = node.operands().map(|id| &self.read[id.index()]).collect();
-        let c = self.scope.bound("c");
-        let value = match (*node, &operands[..]) {
-            (Node::Constant(bits), _) => self.scope.constant(f64::from_bits(bits)),
-            (Node::Epsilon, _) => quote!(#c.epsilon()),
-            (Node::Slot(i), _) => {
-                let i = Literal::u32_unsuffixed(i);
-                quote!(#c.at(#i))
-            }
-            (Node::Input(i), _) => self.scope.input(i as usize),
-            (Node::Add(..), [x, y]) => quote!(#x + #y),
-            (Node::Sub(..), [x, y]) => quote!(#x - #y),
-            (Node::Mul(..), [x, y]) => quote!(#x * #y),
-            (Node::TimesPlus(..), [x, y, z]) => quote!(#x.times_plus(#y, #z)),
-            (Node::Div(..), [x, y]) => quote!(#x / #y),
-            (Node::Neg(_), [x]) => quote!(-#x),
-            (Node::Abs(_), [x]) => quote!(#x.simd_abs()),
-            (Node::Sqrt(_), [x]) => quote!(#x.simd_sqrt()),
-            (Node::Round(_), [x]) => quote!(#x.simd_round()),
-            (Node::Scale(..), [x, k]) => quote!(T::scale(#x, #k)),
-            (Node::Exponent(_), [x]) => quote!(T::exponent(#x)),
+    fn constant(&self, value: f64) -> String {
+        format!("{}.of({})", self.bound("c"), float(value))
+    }
+
+    fn epsilon(&self) -> String {
+        format!("{}.epsilon()", self.bound("c"))
+    }
+
+    fn slot(&self, index: usize) -> String {
+        format!("{}.at({index})", self.bound("c"))
+    }
+
+    fn operation(&self, node: Node, operands: &[&str]) -> String {
+        match (node, operands) {
+            (Node::TimesPlus(..), [a, b, c]) => format!("{a}.times_plus({b}, {c})"),
+            (Node::Abs(_), [a]) => format!("{a}.simd_abs()"),
+            (Node::Sqrt(_), [a]) => format!("{a}.simd_sqrt()"),
+            (Node::Round(_), [a]) => format!("{a}.simd_round()"),
+            (Node::Scale(..), [a, k]) => format!("T::scale({a}, {k})"),
+            (Node::Exponent(_), [a]) => format!("T::exponent({a})"),
             // A call, no method: a lint looks for the type of what a method of one argument is called on, through
             // all statements before it, and would not end.
-            (Node::Select(..), [w, x, y, z]) => quote!(T::select(#y, T::simd_le(#w, #x), #z)),
-            _ => self.scope.constant(0.0),
-        };
-        if operands.is_empty() {
-            self.read.push(value);
-            return;
+            (Node::Select(..), [a, b, c, d]) => {
+                format!("T::select({c}, T::simd_le({a}, {b}), {d})")
+            }
+            _ => self.c.operation(node, operands),
         }
-        let name = self.scope.bound(&format!("t{index}"));
-        self.statements.extend(quote!(let #name = #value;));
-        self.read.push(quote!(#name));
     }
 
-    fn value(&self, id: Id) -> TokenStream {
-        self.read[id.index()].clone()
+    fn bound(&self, name: &str) -> String {
+        format!("{name}{}", self.suffix)
+    }
+
+    fn declare(&self, name: &str, expression: &str) -> String {
+        format!("let {name} = {expression};\n")
+    }
+
+    fn shared(&self, place: usize) -> String {
+        format!("{}[{place}]", self.bound("shared"))
+    }
+
+    fn piece(
+        &self,
+        signature: &Signature<'_>,
+        number: usize,
+        size: usize,
+        statements: &str,
+    ) -> String {
+        let (parameters, shared) = (self.parameters(signature), self.bound("shared"));
+        format!(
+            "#[inline(always)] fn part{number}{HEAD}({parameters}, {shared}: &mut [T; {size}]) {{ {statements} }}\n"
+        )
+    }
+
+    fn calls(&self, signature: &Signature<'_>, count: usize, size: usize) -> String {
+        let (c, shared) = (self.bound("c"), self.bound("shared"));
+        let inputs: String =
+            signature.inputs.iter().map(|field| format!(", {}", field.name)).collect();
+        let call =
+            |number| self.apart(&format!("part{number}({c}{inputs}, &mut {shared})")) + ";\n";
+        let calls: String = (0..count).map(call).collect();
+        format!("let mut {shared} = [{}; {size}];\n{calls}", self.constant(0.0))
+    }
+
+    fn function(&self, signature: &Signature<'_>, body: &Body) -> String {
+        let Body { pieces, statements, outputs } = body;
+        let mut outputs = outputs.iter();
+        let (kinds, results): (Vec<_>, Vec<_>) = signature
+            .outputs
+            .iter()
+            .map(|field| match field.len {
+                Some(len) => (format!("[T; {len}]"), list(outputs.by_ref().take(len))),
+                None => ("T".to_owned(), outputs.next().cloned().unwrap_or_default()),
+            })
+            .unzip();
+        format!(
+            "#[inline(always)] fn {}{HEAD}({}) -> {} {{ {pieces}{statements}{} }}\n",
+            signature.name,
+            self.parameters(signature),
+            tuple(&kinds),
+            tuple(&results)
+        )
     }
 }
 
-/// The operations whose values are read in another part or by the caller, in order.
-fn handed_on(program: &Program, parts: &[usize]) -> BTreeSet<usize> {
-    let nodes = program.nodes();
-    let read_elsewhere = nodes.iter().zip(parts).flat_map(|(node, part)| {
-        node.operands().map(|id| id.index()).filter(move |&operand| parts[operand] != *part)
-    });
-    let outputs = program.outputs().iter().map(|id| id.index());
-    read_elsewhere.chain(outputs).filter(|&index| nodes[index].is_operation()).collect()
+/// One text, or several as a tuple.
+pub(crate) fn tuple(texts: &[String]) -> String {
+    match texts {
+        [one] => one.clone(),
+        several => format!("({})", several.join(", ")),
+    }
 }
 
-/// The nearest `f64` of an exact number.
-pub(crate) fn exact(value: &Rational) -> TokenStream {
-    float(value.to_f64().unwrap_or(f64::NAN))
+/// Texts as an array.
+pub(crate) fn list<'t>(texts: impl IntoIterator<Item = &'t String>) -> String {
+    let texts: Vec<&str> = texts.into_iter().map(String::as_str).collect();
+    format!("[{}]", texts.join(", "))
 }
 
 /// A literal; numbers beyond the range of `f64` by name, for folding to refuse.
-pub(crate) fn float(value: f64) -> TokenStream {
-    if value.is_finite() {
-        let literal = Literal::f64_unsuffixed(value);
-        quote!(#literal)
-    } else {
-        quote!(f64::NAN)
-    }
+pub(crate) fn float(value: f64) -> String {
+    if value.is_finite() { format!("{value:?}") } else { "f64::NAN".to_owned() }
 }

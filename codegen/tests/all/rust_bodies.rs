@@ -234,6 +234,10 @@ fn mistakes() {
             "group = SO3, truncation = 5",
             "fn h(mu: [f64; 3]) -> f64 { let mut s = 0.0; loop { s += mu[0]; } s }",
         ),
+        (
+            "group = SO3, truncation = 5",
+            "fn h(mu: [f64; 3]) -> f64 { let (mut s, k) = (0.0, 0); while k < 1 { s += mu[0]; } s }",
+        ),
         ("group = SO3, truncation = 5", "fn h() { loop { break; } }"),
         (
             "group = SO3, truncation = 5",

@@ -5,6 +5,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
+use super::function::Body;
 use crate::graph::{Node, Program};
 use crate::kernel::Kernel;
 use crate::schedule::{Kind, Part, Variable};
@@ -34,6 +35,42 @@ pub trait Dialect {
     /// An operation on operands as they are written, as many as `node` has. Leaves are never asked for.
     fn operation(&self, node: Node, operands: &[&str]) -> String {
         self.c().operation(node, operands)
+    }
+
+    /// A name that is bound.
+    fn bound(&self, name: &str) -> String {
+        name.to_owned()
+    }
+
+    /// The statement that declares `name` as the value of `expression`.
+    fn declare(&self, name: &str, expression: &str) -> String {
+        format!("    const {} {name} = {expression};\n", self.c().number)
+    }
+
+    /// The number at a place of the array that the pieces of a function share.
+    fn shared(&self, place: usize) -> String {
+        format!("w[{place}]")
+    }
+
+    /// Piece number `number` of a function, with an array of `size` numbers to share.
+    fn piece(
+        &self,
+        signature: &Signature<'_>,
+        number: usize,
+        _size: usize,
+        statements: &str,
+    ) -> String {
+        self.c().piece(signature, number, statements)
+    }
+
+    /// The statements that call the pieces of a function.
+    fn calls(&self, signature: &Signature<'_>, count: usize, size: usize) -> String {
+        self.c().calls(signature, count, size)
+    }
+
+    /// The function of a signature.
+    fn function(&self, signature: &Signature<'_>, body: &Body) -> String {
+        self.c().function(signature, body)
     }
 }
 
@@ -71,7 +108,7 @@ impl Default for C {
 
 impl C {
     /// The parameters of a function, and statements for those that it does not read.
-    pub(super) fn parameters(&self, signature: &Signature<'_>) -> (String, String) {
+    fn parameters(&self, signature: &Signature<'_>) -> (String, String) {
         let mut unused = String::new();
         let program = signature.program;
         let mut parameters = Vec::new();
@@ -104,18 +141,50 @@ impl C {
         (parameters.join(", "), unused)
     }
 
-    /// Parameters and arguments of the pieces of a function, which have an array `w` besides.
-    pub(super) fn workspace(&self, signature: &Signature<'_>) -> (String, String) {
-        let (parameters, _) = self.parameters(signature);
-        let mut arguments = String::new();
-        let slots = (!self.slots.is_empty()).then_some("c");
-        let fields = signature.inputs.iter().chain(&signature.outputs);
-        for name in slots.into_iter().chain(fields.map(|field| field.name.as_str())) {
-            arguments.push_str(name);
-            arguments.push_str(", ");
+    fn piece(&self, signature: &Signature<'_>, number: usize, statements: &str) -> String {
+        let inputs = Signature { outputs: Vec::new(), ..signature.clone() };
+        let (parameters, _) = self.parameters(&inputs);
+        let mut text = format!(
+            "{} {}_{number}({parameters}, {} {}w)\n{{\n",
+            self.head, signature.name, self.number, self.pointer
+        );
+        // Which of them a piece reads is the compiler's business.
+        for argument in self.arguments(signature) {
+            text.push_str(&format!("    (void){argument};\n"));
         }
-        let parameters = format!("{parameters}, {} {}w", self.number, self.pointer);
-        (parameters, arguments + "w")
+        text + statements + "}\n\n"
+    }
+
+    fn calls(&self, signature: &Signature<'_>, count: usize, size: usize) -> String {
+        let arguments = self.arguments(signature).collect::<Vec<_>>().join(", ");
+        let mut text = format!("    {} w[{}];\n", self.number, size.max(1));
+        for number in 0..count {
+            text.push_str(&format!("    {}_{number}({arguments});\n", signature.name));
+        }
+        text
+    }
+
+    /// The arguments of the pieces of a function.
+    fn arguments<'s>(&self, signature: &'s Signature<'_>) -> impl Iterator<Item = &'s str> {
+        let slots = (!self.slots.is_empty()).then_some("c");
+        let inputs = signature.inputs.iter().map(|field| field.name.as_str());
+        slots.into_iter().chain(inputs).chain(["w"])
+    }
+
+    /// Outputs are written in the order of their numbers.
+    fn function(&self, signature: &Signature<'_>, body: &Body) -> String {
+        let (parameters, unused) = self.parameters(signature);
+        let mut text = format!(
+            "{}{} {}({parameters})\n{{\n{unused}{}",
+            body.pieces, self.head, signature.name, body.statements
+        );
+        for (number, value) in body.outputs.iter().enumerate() {
+            if let Some((field, at)) = Signature::find(&signature.outputs, number) {
+                let place = field.place(at, |name| format!("*{name}"));
+                text.push_str(&format!("    {place} = {value};\n"));
+            }
+        }
+        text + "}\n"
     }
 
     /// A number in hexadecimal, which every compiler reads without rounding.
@@ -131,17 +200,6 @@ impl C {
             true => format!("(-{text})"),
             false => text,
         }
-    }
-
-    /// The head of the function of a signature, up to its opening brace, and statements for what it does not read.
-    pub(super) fn head(&self, signature: &Signature<'_>) -> String {
-        let (parameters, unused) = self.parameters(signature);
-        format!("{} {}({parameters})\n{{\n{unused}", self.head, signature.name)
-    }
-
-    /// The statement that declares `name` as the value of `expression`.
-    pub(super) fn declare(&self, name: &str, expression: &str) -> String {
-        format!("    const {} {name} = {expression};\n", self.number)
     }
 
     /// An operation on operands as they are written.

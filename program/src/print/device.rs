@@ -3,10 +3,12 @@
 use alloc::collections::BTreeMap;
 use alloc::format;
 use alloc::string::{String, ToString};
+use alloc::vec;
 
 use super::c::{C, Dialect};
 use super::function::function;
-use crate::graph::{Id, Node};
+use super::template::{Value, fill};
+use crate::graph::{Id, Node, Program};
 use crate::kernel::{Clock, Kernel, Precision};
 use crate::print::c::signatures;
 use crate::print::steps::{LoopStyle, steps};
@@ -66,19 +68,6 @@ pub fn device_unit(
     about: &str,
 ) -> String {
     let device = Device::new(kernel, language);
-    let mut text = comment(kernel, about);
-    text.push_str(match language {
-        DeviceLanguage::OpenCl => HEAD_OPENCL,
-        DeviceLanguage::Cuda => HEAD_CUDA,
-    });
-    text.push_str(&device.sizes(kernel));
-    text.push_str(&device.exponents(kernel));
-    text.push_str(&device.coefficients(kernel, slots));
-    text.push_str(COPY);
-    for signature in signatures(kernel, PREFIX) {
-        text.push('\n');
-        text.push_str(&function(&device, &signature, device.longest));
-    }
     let style = LoopStyle {
         prefix: PREFIX.into(),
         count: "COUNT".into(),
@@ -91,49 +80,45 @@ pub fn device_unit(
         clock: device.times_of_step(slots),
         ..LoopStyle::default()
     };
-    let times =
-        device.clock.as_ref().map(|clock| format!("    NUMBER times[{}];\n", clock.times.len()));
-    text + &FUNCTION
-        .replace("/*TIMES*/", &times.unwrap_or_default())
-        .replace("/*STEPS*/", &steps(kernel, &device, &style, 4))
-}
-
-fn comment(kernel: &Kernel, about: &str) -> String {
-    let mut text = String::from("/*\n");
-    for line in about.lines() {
-        text.push_str(&format!(" * {}\n", c_comment(line)));
-    }
     let programs = &kernel.programs;
-    let of = |list: &[&crate::Program]| list.iter().map(|one| one.cost().total()).sum::<usize>();
+    let of = |list: &[&Program]| list.iter().map(|one| one.cost().total()).sum::<usize>();
     let fixed = of(&[&programs.guess, &programs.accept, &programs.transport]);
-    let (n, m, correction) = (kernel.dim, kernel.element, of(&[&programs.correct]));
     // As headers count them.
     let often = if kernel.guesses_from_element() { "often five" } else { "most often one" };
-    let time = match kernel.clock() {
-        Some(Clock { start: 0.0, .. }) => {
-            String::from(" * Steps depend on time: step i of a trajectory begins at time i h.\n")
-        }
-        Some(Clock { start, .. }) => {
-            format!(
-                " * Steps depend on time: step i of a trajectory begins at time {start:?} + i h.\n"
-            )
-        }
-        None => String::new(),
-    };
-    text.push_str(&format!(
-        " *\n\
-         \x20* coadjoint_steps(g, mu, done, status, rows, target): a thread a trajectory, numbers of {} precision.\n\
-         \x20* Number i of trajectory r is at i * rows + r of g ({m} numbers each) and mu ({n} each). Trajectory r goes from\n\
-         \x20* step done[r] on to step target, or as far as steps are accepted: done[r] says how far, status[r] why no farther:\n\
-         \x20* 0 it is at the target, 1 the equation of a step is not solved, 2 its solution is far from the first guess,\n\
-         \x20* 3 the step is outside the domain where it is accepted at once, 4 the state is not finite or not on the group.\n\
-         \x20* Let targets be multiples of {BLOCK}, or one.\n\
-         \x20*\n\
-         \x20* A step takes {fixed} operations and {correction} for each correction, {often}.\n\
-         {time}\x20*/\n",
-        kernel.precision(),
-    ));
-    text
+    let [scaled, exponent, exponents] = device.exponents(kernel);
+    let functions = signatures(kernel, PREFIX)
+        .map(|signature| format!("\n{}", function(&device, &signature, device.longest)));
+    let literal = |value| device.literal(value);
+    // Arrays have one number at least.
+    let array = |length: usize| length.max(1).to_string();
+    let mut values = vec![
+        (if language == DeviceLanguage::Cuda { "CUDA" } else { "OPENCL" }, "1".into()),
+        ("ABOUT", about.lines().map(|line| format!(" * {}\n", c_comment(line))).collect()),
+        ("PRECISION", device.precision.to_string()),
+        ("BLOCK", BLOCK.to_string()),
+        ("FIXED", fixed.to_string()),
+        ("CORRECTION", programs.correct.cost().total().to_string()),
+        ("OFTEN", often.into()),
+        ("NUMBER", device.c.number.clone()),
+        ("ONE", literal(1.0)),
+        ("DIM", kernel.dim.to_string()),
+        ("ELEMENT", kernel.element.to_string()),
+        ("DIM_ARRAY", array(kernel.dim)),
+        ("ELEMENT_ARRAY", array(kernel.element)),
+        ("TOLERANCE", literal(kernel.tolerance)),
+        ("NEAR", literal(kernel.near)),
+        ("SCALED", scaled),
+        ("EXPONENT", exponent),
+        ("EXPONENTS", exponents),
+        ("PROGRAMS", functions.collect()),
+        ("STEPS", steps(kernel, &device, &style, 4)),
+    ];
+    values.extend(device.coefficients(kernel, slots));
+    if let Some(Clock { start, times, .. }) = &device.clock {
+        let start = if *start == 0.0 { String::new() } else { format!("{start:?} + ") };
+        values.extend([("TIMES", times.len().to_string()), ("START", start)]);
+    }
+    fill(include_str!("device.c.in"), &values)
 }
 
 /// C as these languages have it; coefficients are in an array of the text.
@@ -193,25 +178,6 @@ impl Device {
         self.c.literal(self.precision.round(value))
     }
 
-    /// The sizes that the loop uses, as macros; arrays have one number at least.
-    fn sizes(&self, kernel: &Kernel) -> String {
-        let (n, m) = (kernel.dim, kernel.element);
-        let literal = |value| self.literal(value);
-        let array = |length: usize| length.max(1);
-        format!(
-            "#define NUMBER {}\n#define ONE {}\n\
-             #define DIM {n}\n#define ELEMENT {m}\n\
-             #define DIM_ARRAY {}\n#define ELEMENT_ARRAY {}\n\
-             #define TOLERANCE {}\n#define NEAR {}\n",
-            self.c.number,
-            literal(1.0),
-            array(n),
-            array(m),
-            literal(kernel.tolerance),
-            literal(kernel.near),
-        )
-    }
-
     /// The times of the step that begins, where the steps of a trajectory depend on them.
     fn times_of_step(&self, slots: &[f64]) -> String {
         let Some(clock) = &self.clock else { return String::new() };
@@ -229,12 +195,10 @@ impl Device {
         text
     }
 
-    /// The functions a·2ᵏ and the exponent of a, by their bits, where a program has them.
-    fn exponents(&self, kernel: &Kernel) -> String {
+    /// The functions a·2ᵏ and the exponent of a, by their bits; the last text is empty where none has.
+    fn exponents(&self, kernel: &Kernel) -> [String; 3] {
         let asks = |node: &Node| matches!(node, Node::Scale(..) | Node::Exponent(_));
-        if !signatures(kernel, PREFIX).any(|one| one.program.nodes().iter().any(asks)) {
-            return String::new();
-        }
+        let asked = signatures(kernel, PREFIX).any(|one| one.program.nodes().iter().any(asks));
         let (bits, fraction) = match self.precision {
             Precision::Double => (64, 52),
             Precision::Single => (32, 23),
@@ -254,22 +218,20 @@ impl Device {
         let operation = |node, operands: &[&str]| self.operation(node, operands);
         let sum = operation(Node::Add(Id(0), Id(0)), &["k", &large]);
         let factor = format!("{to_number}(({word}){to_bits}({sum}) << {fraction})");
-        let product = operation(Node::Mul(Id(0), Id(0)), &["a", &factor]);
         let mask = 2 * bias + 1;
-        format!(
-            "\nINLINE NUMBER scaled(const NUMBER a, const NUMBER k)\n{{\n    return {product};\n}}\n\n\
-             INLINE NUMBER exponent(const NUMBER a)\n{{\n    \
-             return (NUMBER)(int)((({word}){to_bits}(a) >> {fraction}) & {mask}u) - (NUMBER){bias};\n}}\n",
-        )
+        [
+            operation(Node::Mul(Id(0), Id(0)), &["a", &factor]),
+            format!(
+                "(NUMBER)(int)((({word}){to_bits}(a) >> {fraction}) & {mask}u) - (NUMBER){bias}"
+            ),
+            if asked { "1".into() } else { String::new() },
+        ]
     }
 
     /// The array of the folded coefficients that the programs read.
-    fn coefficients(&self, kernel: &Kernel, slots: &[f64]) -> String {
+    fn coefficients(&self, kernel: &Kernel, slots: &[f64]) -> [Value; 3] {
         let flows = kernel.flows().map_or(1, |flows| flows as usize + 1);
         let count = self.places.len() * flows;
-        if count == 0 {
-            return String::new();
-        }
         let space = match self.language {
             DeviceLanguage::OpenCl => "__constant",
             DeviceLanguage::Cuda if count * self.precision.bytes() <= CONSTANT_BYTES => {
@@ -277,7 +239,7 @@ impl Device {
             }
             DeviceLanguage::Cuda => "static __device__ const",
         };
-        let mut text = format!("\n{space} NUMBER coadjoint_slots[{count}] = {{\n");
+        let mut text = String::new();
         for flow in 0..flows {
             for &index in self.places.keys() {
                 let value = slots.get(flow * kernel.slots_of_flow() + index);
@@ -285,8 +247,7 @@ impl Device {
                 text.push_str(&format!("    {},\n", self.literal(value)));
             }
         }
-        text.push_str("};\n");
-        text
+        [("SLOTS", text), ("SPACE", space.into()), ("COUNT", count.to_string())]
     }
 }
 
@@ -341,74 +302,6 @@ impl Dialect for Device {
     }
 }
 
-const HEAD_OPENCL: &str = r"
-#pragma OPENCL FP_CONTRACT OFF
-#define KERNEL __kernel
-#define INLINE static
-#define CALLED static
-#define GLOBAL __global
-#define RESTRICT restrict
-#define COUNT ulong
-#define COEFFICIENTS __constant NUMBER *
-#define ROW get_global_id(0)
-";
-
-const HEAD_CUDA: &str = r#"
-#define KERNEL extern "C" __global__
-#define INLINE static __device__ __forceinline__
-#define CALLED static __device__ __noinline__
-#define GLOBAL
-#define RESTRICT __restrict__
-#define COUNT unsigned long long
-#define COEFFICIENTS const NUMBER *
-#define ROW ((COUNT)blockIdx.x * blockDim.x + threadIdx.x)
-#ifndef NAN
-#define NAN (0.0f / 0.0f)
-#endif
-#ifndef INFINITY
-#define INFINITY (1.0f / 0.0f)
-#endif
-"#;
-
-const COPY: &str = r"
-INLINE void coadjoint_copy(NUMBER *RESTRICT to, const NUMBER *RESTRICT from, const int length)
-{
-    for (int i = 0; i < length; i++) {
-        to[i] = from[i];
-    }
-}
-";
-
 /// Decisions are those of [`Stepper::advance`](crate::Stepper::advance).
-const FUNCTION: &str = r"
-KERNEL void coadjoint_steps(GLOBAL NUMBER *RESTRICT g_state, GLOBAL NUMBER *RESTRICT mu_state,
-    GLOBAL COUNT *RESTRICT done_state, GLOBAL unsigned int *RESTRICT status, const COUNT rows,
-    const COUNT target)
-{
-    const COUNT row = ROW;
-    NUMBER g[ELEMENT_ARRAY], mu[DIM_ARRAY];
-    COUNT steps;
-    unsigned int why = 0u;
-/*TIMES*/    if (row >= rows || done_state[row] >= target) {
-        return;
-    }
-    steps = target - done_state[row];
-    for (int i = 0; i < ELEMENT; i++) {
-        g[i] = g_state[i * rows + row];
-    }
-    for (int i = 0; i < DIM; i++) {
-        mu[i] = mu_state[i * rows + row];
-    }
-/*STEPS*/    for (int i = 0; i < ELEMENT; i++) {
-        g_state[i * rows + row] = g[i];
-    }
-    for (int i = 0; i < DIM; i++) {
-        mu_state[i * rows + row] = mu[i];
-    }
-    done_state[row] += done;
-    status[row] = why;
-}
-";
-
 const REFUSED_STEP: &str =
     "why = !(distance <= NEAR) ? 2u : !(residual_bound <= TOLERANCE) ? 1u : 3u;";

@@ -8,61 +8,66 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::c::Dialect;
-use crate::graph::Node;
+use crate::graph::{Node, Program};
 use crate::print::c::Signature;
 
-/// The function of a signature, where it has more than `longest` operations as pieces that it calls. What a piece leaves
-/// for later ones is in an array `w`.
-pub fn function(dialect: &impl Dialect, signature: &Signature<'_>, longest: usize) -> String {
-    let nodes = signature.program.nodes();
-    let count = signature.program.operations().div_ceil(longest).max(1);
-    let mut body = Body { dialect, signature, names: Vec::with_capacity(nodes.len()) };
-    if count == 1 {
-        let mut text = dialect.c().head(signature);
-        body.statements(nodes.len(), &mut text);
-        body.outputs(|_| true, &mut text);
-        return text + "}\n";
-    }
-    let piece = signature.program.parts(longest);
-    let (places, size) = places(nodes, &piece, count);
-    let (parameters, arguments) = dialect.c().workspace(signature);
-    let (mut text, mut calls) = (String::new(), String::new());
-    for number in 0..count {
-        let name = format!("{}_{number}", signature.name);
-        text.push_str(&format!("{} {name}({parameters})\n{{\n", dialect.c().head));
-        // Which of them a piece reads is the compiler's business.
-        for argument in arguments.split(", ") {
-            text.push_str(&format!("    (void){argument};\n"));
-        }
-        let first = body.names.len();
-        let end = piece.partition_point(|&own| own <= number);
-        for next in first..end {
-            body.statements(next + 1, &mut text);
-            if let Some(place) = places.get(&next) {
-                text.push_str(&format!("    w[{place}] = {};\n", body.names[next]));
-            }
-        }
-        body.outputs(|node| piece[node] == number, &mut text);
-        for (node, place) in places.range(first..end) {
-            body.names[*node] = format!("w[{place}]");
-        }
-        text.push_str("}\n\n");
-        calls.push_str(&format!("    {name}({arguments});\n"));
-    }
-    text.push_str(&dialect.c().head(signature));
-    text.push_str(&format!("    {} w[{}];\n{calls}}}\n", dialect.c().number, size.max(1)));
-    text
+/// The text of a program.
+#[derive(Clone, Debug, Default)]
+pub struct Body {
+    /// Functions that the statements call.
+    pub pieces: String,
+    /// A line for each operation, or the calls of the pieces.
+    pub statements: String,
+    /// For each output the expression that reads it.
+    pub outputs: Vec<String>,
 }
 
-/// The statements of a function. Inputs, coefficients and numbers stand where they are used.
-struct Body<'a, D> {
+/// The function of a signature; [`body`] says what `longest` means.
+pub fn function(dialect: &impl Dialect, signature: &Signature<'_>, longest: usize) -> String {
+    dialect.function(signature, &body(dialect, signature, longest))
+}
+
+/// The text of a signature's program, where it has more than `longest` operations as pieces. What a piece leaves for later
+/// ones and for the outputs is in an array `w`.
+pub fn body(dialect: &impl Dialect, signature: &Signature<'_>, longest: usize) -> Body {
+    let program = signature.program;
+    let nodes = program.nodes();
+    let count = program.operations().div_ceil(longest).max(1);
+    let mut writer = Writer { dialect, signature, names: Vec::with_capacity(nodes.len()) };
+    let mut result = Body::default();
+    if count == 1 {
+        writer.statements(nodes.len(), &mut result.statements);
+    } else {
+        let piece = program.parts(longest);
+        let (places, size) = places(program, &piece, count);
+        for number in 0..count {
+            let mut text = String::new();
+            let first = writer.names.len();
+            let end = piece.partition_point(|&own| own <= number);
+            writer.statements(end, &mut text);
+            for (node, place) in places.range(first..end) {
+                let place = dialect.shared(*place);
+                text.push_str(&format!("    {place} = {};\n", writer.names[*node]));
+                writer.names[*node] = place;
+            }
+            result.pieces.push_str(&dialect.piece(signature, number, size, &text));
+        }
+        result.statements = dialect.calls(signature, count, size);
+    }
+    let read = |id: &crate::Id| writer.names[id.index()].clone();
+    result.outputs = program.outputs().iter().map(read).collect();
+    result
+}
+
+/// Writes nodes. Inputs, coefficients and numbers stand where they are used.
+struct Writer<'a, D> {
     dialect: &'a D,
     signature: &'a Signature<'a>,
     /// For each node written so far, the text that reads it.
     names: Vec<String>,
 }
 
-impl<D: Dialect> Body<'_, D> {
+impl<D: Dialect> Writer<'_, D> {
     /// A line for each operation up to this node.
     fn statements(&mut self, end: usize, text: &mut String) {
         for at in self.names.len()..end {
@@ -70,23 +75,12 @@ impl<D: Dialect> Body<'_, D> {
             let name = self.leaf(node).unwrap_or_else(|| {
                 let operands: Vec<&str> =
                     node.operands().map(|id| self.names[id.index()].as_str()).collect();
-                let name = format!("t{at}");
+                let name = self.dialect.bound(&format!("t{at}"));
                 let value = self.dialect.operation(node, &operands);
-                text.push_str(&self.dialect.c().declare(&name, &value));
+                text.push_str(&self.dialect.declare(&name, &value));
                 name
             });
             self.names.push(name);
-        }
-    }
-
-    /// A line for each output whose node `of` wants.
-    fn outputs(&self, of: impl Fn(usize) -> bool, text: &mut String) {
-        for (number, id) in self.signature.program.outputs().iter().enumerate() {
-            let found = Signature::find(&self.signature.outputs, number);
-            if let Some((field, at)) = found.filter(|_| of(id.index())) {
-                let place = field.place(at, |name| format!("*{name}"));
-                text.push_str(&format!("    {place} = {};\n", self.names[id.index()]));
-            }
         }
     }
 
@@ -108,17 +102,21 @@ impl<D: Dialect> Body<'_, D> {
     }
 }
 
-/// For each operation that a later piece reads its place in `w`, and the length of `w`. A place is free again in the
-/// piece after the last that reads it.
-fn places(nodes: &[Node], piece: &[usize], count: usize) -> (BTreeMap<usize, usize>, usize) {
+/// For each operation that a later piece or an output reads its place in `w`, and the length of `w`. A place is free again
+/// in the piece after the last that reads it.
+fn places(program: &Program, piece: &[usize], count: usize) -> (BTreeMap<usize, usize>, usize) {
+    let nodes = program.nodes();
     let mut last = piece.to_vec();
     for (at, node) in nodes.iter().enumerate() {
         for operand in node.operands() {
             last[operand.index()] = last[operand.index()].max(piece[at]);
         }
     }
+    for output in program.outputs() {
+        last[output.index()] = count;
+    }
     let mut places = BTreeMap::new();
-    let mut ends: Vec<Vec<usize>> = vec![Vec::new(); count];
+    let mut ends: Vec<Vec<usize>> = vec![Vec::new(); count + 1];
     let mut free: Vec<usize> = Vec::new();
     let mut size = 0;
     let mut current = 0;

@@ -11,10 +11,12 @@ mod device;
 mod function;
 mod native;
 mod steps;
+mod template;
 mod vectors;
 
 pub use c::{C, Dialect, Field, Signature, signatures};
 pub use device::{DeviceLanguage, KERNEL_NAME, device_unit};
-pub use function::function;
+pub use function::{Body, body, function};
 pub use native::{ABI, native_unit};
-pub use steps::{LoopStyle, steps};
+pub use steps::{Loop, LoopStyle, Name, statements, steps};
+pub use template::{Value, fill};

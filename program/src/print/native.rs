@@ -1,11 +1,13 @@
 //! A kernel as a unit of C for this machine: the loop of a trajectory, and that of lanes side by side.
 
 use alloc::format;
-use alloc::string::String;
+use alloc::string::{String, ToString};
+use alloc::vec;
 
 use super::c::C;
 use super::function::function;
-use super::vectors::{PREAMBLE, Vectors};
+use super::template::fill;
+use super::vectors::Vectors;
 use crate::kernel::{Kernel, Trajectories, WIDTH};
 use crate::print::c::signatures;
 use crate::print::steps::{LoopStyle, steps};
@@ -43,23 +45,30 @@ pub fn native_unit(kernel: &Kernel, trajectories: Trajectories) -> String {
         functions: ["fused", "root", "size", "nearest", "scaled", "exponent"].map(String::from),
         ..C::default()
     });
-    let mut text =
-        String::from("/* A step of a Lie-Poisson integrator, written by coadjoint. */\n");
-    text.push_str(&sizes(kernel));
-    text.push_str(PREAMBLE);
+    let literal = |value| C::default().literal(value);
+    let mut values = vec![
+        ("DIM", kernel.dim.to_string()),
+        ("ELEMENT", kernel.element.to_string()),
+        ("TOLERANCE", literal(kernel.tolerance)),
+        ("NEAR", literal(kernel.near)),
+        ("SLOTS", kernel.slots().to_string()),
+        ("SLOTS_OF_FLOW", kernel.slots_of_flow().to_string()),
+        ("WIDTH", WIDTH.to_string()),
+        ("ABI", ABI.to_string()),
+    ];
     if trajectories.one() {
-        for signature in signatures(kernel, "scalar_") {
-            text.push('\n');
-            text.push_str(&function(&scalar, &signature, LONGEST));
-        }
-        let style = LoopStyle { note: SCALAR_NOTE.into(), ..LoopStyle::default() };
-        text.push_str(&SCALAR.replace("/*STEPS*/", &steps(kernel, &scalar, &style, 4)));
+        let functions = signatures(kernel, "scalar_")
+            .map(|signature| format!("\n{}", function(&scalar, &signature, LONGEST)));
+        let style = LoopStyle {
+            note: "noted(&most, &residual, tried, residual_bound);".into(),
+            ..LoopStyle::default()
+        };
+        let steps = steps(kernel, &scalar, &style, 4);
+        values.extend([("SCALAR", functions.collect()), ("SCALAR_STEPS", steps)]);
     }
     if trajectories.lanes() {
-        for signature in signatures(kernel, "lanes_") {
-            text.push('\n');
-            text.push_str(&function(&lanes, &signature, LONGEST));
-        }
+        let functions = signatures(kernel, "lanes_")
+            .map(|signature| format!("\n{}", function(&lanes, &signature, LONGEST)));
         let style = LoopStyle {
             prefix: "lanes_".into(),
             count: "M".into(),
@@ -68,88 +77,8 @@ pub fn native_unit(kernel: &Kernel, trajectories: Trajectories) -> String {
             right: "right == spread(1.0)".into(),
             ..LoopStyle::default()
         };
-        text.push_str(&LANES.replace("/*STEPS*/", &steps(kernel, &lanes, &style, 8)));
+        let steps = steps(kernel, &lanes, &style, 8);
+        values.extend([("LANES", functions.collect()), ("LANES_STEPS", steps)]);
     }
-    text
+    fill(include_str!("native.c.in"), &values)
 }
-
-/// The sizes as macros, those of arrays at least 1, and as an exported array.
-fn sizes(kernel: &Kernel) -> String {
-    let (n, m) = (kernel.dim, kernel.element);
-    let (tolerance, near) = (kernel.tolerance, kernel.near);
-    let literal = |value| C { suffix: String::new(), ..C::default() }.literal(value);
-    let array = |length: usize| length.max(1);
-    format!(
-        "#define bool _Bool\n#define true 1\n#define false 0\n\
-         #define NAN __builtin_nan(\"\")\n\
-         #define INFINITY __builtin_inf()\n\
-         #define EXPORT __attribute__((visibility(\"default\")))\n\
-         #define DIM {n}\n#define ELEMENT {m}\n\
-         #define DIM_ARRAY {}\n#define ELEMENT_ARRAY {}\n\
-         #define TOLERANCE {}\n#define NEAR {}\n#define SLOTS {}\n\
-         #define WIDTH {WIDTH}\n\
-         EXPORT const unsigned long long coadjoint_sizes[4] = {{{ABI}, {n}, {m}, {}}};\n",
-        array(n),
-        array(m),
-        literal(tolerance),
-        literal(near),
-        kernel.slots_of_flow(),
-        kernel.slots(),
-    )
-}
-
-const SCALAR: &str = r"
-EXPORT unsigned long long coadjoint_advance(const double *restrict c, double *restrict g_state,
-    double *restrict mu_state, unsigned long long steps, double *restrict report)
-{
-    double g[ELEMENT_ARRAY], mu[DIM_ARRAY];
-    bool live = true;
-    unsigned long long most = 0;
-    double residual = 0.0;
-    copy(g, g_state, ELEMENT);
-    copy(mu, mu_state, DIM);
-/*STEPS*/    copy(g_state, g, ELEMENT);
-    copy(mu_state, mu, DIM);
-    report[0] = (double)most;
-    report[1] = residual;
-    return done;
-}
-";
-
-const SCALAR_NOTE: &str = "if (most < tried) {
-    most = tried;
-}
-if (residual < residual_bound) {
-    residual = residual_bound;
-}";
-
-const LANES: &str = r"
-EXPORT void coadjoint_advance_lanes(const double *restrict c, double *restrict g_state,
-    double *restrict mu_state, unsigned long long asked, const unsigned char *restrict alive,
-    unsigned long long *restrict total)
-{
-    for (int first = 0; first < WIDTH; first += W) {
-        const M steps = counts(asked >> 63 ? 0x7fffffffffffffff : asked);
-        V g[ELEMENT_ARRAY], mu[DIM_ARRAY];
-        M live;
-        for (int i = 0; i < W; i++) {
-            live[i] = alive[first + i] ? -1 : 0;
-        }
-        for (int i = 0; i < ELEMENT; i++) {
-            g[i] = load(g_state + i * WIDTH + first);
-        }
-        for (int i = 0; i < DIM; i++) {
-            mu[i] = load(mu_state + i * WIDTH + first);
-        }
-/*STEPS*/        for (int i = 0; i < ELEMENT; i++) {
-            store(g_state + i * WIDTH + first, g[i]);
-        }
-        for (int i = 0; i < DIM; i++) {
-            store(mu_state + i * WIDTH + first, mu[i]);
-        }
-        for (int i = 0; i < W; i++) {
-            total[first + i] = done[i];
-        }
-    }
-}
-";

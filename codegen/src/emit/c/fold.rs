@@ -4,14 +4,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 use coadjoint_program::fold::{DEGREES, Fold, LastTerm};
+use coadjoint_program::print::Value;
 use coadjoint_program::quoting::c_comment;
 use coadjoint_program::{Node, Program};
 
-use super::template::{ABOUT, BEGIN, BOUND, END, LAST, LOOP, POWER, RADIUS, STEP, SYMBOLS, WITHIN};
+use crate::emit::c::HeaderError;
 use crate::emit::c::dialect::decimal;
 use crate::emit::c::names::Names;
 use crate::emit::c::parameter;
-use crate::emit::c::{HeaderError, HeaderOptions};
 use crate::integrator::{FoldTable, Kicks};
 use crate::step::{Origin, Step};
 
@@ -90,105 +90,57 @@ impl Folding {
         self.places.len() - self.times
     }
 
-    pub(super) fn init(&self, origin: &Origin, names: &Names, options: &HeaderOptions) -> String {
+    /// What folding reads, for the template.
+    pub(super) fn values(&self, origin: &Origin, names: &Names) -> Vec<Value> {
         let fold = self.table.lists();
         let (given, own) = (origin.facts().parameters, origin.symbols());
         let scalars = parameter::scalars(given, names);
-        let symbols: Vec<String> =
-            own.iter().map(|symbol| parameter::expression(&symbol.expr, &scalars, names)).collect();
-        let mut text = String::new();
-        if symbols.iter().any(|text| text.contains(parameter::POWER_OF)) {
-            text.push_str(POWER);
-        }
-        if !fold.last.is_empty() {
-            text.push_str(WITHIN);
-        }
-        let parameters = match given.is_empty() {
-            true => String::new(),
-            false => ", const @p@_parameters *parameters".to_owned(),
-        };
+        let expressions = parameter::symbols(own, &scalars, names);
+        let has = |part: &str| expressions.iter().any(|text| text.contains(part));
         let degrees = fold.last.iter().map(|term| term.3 as usize + 1).max().unwrap_or(0);
         let factors = fold.last.iter().map(|term| term.1 as usize + 1).max().unwrap_or(0);
-        let bounds = degrees * factors;
-        let products = fold.products.len();
+        let (places, products) = (degrees * factors, fold.products.len());
         let powers = fold.parts.iter().map(|part| part.0 as usize + 1).max().unwrap_or(1);
-        let stack = if products > 0 { 2 * products + 1 } else { 0 } + powers + 2 * bounds + 16;
-        let about = ABOUT.replace("/*BYTES*/", &(8 * stack).to_string());
-        let begin = text.len();
-        if self.kick_at.is_none() {
-            text.push_str(&about);
-        }
-        text.push_str(&format!(
-            "static inline @p@_status @p@_init(@p@_map *map, double h{parameters})\n{{\n"
-        ));
-        declare(&fold, degrees, &mut text);
-        if products > 0 {
-            let _ = writeln!(text, "    double symbol[{}];", symbols.len());
-            let _ = writeln!(text, "    double product[{}];", products + 1);
-        }
-        let _ = writeln!(text, "    double power[{powers}];");
-        if bounds > 0 {
-            let zeros = vec!["0.0"; bounds].join(", ");
-            let _ = writeln!(text, "    double last[{bounds}] = {{{zeros}}};");
-            let _ = writeln!(text, "    double before[{bounds}] = {{{zeros}}};");
-        }
-        let mut next = String::new();
-        if !fold.bound.is_empty() {
-            next.push_str("    uint32_t next_bound = 0u;\n");
-        }
-        if !fold.last.is_empty() {
-            next.push_str("    uint32_t next_last = 0u;\n");
-        }
-        text.push_str(&BEGIN.replace("/*NEXT*/", &next));
-        if let Some(step) = options.only_step {
-            let step = decimal(step);
-            let _ = writeln!(text, "    if (!((h >= {step}) && (h <= {step}))) {{");
-            text.push_str("        status = @P@_BAD_STEP;\n    }\n");
-        }
-        let read = products > 0 && symbols.iter().any(|text| text.contains(parameter::MEMBER));
-        if !read && !given.is_empty() {
-            text.push_str("    (void)parameters;\n");
-        }
-        if products > 0 {
-            for (i, (expression, symbol)) in symbols.iter().zip(own).enumerate() {
-                let note = c_comment(&symbol.text);
-                let _ = writeln!(text, "    symbol[{i}] = {expression}; /* {note} */");
-            }
-            text.push_str(
-                &SYMBOLS
-                    .replace("/*SYMBOLS*/", &format!("{}u", symbols.len()))
-                    .replace("/*PRODUCTS*/", &format!("{products}u")),
-            );
-        }
-        let summand = match products {
-            0 => "factor[term]",
-            _ => "(factor[term] * product[product_of[term]])",
-        };
-        let text = text
-            + &LOOP
-                .replace("/*BOUND*/", if fold.bound.is_empty() { "" } else { BOUND })
-                .replace("/*LAST*/", if fold.last.is_empty() { "" } else { LAST })
-                .replace("/*SUMMAND*/", summand)
-            + &END.replace("/*RADIUS*/", if fold.last.is_empty() { "" } else { RADIUS });
-        let text = match (self.kick_at, origin.kicks()) {
-            (Some(kick_at), Some(kicks)) => {
-                let passed = if parameters.is_empty() { "" } else { ", parameters" };
-                let step = of_step(kicks, &parameters, passed);
-                text[..begin].to_owned() + &of_flow(&text[begin..], kick_at) + &about + &step
-            }
-            _ => text,
-        };
-        let sizes = [
-            ("/*POWERS*/", powers),
-            ("/*BASES*/", fold.bases.len()),
-            ("/*BOUNDS*/", fold.bound.len()),
-            ("/*LASTS*/", fold.last.len()),
-            ("/*PLACES*/", bounds),
-            ("/*DEGREES*/", degrees),
+        let stack = if products > 0 { 2 * products + 1 } else { 0 } + powers + 2 * places + 16;
+        let mut tables = String::new();
+        declare(&fold, degrees, &mut tables);
+        let symbols = own.iter().zip(&expressions).enumerate().map(|(i, (symbol, expression))| {
+            format!("    symbol[{i}] = {expression}; /* {} */\n", c_comment(&symbol.text))
+        });
+        let when = |holds: bool, text: &str| if holds { names.fill(text) } else { String::new() };
+        let read = products > 0 && has(parameter::MEMBER);
+        let size = |size: usize| when(size > 0, &format!("{size}u"));
+        let mut values = vec![
+            ("TABLES", tables),
+            ("POWER", when(has(parameter::POWER_OF), "1")),
+            ("UNREAD", when(!read && !given.is_empty(), "1")),
+            ("PARAMETER", when(!given.is_empty(), ", const @p@_parameters *parameters")),
+            ("PASSED", when(!given.is_empty(), ", parameters")),
+            ("SET_SYMBOLS", symbols.collect()),
+            ("BYTES", (8 * stack).to_string()),
+            ("SYMBOLS", size(own.len())),
+            ("PRODUCTS", size(products)),
+            ("POWERS", size(powers)),
+            ("BASES", size(fold.bases.len())),
+            ("BOUND", size(fold.bound.len())),
+            ("LAST", size(fold.last.len())),
+            ("PLACES", size(places)),
+            ("DEGREES", size(degrees)),
         ];
-        let fill =
-            |text: String, (name, size): (&str, usize)| text.replace(name, &format!("{size}u"));
-        names.fill(&sizes.into_iter().fold(text, fill))
+        if let (Some(kick_at), Some(Kicks { splitting, .. })) = (self.kick_at, origin.kicks()) {
+            let list = |lengths: Vec<f64>| -> String {
+                lengths.iter().map(|length| format!("        {length:?},\n")).collect()
+            };
+            // After the last kick there is no flow.
+            let flows = splitting.flows().chain(splitting.flows().next()).collect();
+            values.extend([
+                ("KICK", ", double kick".to_owned()),
+                ("KICK_AT", format!("{kick_at}u")),
+                ("FLOWS", list(flows)),
+                ("KICKS", list(splitting.kicks().collect())),
+            ]);
+        }
+        values
     }
 }
 
@@ -252,32 +204,4 @@ fn rows(list: impl Iterator<Item = String>, width: usize, text: &mut String) {
         let _ = writeln!(text, "        {},", row.join(", "));
     }
     text.push_str("    };\n");
-}
-
-/// The function that folds for a flow and the kick before it, from that which folds for a step.
-fn of_flow(text: &str, kick_at: usize) -> String {
-    text.replace(
-        "@p@_init(@p@_map *map, double h",
-        "@p@_internal_fold(double *c, double h, double kick",
-    )
-    .replace("map->c", "c")
-    .replace("    map->status = status;\n", "")
-    .replace(
-        "    if (status != @P@_OK) {\n",
-        &format!("    c[{kick_at}u] = kick;\n    if (status != @P@_OK) {{\n"),
-    )
-}
-
-/// The function that folds for all flows and kicks of a step.
-fn of_step(kicks: &Kicks, parameters: &str, passed: &str) -> String {
-    let list = |lengths: Vec<f64>| {
-        let lengths: Vec<String> = lengths.iter().map(|length| format!("{length:?}")).collect();
-        format!("{{\n        {},\n    }}", lengths.join(",\n        "))
-    };
-    // After the last kick there is no flow.
-    let flows = kicks.splitting.flows().chain(kicks.splitting.flows().next());
-    STEP.replace("/*FLOWS*/", &list(flows.collect()))
-        .replace("/*KICKS*/", &list(kicks.splitting.kicks().collect()))
-        .replace("/*PARAMETERS*/", parameters)
-        .replace("/*PASSED*/", passed)
 }

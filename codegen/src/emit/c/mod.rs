@@ -2,7 +2,8 @@
 //!
 //! The header has the loop of [`coadjoint_program::Stepper::advance`] and computes its bits where the compiler contracts
 //! nothing. It folds the coefficients by the operations of [`coadjoint_program::fold`], has no globals, allocates nothing,
-//! and every loop in it has an end that is known beforehand.
+//! and every loop in it has an end that is known beforehand. Its text is `header.h.in`; what differs between systems is
+//! filled into that.
 
 mod dialect;
 mod fold;
@@ -10,9 +11,9 @@ mod names;
 mod parameter;
 mod programs;
 mod reference;
-mod template;
 
 use coadjoint_program::Precision;
+use coadjoint_program::print::fill;
 
 use crate::emit::c::names::{MOST_OPERATIONS, Names};
 use crate::step::Origin;
@@ -36,20 +37,8 @@ pub fn header(origin: &Origin, options: &HeaderOptions) -> Result<String, Header
     }
     let names = Names::new(origin.facts().parameters, options);
     let fold = fold::Folding::new(origin, &step)?;
-    let text = [
-        reference::opening(origin, &step, &fold, &names, options),
-        reference::types(origin, &step, &fold, &names, options),
-        names.fill(template::HELPERS),
-        programs::functions(&step, &fold, &names),
-        programs::drive(&step, &fold, &names),
-        fold.init(origin, &names, options),
-        reference::functions(origin, &step, &names),
-        names.fill(template::END_OF_C),
-        match options.language {
-            Language::C => String::new(),
-            Language::Cpp => reference::class(origin, &step, &names),
-        },
-        format!("\n#endif /* {} */\n", names.guard()),
-    ];
-    Ok(text.concat())
+    let mut values = reference::values(origin, &step, &fold, &names, options);
+    values.extend(programs::values(&step, &fold, &names));
+    values.extend(fold.values(origin, &names));
+    Ok(fill(&names.fill(include_str!("header.h.in")), &values))
 }

@@ -2,8 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::emit::camel_case;
-use crate::emit::hygiene::fresh;
+use crate::emit::{camel_case, fresh};
 use crate::problem::Parameter;
 use crate::step::StepError;
 

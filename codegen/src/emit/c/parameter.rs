@@ -2,8 +2,9 @@
 
 use super::names::Names;
 use crate::emit::c::dialect::decimal;
-use crate::expr::{Function, ParameterExpr};
-use crate::problem::{Parameter, Shape};
+use crate::emit::parameter::{Notation, expression};
+use crate::expr::Function;
+use crate::problem::{Parameter, Shape, Symbol};
 
 /// The text before the name of a parameter.
 pub(crate) const MEMBER: &str = "parameters->";
@@ -42,36 +43,20 @@ pub(crate) fn member(shape: &Shape, name: &str) -> String {
     }
 }
 
-/// The value of `expr`; what has no parameter in it is a number already. `scalars` are the expressions of the parameters.
-pub(crate) fn expression(expr: &ParameterExpr, scalars: &[String], names: &Names) -> String {
-    let sub = |e: &ParameterExpr| expression(e, scalars, names);
-    let number = || decimal(expr.evaluate(&[]));
-    let text = match expr {
-        ParameterExpr::Rational(_) => number(),
-        ParameterExpr::Parameter(i) => scalars.get(*i).cloned().unwrap_or_else(number),
-        ParameterExpr::Add(a, b) => format!("({} + {})", sub(a), sub(b)),
-        ParameterExpr::Sub(a, b) => format!("({} - {})", sub(a), sub(b)),
-        ParameterExpr::Mul(a, b) => format!("({} * {})", sub(a), sub(b)),
-        ParameterExpr::Div(a, b) => format!("({} / {})", sub(a), sub(b)),
-        ParameterExpr::Neg(a) => format!("(-{})", sub(a)),
-        ParameterExpr::Powi(a, n) => {
-            let power = format!("{}{POWER_OF}{}, {}u)", names.lower, sub(a), n.unsigned_abs());
-            if *n < 0 { format!("(1.0 / {power})") } else { power }
-        }
-        ParameterExpr::Call(function, a) => {
-            let name = match function {
-                Function::Sqrt => "sqrt",
-                Function::Sin => "sin",
-                Function::Cos => "cos",
-                Function::Tan => "tan",
-                Function::Atan => "atan",
-                Function::Tanh => "tanh",
-                Function::Exp => "exp",
-                Function::Ln => "log",
-                Function::Abs => "fabs",
-            };
-            format!("{name}({})", sub(a))
-        }
+/// The values of symbols.
+pub(crate) fn symbols(symbols: &[Symbol], parameters: &[String], names: &Names) -> Vec<String> {
+    let notation = Notation {
+        parameters,
+        number: &decimal,
+        power: &|base, exponent| {
+            let power = format!("{}{POWER_OF}{base}, {}u)", names.lower, exponent.unsigned_abs());
+            if exponent < 0 { format!("(1.0 / {power})") } else { power }
+        },
+        call: &|function, argument| match function {
+            Function::Ln => format!("log({argument})"),
+            Function::Abs => format!("fabs({argument})"),
+            _ => format!("{}({argument})", function.name()),
+        },
     };
-    if text.contains(MEMBER) { text } else { number() }
+    symbols.iter().map(|symbol| expression(&symbol.expr, &notation)).collect()
 }

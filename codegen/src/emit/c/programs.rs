@@ -1,13 +1,12 @@
 //! The programs of a step as functions of C, and the loop that calls them, that of
 //! [`coadjoint_program::Stepper::advance`].
 
-use coadjoint_program::print::{Field, LoopStyle, Signature, function, signatures, steps};
-use coadjoint_program::{Graph, Program};
+use coadjoint_program::print::{Field, LoopStyle, Signature, Value, function, signatures, steps};
+use coadjoint_program::{Graph, Kernel, Program};
 
 use crate::emit::c::dialect::{Portable, decimal};
 use crate::emit::c::fold::Folding;
 use crate::emit::c::names::Names;
-use crate::emit::c::template::{CLOCK_OF_STEP, INVERT, timed};
 use crate::step::Step;
 
 /// Operations of a function at most: compilers allot registers in a time that grows faster than its length.
@@ -41,22 +40,16 @@ pub(super) fn casimirs(step: &Step) -> usize {
     step.kernel().programs.watch.outputs().len().saturating_sub(1)
 }
 
-/// All programs, and what they need.
-pub(super) fn functions(step: &Step, fold: &Folding, names: &Names) -> String {
-    let kernel = step.kernel();
-    let dialect = Portable::new(names, fold.places.clone());
-    let prefix = format!("{}_internal_", names.lower);
+/// All programs.
+fn functions(kernel: &Kernel, step: &Step, dialect: &Portable, prefix: &str) -> String {
     let (n, m) = (kernel.dim, kernel.element);
     let mut text = String::new();
-    if !step.inverted().is_empty() {
-        text.push_str(&names.fill(INVERT));
-    }
     let mut print = |about: &str, signature: &Signature<'_>| {
         text.push_str(&format!("\n/* Internal: {about}. */\n"));
-        text.push_str(&function(&dialect, signature, LONGEST));
+        text.push_str(&function(dialect, signature, LONGEST));
     };
-    for signature in signatures(kernel, &prefix) {
-        let about = match signature.name.strip_prefix(&prefix).unwrap_or_default() {
+    for signature in signatures(kernel, prefix) {
+        let about = match signature.name.strip_prefix(prefix).unwrap_or_default() {
             "guess" => "mu to a first guess of p, and constants of the solve",
             "correct" => "one correction of p",
             "accept" => "1 where a step is right",
@@ -92,106 +85,38 @@ pub(super) fn functions(step: &Step, fold: &Folding, names: &Names) -> String {
     text
 }
 
-pub(super) fn drive(step: &Step, fold: &Folding, names: &Names) -> String {
+/// The programs, the loop that calls them, and its limits, for the template.
+pub(super) fn values(step: &Step, fold: &Folding, names: &Names) -> Vec<Value> {
     let kernel = step.kernel();
+    let dialect = Portable::new(names, fold.places.clone());
+    let prefix = format!("{}_internal_", names.lower);
     let of = if kernel.flows().is_some() { "&c[flow * @P@_COEFFICIENTS]" } else { "c" };
-    let refused_step = REFUSED_STEP.replace("(c,", &format!("({of},"));
+    let refused = format!("status = @p@_internal_reason({of}, mu, residual_bound, distance);");
+    let clock = kernel.clock().map_or_else(String::new, |clock| {
+        format!("@p@_internal_clock(map, c, time + ((double)done * map->c[{}u]));", clock.size)
+    });
     let style = LoopStyle {
-        prefix: "@p@_internal_".into(),
+        prefix: prefix.clone(),
         count: "uint32_t".into(),
-        sizes: ["@P@_ELEMENT", "@P@_DIMENSION"].map(String::from),
-        copy: "@p@_internal_copy".into(),
-        live: "status == @P@_OK".into(),
-        open: "@p@_internal_open(residual_bound, distance)".into(),
+        sizes: ["@P@_ELEMENT", "@P@_DIMENSION"].map(|size| names.fill(size)),
+        copy: names.fill("@p@_internal_copy"),
+        live: names.fill("status == @P@_OK"),
+        open: names.fill("@p@_internal_open(residual_bound, distance)"),
         right: "right > 0.5".into(),
-        slots_of_flow: "@P@_COEFFICIENTS".into(),
-        refuse: [refused_step, REFUSED_STATE.into()],
-        clock: kernel.clock().map_or("", |_| CLOCK_OF_STEP).into(),
+        slots_of_flow: names.fill("@P@_COEFFICIENTS"),
+        refuse: [&refused, "status = @p@_internal_broken(g, mu);"].map(|text| names.fill(text)),
+        clock: names.fill(&clock),
         ..LoopStyle::default()
     };
-    let dialect = Portable::new(names, fold.places.clone());
-    let drive = DRIVE.replace("/*STEPS*/", &steps(kernel, &dialect, &style, 4));
-    let text = timed(&drive, step)
-        .replace("/*TOLERANCE*/", &decimal(kernel.tolerance))
-        .replace("/*NEAR*/", &decimal(kernel.near));
-    names.fill(&text)
-}
-
-const REFUSED_STEP: &str = "status = @p@_internal_reason(c, mu, residual_bound, distance);";
-
-const REFUSED_STATE: &str = "status = @P@_OFF_GROUP;
-if ((!@p@_internal_finite(g, @P@_ELEMENT)) || (!@p@_internal_finite(mu, @P@_DIMENSION))) {
-    status = @P@_NOT_FINITE;
-}";
-
-const DRIVE: &str = "
-/* Internal: copies a list. */
-static inline void @p@_internal_copy(double *to, const double *from, uint32_t length)
-{
-    uint32_t i;
-    for (i = 0u; i < length; i++) {
-        to[i] = from[i];
+    let mut values = vec![
+        ("PROGRAMS", functions(kernel, step, &dialect, &prefix)),
+        ("STEPS", steps(kernel, &dialect, &style, 4)),
+        ("TOLERANCE", decimal(kernel.tolerance)),
+        ("NEAR", decimal(kernel.near)),
+    ];
+    if let Some(clock) = kernel.clock() {
+        let parts: Vec<String> = clock.times.iter().map(|&time| decimal(time)).collect();
+        values.extend([("PARTS", parts.join(", ")), ("SIZE", format!("{}u", clock.size))]);
     }
+    values
 }
-
-/*CLOCK*//* Internal: whether an equation is corrected again: not solved, and near the first guess. */
-static inline bool @p@_internal_open(double residual_bound, double distance)
-{
-    return (!(residual_bound <= /*TOLERANCE*/)) && (distance <= /*NEAR*/);
-}
-
-/* Internal: why a step was not accepted. */
-static inline @p@_status @p@_internal_reason(const double *c, const double *mu,
-    double residual_bound, double distance)
-{
-    @p@_status status = @P@_BEYOND_CHART;
-    double square = 0.0;
-    uint32_t i;
-    for (i = 0u; i < @P@_DIMENSION; i++) {
-        square = @P@_FMA(mu[i], mu[i], square);
-    }
-    if (!@p@_internal_finite(mu, @P@_DIMENSION)) {
-        status = @P@_NOT_FINITE;
-    } else if (!(square <= c[@P@_COEFFICIENTS - 1u])) {
-        status = @P@_BEYOND_SERIES;
-    } else if ((!(residual_bound <= /*TOLERANCE*/)) || (!(distance <= /*NEAR*/))) {
-        status = @P@_NOT_SOLVED;
-    } else {
-        /* What is left is the chart. */
-    }
-    return status;
-}
-
-/**
- * Makes `steps` steps of the size that the map was made for, and tells in `made` how many it has made.
-/*ABOUT_TIME*/ *
- * Returns @P@_OK where that is all of them. Else the state is that after the last step made, finite and as good
- * as any other, and the status says why the next step was refused: see @p@_status.
- * The state is looked at every @P@_BLOCK steps and at the end; where it is found broken, it is that of the last look.
- */
-static inline @p@_status @p@_advance(const @p@_map *map, @p@_state *state/*TIME*/, uint32_t steps,
-    uint32_t *made)
-{
-    /* A step solves its equation by corrections: p from the first guess on, x, a bound on the residual, and the
-     * distance from the guess, both relative to the largest coordinate of the momentum. */
-    /*COEFFICIENTS*/;
-    double g[@P@_ELEMENT];
-    double mu[@P@_DIMENSION];
-    @p@_status status = map->status;
-/*BEGIN*/    @p@_internal_copy(g, state->g, @P@_ELEMENT);
-    @p@_internal_copy(mu, state->mu, @P@_DIMENSION);
-/*STEPS*/    @p@_internal_copy(state->g, g, @P@_ELEMENT);
-    @p@_internal_copy(state->mu, mu, @P@_DIMENSION);
-    *made = done;
-    return status;
-}
-
-/**
- * Makes one step/*FROM*/. Where it is refused, the state stays as it was, and the status says why: see @p@_status.
- */
-static inline @p@_status @p@_step(const @p@_map *map, @p@_state *state/*TIME*/)
-{
-    uint32_t made = 0u;
-    return @p@_advance(map, state/*NOW*/, 1u, &made);
-}
-";

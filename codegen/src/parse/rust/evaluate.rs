@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use syn::{Block, Expr, ExprCall, Item, Lit, Member, Pat, Path, Stmt, UnOp};
+use syn::{Block, Expr, ExprCall, Item, Lit, LocalInit, Member, Pat, Path, Stmt, UnOp};
 
 use crate::diagnostic::{Diagnostics, Mistake, Span, nearest};
 use crate::expr::{Arena, ExprId, Node};
@@ -21,8 +21,6 @@ pub(super) const DEEPEST_CALL: usize = 24;
 #[derive(Debug)]
 pub(super) enum Flow {
     Return(Value),
-    Break,
-    Continue,
     /// An operand was wrong, which has been reported.
     Wrong,
     /// A limit was passed, which has been reported; nothing more is read.
@@ -36,6 +34,8 @@ pub(super) struct Evaluator<'a> {
     arena: Arena,
     diagnostics: &'a Diagnostics,
     operations: usize,
+    /// True if a statement was wrong, which might have assigned anything.
+    lost: bool,
 }
 
 impl<'a> Evaluator<'a> {
@@ -46,6 +46,7 @@ impl<'a> Evaluator<'a> {
             arena: Arena::new(),
             diagnostics,
             operations: 0,
+            lost: false,
         }
     }
 
@@ -87,8 +88,8 @@ impl<'a> Evaluator<'a> {
         };
         let result = block.stmts.last().map_or(Span::of(block), Span::of);
         match value {
-            Value::Number(id) => Some((id, result)),
-            Value::Wrong => None,
+            Value::Number(id) if !self.lost => Some((id, result)),
+            Value::Number(_) | Value::Wrong => None,
             other => {
                 let message = format!("the function must end with a number, not {}", other.kind());
                 self.unsupported(result, &message, "end it with the energy, without a semicolon");
@@ -127,18 +128,11 @@ impl<'a> Evaluator<'a> {
             Expr::Reference(inner) => self.expression(&inner.expr),
             Expr::Unary(syn::ExprUnary { op: UnOp::Deref(_), expr, .. }) => self.expression(expr),
             Expr::Block(block) if block.label.is_none() => self.block(&block.block),
-            Expr::Unsafe(block) => self.block(&block.block),
-            Expr::Const(block) => self.block(&block.block),
             Expr::Binary(binary) => self.binary(binary),
-            Expr::Unary(unary) => {
-                let value = self.expression(&unary.expr)?;
+            Expr::Unary(syn::ExprUnary { op: UnOp::Neg(_), expr, .. }) => {
+                let value = self.expression(expr)?;
                 self.tick(span())?;
-                Ok(match (unary.op, value) {
-                    (UnOp::Neg(_), value) => self.negate(value, span()),
-                    (_, Value::Bool(truth)) => Value::Bool(!truth),
-                    (_, Value::Wrong) => Value::Wrong,
-                    _ => self.unsupported(span(), "`!` of this is not known", ""),
-                })
+                Ok(self.negate(value, span()))
             }
             Expr::Cast(cast) => {
                 let value = self.expression(&cast.expr)?;
@@ -168,9 +162,6 @@ impl<'a> Evaluator<'a> {
             Expr::Range(range) => self.range(range),
             Expr::Index(index) => {
                 let base = self.expression(&index.expr)?;
-                if let Expr::Range(range) = &*index.index {
-                    return self.slice(&base, range);
-                }
                 match self.index(&index.index) {
                     Ok(index) => Ok(self.entry(&base, &index, span())),
                     Err(Flow::Wrong) => Ok(Value::Wrong),
@@ -192,9 +183,6 @@ impl<'a> Evaluator<'a> {
             Expr::If(branch) => self.branch(branch),
             Expr::ForLoop(for_loop) => self.for_loop(for_loop),
             Expr::While(while_loop) => self.while_loop(while_loop),
-            Expr::Loop(forever) => self.forever(forever),
-            Expr::Break(end) if end.label.is_none() && end.expr.is_none() => Err(Flow::Break),
-            Expr::Continue(next) if next.label.is_none() => Err(Flow::Continue),
             Expr::Return(end) => {
                 let value = end.expr.as_ref().map_or(Ok(Value::Unit), |e| self.expression(e))?;
                 Err(Flow::Return(value))
@@ -206,7 +194,7 @@ impl<'a> Evaluator<'a> {
             _ => Ok(self.unsupported(
                 span(),
                 "this kind of expression is not read",
-                "use arithmetic, let, literal loops, closures and functions of parameters",
+                "use arithmetic, let, `for` over ranges and arrays, closures, iterators and functions of numbers",
             )),
         }
     }
@@ -296,30 +284,26 @@ impl Evaluator<'_> {
             last = Value::Unit;
             match statement {
                 Stmt::Local(local) => {
-                    let Some(init) = &local.init else {
-                        // `let x;` is given its value later.
-                        self.bind(&local.pat, Value::Unit);
-                        continue;
+                    let value = match &local.init {
+                        Some(LocalInit { expr, diverge: None, .. }) => self.expression(expr)?,
+                        _ => {
+                            let help = "write let with a name and a value";
+                            self.unsupported(Span::of(local), "this `let` is not read", help)
+                        }
                     };
-                    if let Some((token, _)) = &init.diverge {
-                        self.unsupported(Span::of(token), "let … else is not read", "use let");
-                    }
-                    let value = self.expression(&init.expr)?;
                     self.bind(&local.pat, value);
                 }
                 Stmt::Item(_) => {}
                 Stmt::Expr(expression, semicolon) => {
                     let value = self.expression(expression)?;
+                    self.lost |= matches!(value, Value::Wrong);
                     if semicolon.is_none() {
                         last = value;
                     }
                 }
                 Stmt::Macro(call) => {
-                    let name = call.mac.path.segments.last().map(|s| s.ident.to_string());
-                    if !name.is_some_and(|name| name.contains("assert")) {
-                        let help = "remove it, or write out what it computes";
-                        self.unsupported(Span::of(&call.mac), "macros are not read", help);
-                    }
+                    let help = "remove it, or write out what it computes";
+                    self.unsupported(Span::of(&call.mac), "macros are not read", help);
                 }
             }
         }
@@ -329,7 +313,6 @@ impl Evaluator<'_> {
     fn item(&mut self, item: &Item) -> Result<(), Flow> {
         let (name, value) = match item {
             Item::Const(constant) => (&constant.ident, self.expression(&constant.expr)?),
-            Item::Static(constant) => (&constant.ident, self.expression(&constant.expr)?),
             Item::Fn(function) => (&function.sig.ident, self.function_item(function)),
             Item::Use(_) => return Ok(()),
             _ => {
@@ -355,10 +338,6 @@ impl Evaluator<'_> {
     /// A condition that does not depend on the momentum or the parameters.
     pub(super) fn condition(&mut self, condition: &Expr) -> Result<Option<bool>, Flow> {
         let span = Span::of(condition);
-        if matches!(condition, Expr::Let(_)) {
-            self.unsupported(span, "patterns in conditions are not read", "use let before it");
-            return Ok(None);
-        }
         Ok(match self.expression(condition)? {
             Value::Bool(truth) => Some(truth),
             Value::Wrong => None,
@@ -386,10 +365,7 @@ impl Evaluator<'_> {
     /// Binds the names of a pattern to a value.
     pub(super) fn bind(&mut self, pattern: &Pat, value: Value) {
         match pattern {
-            Pat::Ident(ident) => {
-                if let Some((_, inner)) = &ident.subpat {
-                    self.bind(inner, value.clone());
-                }
+            Pat::Ident(ident) if ident.subpat.is_none() => {
                 self.scopes.bind(ident.ident.to_string(), value);
             }
             Pat::Wild(_) => {}
@@ -418,12 +394,7 @@ impl Evaluator<'_> {
             }
         };
         // `..` stands for all entries that no other pattern takes.
-        let rest = patterns.iter().position(|pattern| match pattern {
-            Pat::Ident(ident) => {
-                ident.subpat.as_ref().is_some_and(|(_, inner)| matches!(**inner, Pat::Rest(_)))
-            }
-            pattern => matches!(pattern, Pat::Rest(_)),
-        });
+        let rest = patterns.iter().position(|pattern| matches!(pattern, Pat::Rest(_)));
         let count = patterns.len();
         let fits = match rest {
             Some(_) => count - 1 <= values.len(),
@@ -435,11 +406,6 @@ impl Evaluator<'_> {
         }
         for (i, pattern) in patterns.into_iter().enumerate() {
             if Some(i) == rest {
-                if let Pat::Ident(ident) = pattern {
-                    let taken = values.len().saturating_sub(count - 1);
-                    let middle = values.iter().skip(i).take(taken).cloned();
-                    self.scopes.bind(ident.ident.to_string(), Value::list(middle));
-                }
                 continue;
             }
             let behind = rest.is_some_and(|rest| i > rest);
@@ -457,18 +423,7 @@ impl Evaluator<'_> {
             Err(flow) => return Err(flow),
             Ok(Some(place)) => place,
             Ok(None) => {
-                // `(a, b) = (b, a)` and the like.
-                if let Expr::Tuple(syn::ExprTuple { elems, .. })
-                | Expr::Array(syn::ExprArray { elems, .. }) = expression
-                    && let Value::List(values) = &value
-                    && elems.len() == values.len()
-                {
-                    for (target, value) in elems.iter().zip(values.iter()) {
-                        self.assign(target, value.clone())?;
-                    }
-                } else if !matches!(expression, Expr::Infer(_)) {
-                    self.unsupported(span, "this cannot be assigned to", "assign to a variable");
-                }
+                self.unsupported(span, "this cannot be assigned to", "assign to a variable");
                 return Ok(());
             }
         };
@@ -506,7 +461,7 @@ impl Evaluator<'_> {
                 let place = self.place(&field.base)?.zip(member(&field.member));
                 Ok(place.map(|((name, path), index)| (name, [path, vec![vec![index]]].concat())))
             }
-            Expr::Index(index) if !matches!(*index.index, Expr::Range(_)) => {
+            Expr::Index(index) => {
                 let Some((name, mut path)) = self.place(&index.expr)? else { return Ok(None) };
                 path.push(self.index(&index.index)?);
                 Ok(Some((name, path)))
@@ -551,7 +506,7 @@ impl Evaluator<'_> {
 pub(super) fn member(member: &Member) -> Option<usize> {
     match member {
         Member::Unnamed(index) => Some(index.index as usize),
-        Member::Named(name) => ["x", "y", "z", "w", "a", "b"].iter().position(|n| name == n),
+        Member::Named(name) => ["x", "y", "z", "w"].iter().position(|n| name == n),
     }
 }
 
@@ -723,35 +678,11 @@ impl Evaluator<'_> {
         let all = 0..rows * columns;
         let entries: Vec<Value> = match (name, arguments) {
             ("new", entries) if entries.len() == rows * columns => entries.to_vec(),
-            ("zeros", []) => all.map(|_| number(0)).collect(),
-            ("repeat" | "from_element", [value]) => vec![value.clone(); rows * columns],
-            ("identity", []) => {
-                all.map(|k| number(i64::from(k / columns == k % columns))).collect()
-            }
-            ("from_diagonal", [Value::Matrix(diagonal)]) if diagonal.entries.len() == rows => {
-                let entry = |k: usize| match k / columns == k % columns {
-                    true => diagonal.entries[k / columns].clone(),
-                    false => number(0),
-                };
-                all.map(entry).collect()
-            }
-            ("x" | "y" | "z" | "x_axis" | "y_axis" | "z_axis", []) if columns == 1 => {
-                let axis = ["x", "y", "z"].iter().position(|a| name.starts_with(a))?;
+            ("x" | "y" | "z", []) if columns == 1 => {
+                let axis = ["x", "y", "z"].iter().position(|a| name == *a)?;
                 all.map(|i| number(i64::from(i == axis))).collect()
             }
-            ("from" | "from_column_slice", [Value::List(list)])
-                if columns == 1 && list.len() == rows =>
-            {
-                list.to_vec()
-            }
-            ("from_row_slice", [Value::List(list)]) if list.len() == rows * columns => {
-                list.to_vec()
-            }
-            // nalgebra reads nested arrays column by column.
-            ("from", [list @ Value::List(_)]) => {
-                let entry = |k: usize| list.entry(&[k % columns])?.entry(&[k / columns]);
-                all.map(entry).collect::<Result<_, _>>().ok()?
-            }
+            ("from", [Value::List(list)]) if columns == 1 && list.len() == rows => list.to_vec(),
             _ => return None,
         };
         Some(Value::Matrix(Matrix::new(rows, columns, entries.into_iter())))
@@ -766,16 +697,6 @@ fn float_constant(name: &str) -> Option<Rational> {
         "TAU" => consts::TAU,
         "E" => consts::E,
         "SQRT_2" => consts::SQRT_2,
-        "FRAC_1_SQRT_2" => consts::FRAC_1_SQRT_2,
-        "FRAC_PI_2" => consts::FRAC_PI_2,
-        "FRAC_PI_3" => consts::FRAC_PI_3,
-        "FRAC_PI_4" => consts::FRAC_PI_4,
-        "FRAC_PI_6" => consts::FRAC_PI_6,
-        "FRAC_PI_8" => consts::FRAC_PI_8,
-        "FRAC_1_PI" => consts::FRAC_1_PI,
-        "FRAC_2_PI" => consts::FRAC_2_PI,
-        "LN_2" => consts::LN_2,
-        "LN_10" => consts::LN_10,
         _ => return None,
     })
 }

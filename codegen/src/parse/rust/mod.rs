@@ -2,8 +2,8 @@
 //! `#[potential(group = SO3)]`.
 //!
 //! The function is run once, with symbols for its arguments: what it computes
-//! along the way becomes an expression. So every body works whose course is known beforehand:
-//! `let`, patterns, constants, literal loops, iterator chains, closures.
+//! along the way becomes an expression. The subset of Rust that is read is documented at
+//! `coadjoint::lie_poisson`.
 
 mod algebra;
 mod arguments;

@@ -138,7 +138,7 @@ impl Evaluator<'_> {
         // a + b + c + … nests to the left; a loop keeps long sums off the stack.
         let mut chain = vec![binary];
         while let Some(Expr::Binary(left)) = chain.last().map(|b| &*b.left) {
-            if is_assignment(&left.op) || matches!(left.op, BinOp::And(_) | BinOp::Or(_)) {
+            if is_assignment(&left.op) {
                 break;
             }
             chain.push(left);
@@ -150,11 +150,6 @@ impl Evaluator<'_> {
         for operation in chain.into_iter().rev() {
             let span = Span::of(&operation.op);
             self.tick(span)?;
-            // `&&` and `||` look at the right side only where they need it.
-            match (&operation.op, &value) {
-                (BinOp::And(_), Value::Bool(false)) | (BinOp::Or(_), Value::Bool(true)) => continue,
-                _ => {}
-            }
             let right = self.expression(&operation.right)?;
             let whole = Span::of(&operation.left).to(Span::of(&operation.right));
             let result = self.operate(&operation.op, value, right, whole);
@@ -180,15 +175,17 @@ impl Evaluator<'_> {
                 }
                 _ => self.no_operation("%", &a, &b, span),
             },
-            BinOp::And(_) | BinOp::BitAnd(_) => self.logic(a, b, span, |a, b| a && b),
-            BinOp::Or(_) | BinOp::BitOr(_) => self.logic(a, b, span, |a, b| a || b),
             BinOp::Eq(_) => self.compare(&a, &b, span, Ordering::is_eq),
             BinOp::Ne(_) => self.compare(&a, &b, span, Ordering::is_ne),
             BinOp::Lt(_) => self.compare(&a, &b, span, Ordering::is_lt),
             BinOp::Le(_) => self.compare(&a, &b, span, Ordering::is_le),
             BinOp::Gt(_) => self.compare(&a, &b, span, Ordering::is_gt),
             BinOp::Ge(_) => self.compare(&a, &b, span, Ordering::is_ge),
-            _ => self.unsupported(span, "this operator is not read", "use + - * /"),
+            _ => self.unsupported(
+                span,
+                "this operator is not read",
+                "use + - * / and, of integers, %",
+            ),
         }
     }
 
@@ -207,17 +204,9 @@ impl Evaluator<'_> {
         }
     }
 
-    fn logic(&mut self, a: Value, b: Value, span: Span, op: fn(bool, bool) -> bool) -> Value {
-        match (&a, &b) {
-            (Value::Bool(a), Value::Bool(b)) => Value::Bool(op(*a, *b)),
-            _ => self.no_operation("&&", &a, &b, span),
-        }
-    }
-
     fn compare(&mut self, a: &Value, b: &Value, span: Span, op: fn(Ordering) -> bool) -> Value {
         match (a, b) {
             (Value::Integer(a), Value::Integer(b)) => Value::Bool(op(a.cmp(b))),
-            (Value::Bool(a), Value::Bool(b)) => Value::Bool(op(a.cmp(b))),
             (Value::Wrong, _) | (_, Value::Wrong) => Value::Wrong,
             _ => self.undecided("a comparison", span),
         }
@@ -322,7 +311,6 @@ impl Evaluator<'_> {
             Value::Integer(n) if to_float => self.constant(Rational::from_integer(n.into()), span),
             Value::Integer(n) => Value::Integer(n),
             Value::Number(id) if to_float => Value::Number(id),
-            Value::Bool(truth) if !to_float => Value::Integer(i128::from(truth)),
             Value::Wrong => Value::Wrong,
             _ => self.wrong(span, Mistake::NotConstant("a number cast to an integer")),
         }
@@ -337,62 +325,32 @@ fn is_assignment(op: &BinOp) -> bool {
             | BinOp::MulAssign(_)
             | BinOp::DivAssign(_)
             | BinOp::RemAssign(_)
-            | BinOp::BitXorAssign(_)
-            | BinOp::BitAndAssign(_)
-            | BinOp::BitOrAssign(_)
-            | BinOp::ShlAssign(_)
-            | BinOp::ShrAssign(_)
     )
 }
 
 impl Evaluator<'_> {
+    /// A range whose ends are known.
     pub(super) fn range(&mut self, range: &ExprRange) -> Result<Value, Flow> {
         let span = Span::of(range);
-        let Some((start, end)) = self.bounds(range, None)? else { return Ok(Value::Wrong) };
+        let mut bound = |bound: &Option<Box<Expr>>| {
+            let Some(bound) = bound else {
+                self.wrong(span, Mistake::NotConstant("the end of a range"));
+                return Ok(None);
+            };
+            let value = self.expression(bound)?;
+            Ok(self.integer(&value, "the bound of a range", Span::of(bound)))
+        };
+        let Some((start, end)) = bound(&range.start)?.zip(bound(&range.end)?) else {
+            return Ok(Value::Wrong);
+        };
+        let inclusive = matches!(range.limits, RangeLimits::Closed(_));
+        let end = if inclusive { end.saturating_add(1) } else { end };
         let mut list = Vec::new();
         for i in start..end {
             self.tick(span)?;
             list.push(Value::Integer(i));
         }
         Ok(Value::list(list))
-    }
-
-    /// Start and end (excluded) of a range; an open end is `open`.
-    fn bounds(
-        &mut self,
-        range: &ExprRange,
-        open: Option<usize>,
-    ) -> Result<Option<(i128, i128)>, Flow> {
-        let bound = |this: &mut Self, bound: &Option<Box<Expr>>, default: Option<i128>| {
-            let Some(bound) = bound else {
-                if default.is_none() {
-                    this.wrong(Span::of(range), Mistake::NotConstant("the end of a range"));
-                }
-                return Ok(default);
-            };
-            let value = this.expression(bound)?;
-            Ok(this.integer(&value, "the bound of a range", Span::of(bound)))
-        };
-        let start = bound(self, &range.start, open.map(|_| 0))?;
-        let end = bound(self, &range.end, open.map(|n| n as i128))?;
-        let inclusive = matches!(range.limits, RangeLimits::Closed(_)) && range.end.is_some();
-        let end = end.map(|end| if inclusive { end.saturating_add(1) } else { end });
-        Ok(start.zip(end))
-    }
-
-    pub(super) fn slice(&mut self, base: &Value, range: &ExprRange) -> Result<Value, Flow> {
-        let Some(list) = base.iterated() else { return Ok(Value::Wrong) };
-        let Some((start, end)) = self.bounds(range, Some(list.len()))? else {
-            return Ok(Value::Wrong);
-        };
-        let slice = usize::try_from(start).ok().zip(usize::try_from(end).ok());
-        Ok(match slice.and_then(|(start, end)| list.get(start..end)) {
-            Some(slice) => Value::list(slice.to_vec()),
-            None => {
-                let shown = format!("{start}..{end}");
-                self.wrong(Span::of(range), Mistake::IndexRange(shown, list.len()))
-            }
-        })
     }
 
     pub(super) fn for_loop(&mut self, for_loop: &syn::ExprForLoop) -> Result<Value, Flow> {
@@ -413,9 +371,7 @@ impl Evaluator<'_> {
             self.bind(&for_loop.pat, item.clone());
             let flow = self.block(&for_loop.body);
             self.scopes.leave();
-            if ends(flow)? {
-                break;
-            }
+            goes_on(flow)?;
         }
         Ok(Value::Unit)
     }
@@ -429,18 +385,7 @@ impl Evaluator<'_> {
                 Some(false) => return Ok(Value::Unit),
                 None => return Ok(Value::Wrong),
             }
-            if ends(self.block(&while_loop.body))? {
-                return Ok(Value::Unit);
-            }
-        }
-    }
-
-    pub(super) fn forever(&mut self, forever: &syn::ExprLoop) -> Result<Value, Flow> {
-        loop {
-            self.tick(Span::of(&forever.loop_token))?;
-            if ends(self.block(&forever.body))? {
-                return Ok(Value::Unit);
-            }
+            goes_on(self.block(&while_loop.body))?;
         }
     }
 
@@ -454,55 +399,15 @@ impl Evaluator<'_> {
         let span = Span::of(call);
         let pair = |(a, b): (Value, &Value)| Value::list([a, b.clone()]);
         let list = match (call.method.to_string().as_str(), arguments) {
-            (
-                "iter" | "iter_mut" | "into_iter" | "copied" | "cloned" | "clone" | "to_vec"
-                | "as_slice" | "as_ref" | "collect" | "to_owned" | "by_ref",
-                [],
-            ) => items.to_vec(),
-            ("len" | "count", []) => return Ok(Some(Value::Integer(items.len() as i128))),
+            ("iter" | "into_iter" | "copied" | "cloned", []) => items.to_vec(),
+            ("len", []) => return Ok(Some(Value::Integer(items.len() as i128))),
             ("rev", []) => items.iter().rev().cloned().collect(),
             ("enumerate", []) => (0..).map(Value::Integer).zip(items).map(pair).collect(),
             ("zip", [other]) => match other.iterated() {
                 Some(other) => items.iter().cloned().zip(other.iter()).map(pair).collect(),
                 None => return Ok(None),
             },
-            ("chain", [other]) => match other.iterated() {
-                Some(other) => items.iter().chain(other.iter()).cloned().collect(),
-                None => return Ok(None),
-            },
-            (name @ ("take" | "skip" | "step_by" | "windows"), [count]) => {
-                let count = self.integer(count, "this number", Span::of(&call.args));
-                let Some(n) = count.and_then(|n| usize::try_from(n).ok()) else { return Ok(None) };
-                match name {
-                    "take" => items.iter().take(n).cloned().collect(),
-                    "skip" => items.iter().skip(n).cloned().collect(),
-                    "step_by" => items.iter().step_by(n.max(1)).cloned().collect(),
-                    _ => items.windows(n.max(1)).map(|w| Value::list(w.to_vec())).collect(),
-                }
-            }
             ("map", [Value::Function(function)]) => self.mapped(items, function, span)?,
-            ("flat_map", [Value::Function(function)]) => {
-                let mapped = self.mapped(items, function, span)?.into_iter();
-                let flat = mapped.flat_map(|value| match value {
-                    Value::List(values) => values.to_vec(),
-                    other => vec![other],
-                });
-                flat.collect()
-            }
-            ("filter", [Value::Function(function)]) => {
-                let mut kept = Vec::new();
-                for (item, keep) in items.iter().zip(self.mapped(items, function, span)?) {
-                    match keep {
-                        Value::Bool(true) => kept.push(item.clone()),
-                        Value::Bool(false) | Value::Wrong => {}
-                        _ => {
-                            let unknown = Mistake::NotConstant("the condition of a filter");
-                            return Ok(Some(self.wrong(span, unknown)));
-                        }
-                    }
-                }
-                kept
-            }
             ("fold", [start, Value::Function(function)]) => {
                 let mut value = start.clone();
                 for item in items {
@@ -510,16 +415,14 @@ impl Evaluator<'_> {
                 }
                 return Ok(Some(value));
             }
-            (name @ ("sum" | "product"), []) => {
-                let operation = if name == "sum" { Self::add } else { Self::multiply };
+            ("sum", []) => {
                 let Some((first, items)) = items.split_first() else {
-                    let neutral = integer(i64::from(name == "product"));
-                    return Ok(Some(self.constant(neutral, span)));
+                    return Ok(Some(self.constant(integer(0), span)));
                 };
                 let mut value = first.clone();
                 for item in items {
                     self.tick(span)?;
-                    value = operation(self, value, item.clone(), span);
+                    value = self.add(value, item.clone(), span);
                 }
                 return Ok(Some(value));
             }
@@ -538,17 +441,16 @@ impl Evaluator<'_> {
     }
 }
 
-/// True if the body of a loop ended the loop.
-fn ends(flow: Result<Value, Flow>) -> Result<bool, Flow> {
+/// Lets a loop go on after a mistake in its body.
+fn goes_on(flow: Result<Value, Flow>) -> Result<(), Flow> {
     match flow {
-        Ok(_) | Err(Flow::Continue | Flow::Wrong) => Ok(false),
-        Err(Flow::Break) => Ok(true),
+        Ok(_) | Err(Flow::Wrong) => Ok(()),
         Err(flow) => Err(flow),
     }
 }
 
 const KNOWN: &str = "powi, powf, mul_add, sqrt, sin, cos, tan, atan, tanh, exp, ln, abs, recip, dot, cross, norm_squared, norm, \
-    component_mul, component_div, sum, iter, map, zip, enumerate, fold, transpose";
+    component_mul, component_div, fixed_rows, sum, len, iter, map, zip, enumerate, rev, fold";
 
 impl Evaluator<'_> {
     pub(super) fn method_call(&mut self, call: &ExprMethodCall) -> Result<Value, Flow> {
@@ -564,22 +466,10 @@ impl Evaluator<'_> {
         let name = call.method.to_string();
         let value = match &receiver {
             Value::Number(_) => self.number_method(&name, &receiver, &arguments, span),
-            Value::Integer(n) => self.integer_method(&name, *n, &arguments, span),
             Value::List(items) => self.list_method(items, call, &arguments)?,
             Value::Matrix(matrix) => match self.matrix_method(&name, matrix, call, &arguments) {
                 Some(value) => Some(value),
-                // Maps of matrices are matrices; their iterators are lists.
-                None => {
-                    let found = self.list_method(&matrix.transposed().entries, call, &arguments)?;
-                    found.map(|found| match found {
-                        Value::List(list) if name == "map" => {
-                            let (rows, columns) = matrix.shape();
-                            let entries = list.iter().cloned();
-                            Value::Matrix(Matrix::new(columns, rows, entries).transposed())
-                        }
-                        found => found,
-                    })
-                }
+                None => self.list_method(&matrix.transposed().entries, call, &arguments)?,
             },
             _ => None,
         };
@@ -624,13 +514,6 @@ impl Evaluator<'_> {
                 Value::Number(one) => self.push(Node::Div(one, x), span),
                 other => other,
             },
-            ("clone" | "to_owned" | "into", []) => receiver.clone(),
-            ("hypot", [other]) => {
-                let a = self.multiply(receiver.clone(), receiver.clone(), span);
-                let b = self.multiply(other.clone(), other.clone(), span);
-                let sum = self.add(a, b, span);
-                self.root(sum, span)
-            }
             ("min" | "max" | "clamp" | "floor" | "ceil" | "round" | "signum" | "trunc", _) => self
                 .unsupported(
                     span,
@@ -652,29 +535,6 @@ impl Evaluator<'_> {
         }
     }
 
-    fn integer_method(
-        &mut self,
-        name: &str,
-        n: i128,
-        arguments: &[Value],
-        span: Span,
-    ) -> Option<Value> {
-        let value = match (name, arguments) {
-            ("pow", [Value::Integer(power)]) => {
-                u32::try_from(*power).ok().and_then(|power| n.checked_pow(power))
-            }
-            ("abs", []) => n.checked_abs(),
-            ("min", [Value::Integer(other)]) => Some(n.min(*other)),
-            ("max", [Value::Integer(other)]) => Some(n.max(*other)),
-            ("abs_diff", [Value::Integer(other)]) => {
-                n.checked_sub(*other).and_then(i128::checked_abs)
-            }
-            ("clone" | "into", []) => Some(n),
-            _ => return None,
-        };
-        Some(self.checked_integer(value, span))
-    }
-
     fn matrix_method(
         &mut self,
         name: &str,
@@ -683,10 +543,8 @@ impl Evaluator<'_> {
         arguments: &[Value],
     ) -> Option<Value> {
         let span = Span::of(call);
-        let (rows, columns) = matrix.shape();
         let items = &matrix.entries;
         let whole = || Value::Matrix(matrix.clone());
-        let diagonal = || (0..rows.min(columns)).map(|i| items[i * columns + i].clone());
         let found = match (name, arguments) {
             ("dot", [Value::Matrix(other)]) => {
                 if items.len() != other.entries.len() {
@@ -696,28 +554,18 @@ impl Evaluator<'_> {
                 }
                 return Some(self.dot(items, &other.entries, span));
             }
-            ("norm_squared" | "magnitude_squared", []) => {
+            ("norm_squared", []) => {
                 return Some(self.dot(items, items, span));
             }
-            ("norm" | "magnitude", []) => {
+            ("norm", []) => {
                 let square = self.dot(items, items, span);
                 return Some(self.root(square, span));
-            }
-            ("trace", []) => {
-                let diagonal: Vec<Value> = diagonal().collect();
-                let ones = vec![self.constant(integer(1), span); diagonal.len()];
-                return Some(self.dot(&diagonal, &ones, span));
             }
             ("component_mul", [other @ Value::Matrix(_)]) => {
                 return Some(self.zip(whole(), other.clone(), span, name, Node::Mul));
             }
             ("component_div", [other @ Value::Matrix(_)]) => {
                 return Some(self.zip(whole(), other.clone(), span, name, Node::Div));
-            }
-            ("scale", [factor]) => return Some(self.multiply(whole(), factor.clone(), span)),
-            ("tr_mul", [other]) => {
-                let transposed = Value::Matrix(matrix.transposed());
-                return Some(self.multiply(transposed, other.clone(), span));
             }
             ("cross", [Value::Matrix(other)]) if items.len() == 3 && other.entries.len() == 3 => {
                 let other = &other.entries;
@@ -728,15 +576,8 @@ impl Evaluator<'_> {
                     self.subtract(a, b, span)
                 }))
             }
-            ("clone" | "into_owned" | "clone_owned" | "to_owned", []) => matrix.clone(),
-            ("transpose", []) => matrix.transposed(),
-            ("diagonal", []) => Matrix::new(rows.min(columns), 1, diagonal()),
-            ("column", [j]) => {
-                let j = usize::try_from(self.integer(j, "the column", span)?).ok()?;
-                let column = (0..rows).map(|i| items.get(i * columns + j).cloned());
-                Matrix::vector(&column.collect::<Option<Vec<_>>>()?)
-            }
-            ("fixed_rows", [start]) if columns == 1 => {
+            ("into_owned", []) => matrix.clone(),
+            ("fixed_rows", [start]) if matrix.columns == 1 => {
                 let start = usize::try_from(self.integer(start, "the first row", span)?).ok()?;
                 let count = *sizes(call.turbofish.as_ref()?).first()?;
                 let end = start.checked_add(count)?;
@@ -746,8 +587,6 @@ impl Evaluator<'_> {
                 };
                 Matrix::vector(rows)
             }
-            ("xyz", []) if columns == 1 => Matrix::vector(items.get(..3)?),
-            ("xy", []) if columns == 1 => Matrix::vector(items.get(..2)?),
             _ => return None,
         };
         Some(Value::Matrix(found))
