@@ -69,24 +69,16 @@ pub fn polynomial(
     advice: &str,
 ) -> Result<system::System, RunError> {
     let System { problem, potential, damping, run, units, parameters } = system;
-    match problem {
-        Hamiltonian::Polynomial(problem, _) => {
-            let problem = *problem;
-            Ok(system::System { problem, potential, damping, run, units, parameters })
-        }
-        Hamiltonian::Smooth(smooth) => Err(not_of_series(path, &smooth, lacking, advice)),
-    }
-}
-
-/// The error of a system without series where `lacking`, which is made from one, is asked for.
-pub(crate) fn not_of_series(path: &Path, smooth: &Smooth, lacking: &str, advice: &str) -> RunError {
-    let nodes = smooth.nodes();
-    RunError::Option(format!(
-        "{}: {lacking}: the steps of this system are made by collocation, of order {} from ∂H/∂μ at {nodes} nodes, and not by \
-         the series of a polynomial; {advice}",
-        path.display(),
-        2 * nodes,
-    ))
+    let problem = problem.into_polynomial().map_err(|smooth| {
+        let nodes = smooth.nodes();
+        RunError::Option(format!(
+            "{}: {lacking}: the steps of this system are made by collocation, of order {} from ∂H/∂μ at {nodes} nodes, and not \
+             by the series of a polynomial; {advice}",
+            path.display(),
+            2 * nodes,
+        ))
+    })?;
+    Ok(system::System { problem, potential, damping, run, units, parameters })
 }
 
 /// Reads the group of a system file alone; `name` is what mistakes call it.

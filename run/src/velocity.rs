@@ -33,9 +33,8 @@ pub fn velocities(
     instants: &[Instant<'_>],
 ) -> Result<Vec<Vec<f64>>, RunError> {
     let (energy, algebra) = (Energy::new(&system.problem), system.problem.facts().algebra);
-    let slope = energy.gradient(algebra.dim());
     let Some(rates) = &system.damping else {
-        return Ok(instants.iter().map(|at| slope(at.time, at.momentum)).collect());
+        return Ok(instants.iter().map(|at| energy.gradient(at.time, at.momentum)).collect());
     };
     let potential = system.potential.as_ref().map(|(potential, _)| potential);
     let potential = potential.filter(|potential| potential.alone().is_none());
@@ -48,7 +47,7 @@ pub fn velocities(
     let torque = kick.as_ref().map(|kick| Torque::new(kick, group.clone(), &parameters));
     let torque = torque.transpose().map_err(RunError::unmade)?;
     let damped = |at: &Instant<'_>| {
-        let omega = DVector::from_vec(slope(at.time, at.momentum));
+        let omega = DVector::from_vec(energy.gradient(at.time, at.momentum));
         let mut force = group.ad_star(&omega, &DVector::from_column_slice(at.momentum));
         if let Some(torque) = &torque {
             let state = phase_of(&group, at.matrix, at.momentum);

@@ -10,6 +10,7 @@ use coadjoint::{Phase, StepError};
 use coadjoint_codegen::cancel;
 use coadjoint_codegen::integrator::Kicks;
 use coadjoint_codegen::smooth::Smooth;
+use coadjoint_codegen::step;
 use nalgebra::DVector;
 
 use super::compiled::{Compiled, Folded, Numbers, Solved, Solves};
@@ -32,60 +33,54 @@ pub(crate) fn collocated<'a>(
     grid: Grid,
     parameters: &[f64],
 ) -> Result<Box<dyn Varied + 'a>, StepError> {
-    let energy = Interpreted::new(smooth, parameters);
-    if let Some(value) = energy.symbols.iter().copied().find(|value| !value.is_finite()) {
+    let symbols = smooth.symbols_at(parameters);
+    if let Some(value) = symbols.into_iter().find(|value| !value.is_finite()) {
         return Err(StepError::InvalidParameter { name: "of the Hamiltonian", value });
     }
     Ok(match smooth.nodes() {
-        1 => Box::new(Collocated::<1>::new(elements, energy, grid)?),
-        2 => Box::new(Collocated::<2>::new(elements, energy, grid)?),
-        3 => Box::new(Collocated::<3>::new(elements, energy, grid)?),
-        4 => Box::new(Collocated::<4>::new(elements, energy, grid)?),
-        5 => Box::new(Collocated::<5>::new(elements, energy, grid)?),
-        6 => Box::new(Collocated::<6>::new(elements, energy, grid)?),
-        7 => Box::new(Collocated::<7>::new(elements, energy, grid)?),
-        _ => Box::new(Collocated::<8>::new(elements, energy, grid)?),
+        1 => Box::new(Collocated::<1>::new(elements, smooth, grid, parameters)?),
+        2 => Box::new(Collocated::<2>::new(elements, smooth, grid, parameters)?),
+        3 => Box::new(Collocated::<3>::new(elements, smooth, grid, parameters)?),
+        4 => Box::new(Collocated::<4>::new(elements, smooth, grid, parameters)?),
+        5 => Box::new(Collocated::<5>::new(elements, smooth, grid, parameters)?),
+        6 => Box::new(Collocated::<6>::new(elements, smooth, grid, parameters)?),
+        7 => Box::new(Collocated::<7>::new(elements, smooth, grid, parameters)?),
+        _ => Box::new(Collocated::<8>::new(elements, smooth, grid, parameters)?),
     })
 }
 
 /// The energy by its programs.
 #[derive(Clone, Debug)]
-pub(super) struct Interpreted<'a> {
-    smooth: &'a Smooth,
-    symbols: Arc<[f64]>,
-    parameters: Arc<[f64]>,
-}
+pub(super) struct Interpreted<'a>(Arc<step::Energy<'a>>);
 
 impl<'a> Interpreted<'a> {
-    /// For these values of the parameters that the system keeps.
-    pub(super) fn new(smooth: &'a Smooth, parameters: &[f64]) -> Self {
-        let symbols = smooth.symbols_at(parameters).into();
-        Self { smooth, symbols, parameters: parameters.into() }
+    pub(super) fn new(energy: step::Energy<'a>) -> Self {
+        Self(Arc::new(energy))
     }
 }
 
 impl Energy<DVector<f64>> for Interpreted<'_> {
     fn value(&self, time: f64, mu: &DVector<f64>) -> f64 {
-        self.smooth.energy(&self.symbols, time, mu.as_slice())
+        self.0.value(time, mu.as_slice())
     }
 
     fn gradient(&self, time: f64, mu: &DVector<f64>) -> DVector<f64> {
         cancel::check();
-        DVector::from_vec(self.smooth.gradient(&self.symbols, time, mu.as_slice()))
+        DVector::from_vec(self.0.gradient(time, mu.as_slice()))
     }
 
     fn reach(&self, from: (f64, &DVector<f64>), to: (f64, &DVector<f64>)) -> Option<f64> {
         let [from, to] = [from, to].map(|(time, mu)| (time, mu.as_slice()));
-        self.smooth.reach(&self.symbols, from, to)
+        self.0.reach(from, to)
     }
 
     fn unit(&self, i: usize) -> f64 {
-        self.smooth.units[i]
+        self.0.unit(i)
     }
 
     fn undefined(&self, time: f64, mu: &DVector<f64>) -> Option<Undefined> {
-        let (number, argument) = self.smooth.undefined(&self.symbols, time, mu.as_slice())?;
-        Some(Undefined { expression: kept(&self.smooth.expressions[number]), argument })
+        let (expression, argument) = self.0.undefined(time, mu.as_slice())?;
+        Some(Undefined { expression: kept(expression), argument })
     }
 }
 
@@ -115,6 +110,9 @@ impl<'a> Kicked<'a> {
 /// Steps of one size at `M` nodes.
 struct Collocated<'a, const M: usize> {
     elements: Elements<Group>,
+    smooth: &'a Smooth,
+    /// The values of the parameters that are kept.
+    parameters: Vec<f64>,
     grid: Grid,
     step: Mutex<Collocation<Group, Interpreted<'a>, M>>,
     kicks: Option<Kicked<'a>>,
@@ -125,13 +123,16 @@ struct Collocated<'a, const M: usize> {
 impl<'a, const M: usize> Collocated<'a, M> {
     fn new(
         elements: Elements<Group>,
-        energy: Interpreted<'a>,
+        smooth: &'a Smooth,
         grid: Grid,
+        parameters: &[f64],
     ) -> Result<Self, StepError> {
         let group = &*elements.group;
-        let kicks = Kicked::new(energy.smooth, group, &energy.parameters)?;
+        let kicks = Kicked::new(smooth, group, parameters)?;
+        let energy = Interpreted::new(step::Energy::smooth(smooth, parameters));
         let step = Mutex::new(Collocation::new(group.clone(), energy, grid.step)?);
-        Ok(Self { elements, grid, step, kicks, response: OnceLock::new() })
+        let (parameters, response) = (parameters.to_vec(), OnceLock::new());
+        Ok(Self { elements, smooth, parameters, grid, step, kicks, response })
     }
 
     fn step(&self) -> MutexGuard<'_, Collocation<Group, Interpreted<'a>, M>> {
@@ -200,7 +201,7 @@ impl<const M: usize> Motion for Collocated<'_, M> {
             return Ok(Some(compiled.advance(state, start, [first, count], rescue)?));
         }
         // Steps of a system too large for programs begin anew: so their bits do not depend on how a run is cut.
-        let remembers = self.kicks.is_none() && self.step().energy().smooth.given.is_some();
+        let remembers = self.kicks.is_none() && self.smooth.given.is_some();
         let mut number = first;
         one_by_one(count, || {
             let time = self.grid.time(number);
@@ -219,8 +220,7 @@ impl<const M: usize> Motion for Collocated<'_, M> {
     fn beside(&self, state: &Numbers, time: f64, size: f64) -> Result<Numbers, StepError> {
         let mut state = state.clone();
         if let Some(compiled) = &self.elements.compiled {
-            let parameters = self.step().energy().parameters.clone();
-            let other = compiled.anew(size, &parameters)?;
+            let other = compiled.anew(size, &self.parameters)?;
             if other.one_at(&mut state, time) {
                 return Ok(state);
             }
@@ -243,7 +243,7 @@ impl<const M: usize> Motion for Collocated<'_, M> {
 
     /// Of a function of the user's there is no Hessian, and of torques without potential no derivatives are known.
     fn differentiable(&self) -> Option<&dyn Differentiable> {
-        let Smooth { given, kicks, .. } = self.step().energy().smooth;
+        let Smooth { given, kicks, .. } = self.smooth;
         let torque = kicks.as_ref().and_then(Kicks::torque);
         (given.is_none() && torque.is_none()).then_some(self)
     }
@@ -252,7 +252,7 @@ impl<const M: usize> Motion for Collocated<'_, M> {
         let (step, mu) = (self.step(), DVector::from_column_slice(&state.mu));
         let energy = step.energy();
         // A function of the user's says by its value alone that there is none.
-        let lost = || energy.smooth.given.is_some() && !energy.value(time, &mu).is_finite();
+        let lost = || self.smooth.given.is_some() && !energy.value(time, &mu).is_finite();
         let nothing = || Undefined { expression: "H", argument: f64::NAN };
         let found = energy.undefined(time, &mu).or_else(|| lost().then(nothing));
         if let Some(Undefined { expression, argument }) = found {
@@ -271,7 +271,8 @@ impl<const M: usize> Varied for Collocated<'_, M> {
         }
         let step = self.step.get_mut().unwrap_or_else(PoisonError::into_inner);
         let (group, size) = (step.group().clone(), step.step());
-        let energy = Interpreted::new(step.energy().smooth, parameters);
+        let energy = Interpreted::new(step::Energy::smooth(self.smooth, parameters));
+        self.parameters = parameters.to_vec();
         self.response = OnceLock::new();
         if let Some(kicks) = &mut self.kicks {
             kicks.torque.vary(parameters);
@@ -284,21 +285,19 @@ impl<const M: usize> Varied for Collocated<'_, M> {
 
 impl<const M: usize> Differentiable for Collocated<'_, M> {
     fn parameters(&self) -> usize {
-        let step = self.step();
-        step.energy().parameters.len()
+        self.parameters.len()
     }
 
     fn linear(&self, state: &Numbers, first: u64) -> Result<Linear, StepError> {
         let step = self.step();
         let (group, place) = (step.group(), (Exponential, step.group()));
-        let Interpreted { smooth, symbols, parameters } = step.energy().clone();
+        let Self { smooth, parameters, .. } = self;
         let (response, slope) = match self.response.get() {
             Some(made) => made,
             None => {
                 let kick = smooth.kicks.as_ref().map(|kicks| &kicks.kick);
-                let slope =
-                    kick.map(|kick| KickSlope::new(kick, group, &parameters)).transpose()?;
-                let made = (Response::new(smooth, symbols, &parameters), slope);
+                let slope = kick.map(|kick| KickSlope::new(kick, group, parameters)).transpose()?;
+                let made = (Response::new(smooth, parameters), slope);
                 self.response.get_or_init(|| made)
             }
         };

@@ -2,9 +2,8 @@
 
 use std::sync::Arc;
 
-use coadjoint::collocation::{Damping, Energy, Undefined};
+use coadjoint::collocation::Damping;
 use coadjoint::{Phase, StepError};
-use coadjoint_codegen::poly::Numeric;
 use coadjoint_codegen::step::Origin;
 use nalgebra::DVector;
 
@@ -26,52 +25,6 @@ pub(crate) struct Damper {
     pub rates: Vec<f64>,
     /// The group.
     pub group: Arc<Group>,
-}
-
-/// The Hamiltonian of the steps for values of the parameters that are kept.
-enum Given<'a> {
-    Polynomial(Numeric, Vec<Numeric>),
-    Smooth(Interpreted<'a>),
-}
-
-impl<'a> Given<'a> {
-    fn new(origin: &'a Origin, parameters: &[f64]) -> Self {
-        match origin {
-            Origin::Series(integrator) => {
-                let problem = &integrator.problem;
-                let (dim, symbols) = (problem.algebra.dim(), problem.symbols_at(parameters));
-                let value = Numeric::new(&problem.hamiltonian, dim, &symbols);
-                let gradient = value.gradient(dim);
-                Self::Polynomial(value, gradient)
-            }
-            Origin::Collocation(smooth) => Self::Smooth(Interpreted::new(smooth, parameters)),
-        }
-    }
-}
-
-impl Energy<DVector<f64>> for Given<'_> {
-    fn value(&self, time: f64, mu: &DVector<f64>) -> f64 {
-        match self {
-            Self::Polynomial(value, _) => value.value(mu.as_slice()),
-            Self::Smooth(energy) => energy.value(time, mu),
-        }
-    }
-
-    fn gradient(&self, time: f64, mu: &DVector<f64>) -> DVector<f64> {
-        match self {
-            Self::Polynomial(_, slopes) => {
-                DVector::from_fn(slopes.len(), |i, _| slopes[i].value(mu.as_slice()))
-            }
-            Self::Smooth(energy) => energy.gradient(time, mu),
-        }
-    }
-
-    fn undefined(&self, time: f64, mu: &DVector<f64>) -> Option<Undefined> {
-        match self {
-            Self::Polynomial(..) => None,
-            Self::Smooth(energy) => energy.undefined(time, mu),
-        }
-    }
 }
 
 /// Steps between halves of damping.
@@ -129,21 +82,21 @@ fn damp<'a>(
     origin: &'a Origin,
     parameters: &[f64],
 ) -> Result<Damp<'a>, StepError> {
-    let (group, given) = ((*damper.group).clone(), Given::new(origin, parameters));
+    let (group, energy) = ((*damper.group).clone(), Interpreted::new(origin.energy(parameters)));
     let rates = DVector::from_column_slice(&damper.rates);
     // A torque without potential has no energy that could fall.
     let kick = origin.kicks().map(|kicks| &kicks.kick);
     let kick = kick.filter(|kick| kick.potential.alone().is_none());
     let torque = kick.map(|kick| Torque::new(kick, group.clone(), parameters)).transpose()?;
     if origin.series().is_some_and(|series| series.problem.is_quadratic()) {
-        return Ok(damp_by(Damping::<_, _, 1>::new(group, given, rates)?, torque));
+        return Ok(damp_by(Damping::<_, _, 1>::new(group, energy, rates)?, torque));
     }
-    Ok(damp_by(Damping::<_, _, 8>::new(group, given, rates)?, torque))
+    Ok(damp_by(Damping::<_, _, 8>::new(group, energy, rates)?, torque))
 }
 
 /// The damping beside the torque of a potential, if there is one.
 fn damp_by<'a, const M: usize>(
-    damping: Damping<Group, Given<'a>, M>,
+    damping: Damping<Group, Interpreted<'a>, M>,
     torque: Option<Torque<'a, Group>>,
 ) -> Damp<'a> {
     Box::new(move |phase, time, length| {

@@ -1,7 +1,5 @@
 //! The generating function of a step of collocation, to second order.
 
-use std::sync::Arc;
-
 use coadjoint::StepError;
 use coadjoint::collocation::{Node, Solution};
 use coadjoint::groups::Coordinates;
@@ -19,7 +17,7 @@ const SPACING: f64 = 0.25;
 /// The second derivatives of a smooth Hamiltonian, and those of the generating functions of its steps.
 pub(crate) struct Response<'a> {
     smooth: &'a Smooth,
-    symbols: Arc<[f64]>,
+    symbols: Vec<f64>,
     /// μ, t, the signals, v ↦ ∂²H/∂μ² v.
     hessian: Program,
     /// μ, t, the signals, the change of the symbols ↦ that of ∂H/∂μ.
@@ -29,8 +27,9 @@ pub(crate) struct Response<'a> {
 }
 
 impl<'a> Response<'a> {
-    /// For these values of the parameters that the system keeps, from which the symbols have theirs.
-    pub(crate) fn new(smooth: &'a Smooth, symbols: Arc<[f64]>, parameters: &[f64]) -> Self {
+    /// For these values of the parameters that the system keeps.
+    pub(crate) fn new(smooth: &'a Smooth, parameters: &[f64]) -> Self {
+        let symbols = smooth.symbols_at(parameters);
         let inputs: Vec<Argument> = (0..smooth.algebra.dim()).map(Argument::Input).collect();
         let slots: Vec<Argument> = (0..symbols.len()).map(Argument::Slot).collect();
         let slope = |number: usize| {

@@ -5,7 +5,6 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use coadjoint::StepError;
 use coadjoint_codegen::problem::{Parameter, Solver};
-use coadjoint_codegen::smooth::Hamiltonian;
 use coadjoint_codegen::step::{self, Invariants, Seen, nudge};
 use coadjoint_native::cards::{Card, Device};
 use coadjoint_program::{Precision, Trajectories, WIDTH};
@@ -32,9 +31,7 @@ pub fn in_lanes(mut system: System) -> Result<System, RunError> {
             "the event `{name}`: ensembles do not look for events; leave [[event]] out, or use simulate"
         )));
     }
-    if let Hamiltonian::Polynomial(problem, _) = &mut system.problem {
-        problem.solver = Some(Solver::Newton);
-    }
+    system.problem.set_solver(Solver::Newton);
     Ok(system)
 }
 
