@@ -9,7 +9,7 @@ use coadjoint_codegen::integrator::{Integrator, Kick, Kicks};
 use coadjoint_codegen::lie;
 use coadjoint_codegen::problem::Problem;
 use coadjoint_codegen::signal::Signal;
-use coadjoint_codegen::smooth::{Facts, Functions, Hamiltonian, Smooth};
+use coadjoint_codegen::smooth::{Facts, Functions, Hamiltonian};
 use coadjoint_codegen::step::{Invariants, Origin};
 use coadjoint_codegen::system::{self, Options, Run};
 use coadjoint_learn::{GroupChoice, ModelFile};
@@ -209,12 +209,10 @@ impl Derived {
         self.damping.is_some()
     }
 
-    /// The flows by collocation between kicks, where there are kicks, as a system without them.
+    /// The flows between kicks, where there are kicks, as a system without them.
     pub(crate) fn without_kicks(&self) -> Option<Self> {
-        let smooth = self.origin.smooth().filter(|smooth| smooth.kicks.is_some())?;
-        let smooth = Smooth { kicks: None, ..smooth.clone() };
         Some(Self {
-            origin: smooth.into(),
+            origin: self.origin.without_kicks()?,
             group: self.group.clone(),
             kept: Kept::default(),
             damping: None,

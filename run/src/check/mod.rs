@@ -10,21 +10,17 @@ mod trial;
 
 use std::sync::Arc;
 
-use coadjoint::groups::{Cayley, Chart, DirectProduct, Exponential, MatrixGroup};
-use coadjoint::steps::advance;
-use coadjoint::{Phase, StepError, laws};
-use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::step::{Convergence, Seen, rounding};
+use coadjoint::groups::{DirectProduct, Exponential, MatrixGroup};
+use coadjoint::{LieGroup, Phase, StepError, laws};
+use coadjoint_codegen::step::{Seen, rounding};
 use coadjoint_program::Trajectories;
 use course::{Course, starts as starts_in};
 use limit::{LATE, Limit};
-use nalgebra::DVector;
 use order::measured;
 
 use crate::backend::Backend;
 use crate::engine::{
-    Compiled, Group, Interpreter, Motion, Numbers, Restore, STEEP, Varied, advise, entries_of,
-    phase_of,
+    Compiled, Group, Interpreter, Motion, Numbers, STEEP, Varied, entries_of, phase_of,
 };
 use crate::error::RunError;
 use crate::grid::Grid;
@@ -57,19 +53,11 @@ pub fn unmeasured(system: &Derived) -> Option<String> {
 /// A step cannot be made.
 pub fn check(system: &Derived, trial: &Trial) -> Result<(Vec<Law>, Option<f64>), RunError> {
     let course = Course::new(system, trial)?;
-    if system.damping.is_some() {
-        return Ok((laws_of_steps(system, trial, &course)?, None));
+    let alone = if system.is_damped() { None } else { system.without_kicks() };
+    let (mut laws, ratio) = laws_of_steps(alone.as_ref().unwrap_or(system), trial, &course)?;
+    if system.is_damped() {
+        return Ok((laws, ratio));
     }
-    let (mut laws, ratio) = match (system.series(), &system.group.cayley) {
-        (None, _) => {
-            let alone = system.without_kicks();
-            (laws_of_steps(alone.as_ref().unwrap_or(system), trial, &course)?, None)
-        }
-        (Some(series), None) => {
-            laws_of::<_, Exponential>(series, trial, &course, &*system.group.exponential)?
-        }
-        (Some(series), Some(group)) => laws_of::<_, Cayley>(series, trial, &course, &**group)?,
-    };
     if let Some(kicks) = system.kicks() {
         laws.extend(kicked(system, kicks.torque().is_none(), trial, &course)?);
     }
@@ -93,47 +81,6 @@ const LAWS: [(&str, &str, &str); 6] = [
     ("symmetric", "symmetric", "Φ₋ₕ(Φₕ(α)) = α"),
 ];
 
-fn laws_of<G: Group + Restore, C: Chart<G> + Send + Sync>(
-    integrator: &Integrator,
-    trial: &Trial,
-    course: &Course,
-    group: &G,
-) -> Result<(Vec<Law>, Option<f64>), RunError> {
-    let h = trial.step;
-    let make = |h| Interpreter::<G, C>::new(integrator, group.clone(), h, &[]);
-    let there = make(h).map_err(RunError::unmade)?;
-    let back = make(-h).map_err(RunError::unmade)?;
-    let both = |point: &Phase<G>| {
-        advance(&there, &mut point.clone())?;
-        advance(&back, &mut point.clone()).map(drop)
-    };
-    let refused = |error| {
-        let momentum = trial.about.clone().unwrap_or_else(|| vec![1.0; group.dim()]);
-        let start = Phase::<G>::new(group.identity(), DVector::from_vec(momentum));
-        let works = |h| make(h).is_ok_and(|step| advance(&step, &mut start.clone()).is_ok());
-        RunError::at(trial.start)(advise(error, h, works))
-    };
-    let (points, starts) = course.states(trial, (group, false), both).map_err(refused)?;
-    let convergence = Convergence::new(integrator);
-    let ratio = Convergence::fold(integrator, h, &[], STEEP).ok().map(|folded| {
-        let momenta: Vec<&[f64]> = points.iter().map(|point| point.momentum.as_slice()).collect();
-        convergence.ratios(&folded, &momenta).into_iter().fold(0.0, maximum)
-    });
-    let ratio = ratio.filter(|ratio| *ratio > STEEP);
-    let steps = |map: &Interpreter<'_, G, C>, state: &mut _| advance(map, state).map(drop);
-    let (ahead, behind) =
-        (|state: &mut _| steps(&there, state), |state: &mut _| steps(&back, state));
-    let in_chart = |point: &_, laws: &mut _| laws::check_in_chart(&there, point, laws);
-    let tried = tried((group, &points), (&ahead, &behind), Some(&in_chart));
-    let mut laws = tried.map_err(RunError::at(trial.start))?;
-    let expected = integrator.order() as f64;
-    laws.push(measured(h, expected, group, &starts, &mut |(h, steps), _, state| {
-        let map = make(h)?;
-        (0..steps).try_for_each(|_| advance(&map, state).map(|_| ()))
-    }));
-    Ok((laws, ratio))
-}
-
 /// A step of a state.
 type Step<'a, G> = dyn Fn(&mut Phase<G>) -> Result<(), StepError> + 'a;
 /// The symplectic law of a map on a group without logarithm.
@@ -147,7 +94,6 @@ fn tried<G: Group>(
 ) -> Result<Vec<Law>, StepError> {
     let mut tried: Vec<laws::Law> = Vec::new();
     let limit = Limit::new();
-    let in_chart = in_chart.filter(|_| group.log(&group.identity()).is_none());
     for point in points {
         let mut further = tried.clone();
         let mut step = |state: &mut _| limit.within(|| there(state));
@@ -199,8 +145,13 @@ fn there_and_back<'a>(
     Ok((there, back, compiled))
 }
 
-/// The laws of steps by collocation. Each is made as the first of a run: only then is it a map of the state alone.
-fn laws_of_steps(system: &Derived, trial: &Trial, course: &Course) -> Result<Vec<Law>, RunError> {
+/// The laws of steps, and the ratio that is worth a warning. Each step is made as the first of a run: only then is one by
+/// collocation a map of the state alone.
+fn laws_of_steps(
+    system: &Derived,
+    trial: &Trial,
+    course: &Course,
+) -> Result<(Vec<Law>, Option<f64>), RunError> {
     let (&Trial { start, step: h, .. }, group) = (trial, &*system.group.exponential);
     let (forward, backward, compiled) = there_and_back(system, trial)?;
     let one = |motion: &dyn Motion, state: &mut Phase<_>| {
@@ -220,7 +171,16 @@ fn laws_of_steps(system: &Derived, trial: &Trial, course: &Course) -> Result<Vec
     let (points, starts) = states.map_err(RunError::at(start))?;
     let mut laws = Vec::new();
     if !kicked {
-        laws = tried((group, &points), (&there, &back), None).map_err(RunError::at(start))?;
+        // Of groups without logarithm the function S tells the symplectic law; they have the exponential chart alone.
+        let series = system.series().filter(|_| group.log(&group.identity()).is_none());
+        let map = series.map(|series| Interpreter::new(series, group.clone(), h, &[])).transpose();
+        let map: Option<Interpreter<'_, _, Exponential>> = map.map_err(RunError::unmade)?;
+        let in_chart = map.as_ref().map(|map| {
+            move |point: &Phase<_>, laws: &mut Vec<_>| laws::check_in_chart(map, point, laws)
+        });
+        let in_chart = in_chart.as_ref().map(|law| law as &InChart<'_, _>);
+        let tried = tried((group, &points), (&there, &back), in_chart);
+        laws = tried.map_err(RunError::at(start))?;
     }
     let expected = f64::from(system.order());
     laws.push(measured(h, expected, group, &starts, &mut |steps, from, state| {
@@ -257,7 +217,9 @@ fn laws_of_steps(system: &Derived, trial: &Trial, course: &Course) -> Result<Vec
         }
     }
     laws.retain(|law| law.name != "order" || unmeasured(system).is_none());
-    Ok(laws)
+    let momenta: Vec<&[f64]> = points.iter().map(|point| point.momentum.as_slice()).collect();
+    let ratio = forward.ratios(&momenta).into_iter().fold(0.0, maximum);
+    Ok((laws, Some(ratio).filter(|ratio| *ratio > STEEP)))
 }
 
 /// The laws that are left to the whole step where a potential breaks the symmetry; where a torque does that is not Hamiltonian,

@@ -22,6 +22,6 @@ pub(crate) use interpreter::Interpreter;
 pub(crate) use kick::Torque;
 pub(crate) use linear::{Differentiable, Linear};
 pub(crate) use motion::{Motion, Varied};
-pub(crate) use motion::{advise, one_by_one};
+pub(crate) use motion::one_by_one;
 pub(crate) use space::{Elements, Group, Observed, Restore, Space, identity};
 pub(crate) use space::{entries_of, phase_of, product_group, whole_group};
