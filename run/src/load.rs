@@ -16,9 +16,7 @@ use coadjoint_learn::{GroupChoice, ModelFile};
 use coadjoint_program::Trajectories;
 
 use crate::backend::Backend;
-use crate::engine::{
-    Charted, Compiled, Damped, Damper, Kept, Motion, Varied, product_group, whole_group,
-};
+use crate::engine::{Charted, Compiled, Damper, Kept, Motion, group_of};
 use crate::error::RunError;
 use crate::grid::Grid;
 use crate::inputs;
@@ -157,10 +155,7 @@ impl Derived {
         let kicks = potential.as_ref().map(|(kicks, _)| kicks);
         let invariants = Invariants::new(problem.facts().algebra, Some(&problem), kicks);
         // Kicks look at the matrices of the whole group; a flow alone goes factor by factor.
-        let group = match &potential {
-            Some(_) => whole_group(file, problem.facts().algebra)?,
-            None => product_group(file, problem.facts().algebra)?,
-        };
+        let group = group_of(file, problem.facts().algebra, potential.is_some())?;
         let mut origin = derive(file, problem)?;
         if let Some((potential, splitting)) = potential {
             let kicked = origin.with_kicks(Kick::build(potential), splitting);
@@ -279,7 +274,7 @@ impl Derived {
         &self,
         grid: Grid,
         compiled: Option<&Arc<Compiled>>,
-    ) -> Result<Box<dyn Varied + '_>, StepError> {
+    ) -> Result<Motion<'_>, StepError> {
         self.with_parameters(grid, &self.facts().defaults(), compiled)
     }
 
@@ -287,26 +282,14 @@ impl Derived {
     ///
     /// # Errors
     /// As [`Derived::steps`].
-    pub(crate) fn varied(
+    pub(crate) fn with_parameters(
         &self,
         grid: Grid,
         parameters: &[f64],
         compiled: Option<&Arc<Compiled>>,
-    ) -> Result<Box<dyn Motion + '_>, StepError> {
-        Ok(self.with_parameters(grid, parameters, compiled)?)
-    }
-
-    fn with_parameters(
-        &self,
-        grid: Grid,
-        parameters: &[f64],
-        compiled: Option<&Arc<Compiled>>,
-    ) -> Result<Box<dyn Varied + '_>, StepError> {
-        let motion = self.group.steps(&self.origin, grid, parameters, compiled)?;
-        Ok(match &self.damping {
-            Some(damper) => Box::new(Damped::new(motion, damper, &self.origin, parameters)),
-            None => motion,
-        })
+    ) -> Result<Motion<'_>, StepError> {
+        let system = (&self.origin, self.damping.as_ref());
+        self.group.steps(system, grid, parameters, compiled)
     }
 
     /// The order of accuracy: K + 1, or that of the splitting where it is lower; 2 with damping.

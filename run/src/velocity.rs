@@ -7,7 +7,7 @@ use coadjoint_codegen::integrator::Kick;
 use coadjoint_codegen::step::Energy;
 use nalgebra::DVector;
 
-use crate::engine::{Torque, phase_of, product_group, whole_group};
+use crate::engine::{Torque, group_of, phase_of};
 use crate::error::RunError;
 use crate::load::System;
 
@@ -38,10 +38,7 @@ pub fn velocities(
     };
     let potential = system.potential.as_ref().map(|(potential, _)| potential);
     let potential = potential.filter(|potential| potential.alone().is_none());
-    let group = match potential {
-        Some(_) => whole_group(file, algebra)?,
-        None => product_group(file, algebra)?,
-    };
+    let group = group_of(file, algebra, potential.is_some())?;
     let kick = potential.cloned().map(Kick::build);
     let parameters = system.problem.facts().defaults();
     let torque = kick.as_ref().map(|kick| Torque::new(kick, group.clone(), &parameters));

@@ -1,15 +1,15 @@
 //! The generating function of a step of collocation, to second order.
 
-use coadjoint::StepError;
 use coadjoint::collocation::{Node, Solution};
 use coadjoint::groups::Coordinates;
+use coadjoint::{LieGroup, StepError};
 use coadjoint_codegen::graph::Program;
 use coadjoint_codegen::smooth::Smooth;
 use coadjoint_program::Argument;
 use nalgebra::{DMatrix, DVector};
 
 use super::linear::{columns, meeting};
-use super::space::Group;
+use super::space::Tables;
 
 /// The spacing of differences that are exact on polynomials.
 const SPACING: f64 = 0.25;
@@ -56,9 +56,9 @@ impl<'a> Response<'a> {
     ///
     /// # Errors
     /// Fails if two solutions meet.
-    pub(crate) fn of<G: Group, const M: usize>(
+    pub(crate) fn of<const M: usize>(
         &self,
-        group: &G,
+        group: &Tables,
         solution: &Solution<DVector<f64>, M>,
         step: f64,
     ) -> Result<[DMatrix<f64>; 2], StepError> {
@@ -67,7 +67,7 @@ impl<'a> Response<'a> {
         let mut matrix = DMatrix::identity(size * M, size * M);
         let mut right = DMatrix::zeros(size * M, n + q);
         for (i, node) in solution.nodes.iter().enumerate() {
-            let [by_state, by_parameters] = self.node::<G, M>(group, node, step);
+            let [by_state, by_parameters] = self.node::<M>(group, node, step);
             for j in 0..M {
                 let weight = solution.matrix[j][i];
                 let mut block = matrix.view_mut((i * size, j * size), (size, size));
@@ -89,9 +89,9 @@ impl<'a> Response<'a> {
     }
 
     /// The derivatives of h(ẋ, ṗ) at a node: in (x, p), 2n×2n, and in the parameters, 2n×q.
-    fn node<G: Group, const M: usize>(
+    fn node<const M: usize>(
         &self,
-        group: &G,
+        group: &Tables,
         node: &Node<DVector<f64>>,
         step: f64,
     ) -> [DMatrix<f64>; 2] {
