@@ -1,6 +1,7 @@
 //! The velocity of a motion in its Lie algebra.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use coadjoint::LieGroup;
 use coadjoint_codegen::integrator::Kick;
@@ -38,10 +39,10 @@ pub fn velocities(
     };
     let potential = system.potential.as_ref().map(|(potential, _)| potential);
     let potential = potential.filter(|potential| potential.alone().is_none());
-    let group = group_of(file, algebra, potential.is_some())?;
+    let group = Arc::new(group_of(file, algebra, potential.is_some())?);
     let kick = potential.cloned().map(Kick::build);
     let parameters = system.problem.facts().defaults();
-    let torque = kick.as_ref().map(|kick| Torque::new(kick, group.clone(), &parameters));
+    let torque = kick.as_ref().map(|kick| Torque::new(kick, &group, &parameters));
     let torque = torque.transpose().map_err(RunError::unmade)?;
     let damped = |at: &Instant<'_>| {
         let omega = DVector::from_vec(energy.gradient(at.time, at.momentum));

@@ -72,10 +72,9 @@ impl Course {
         let grid = Grid { start: trial.start, step: h };
         let motion = system.steps(grid, compiled.as_ref()).map_err(RunError::unmade)?;
         let space = motion.space();
-        let group = &*system.group.exponential;
-        let torque = system
-            .kicks()
-            .map(|kicks| Torque::new(&kicks.kick, group.clone(), &system.facts().defaults()));
+        let group = &system.group.exponential;
+        let torque =
+            system.kicks().map(|kicks| Torque::new(&kicks.kick, group, &system.facts().defaults()));
         let torque = torque.transpose().map_err(RunError::unmade)?;
         let mut state = simulate::start(&system.file, space, trial.element.as_deref(), about)?;
         let observed = space.observe(&[&state]);

@@ -89,7 +89,7 @@ fn damp<'a>(
     // A torque without potential has no energy that could fall.
     let kick = origin.kicks().map(|kicks| &kicks.kick);
     let kick = kick.filter(|kick| kick.potential.alone().is_none());
-    let torque = kick.map(|kick| Torque::new(kick, group.clone(), parameters)).transpose()?;
+    let torque = kick.map(|kick| Torque::new(kick, &damper.group, parameters)).transpose()?;
     if origin.series().is_some_and(|series| series.problem.is_quadratic()) {
         return Ok(damp_by(Damping::<_, _, 1>::new(group, energy, rates)?, torque));
     }

@@ -1,5 +1,7 @@
 //! A potential run by the interpreter, its kicks between flows, and their derivatives.
 
+use std::sync::Arc;
+
 use coadjoint::{LieGroup, Phase, Scalar, StepError};
 use coadjoint_codegen::graph::Program;
 use coadjoint_codegen::integrator::{FoldTable, Kick};
@@ -21,7 +23,7 @@ type Element = <Tables as LieGroup>::Element;
 #[derive(Debug)]
 pub(crate) struct Torque<'a> {
     kick: &'a Kick,
-    group: Tables,
+    group: Arc<Tables>,
     slots: Vec<f64>,
 }
 
@@ -29,7 +31,7 @@ impl<'a> Torque<'a> {
     /// Folds the coefficients for these values of the parameters that are kept.
     pub(crate) fn new(
         kick: &'a Kick,
-        group: Tables,
+        group: &Arc<Tables>,
         parameters: &[f64],
     ) -> Result<Self, StepError> {
         let symbols = kick.potential.symbols.iter();
@@ -37,12 +39,12 @@ impl<'a> Torque<'a> {
         // No coefficient holds the step size.
         let slots = FoldTable::of_kick(kick).fold(1.0, &symbols);
         let slots = slots.map_err(|error| refusal(error, 1.0, &symbols))?;
-        Ok(Self { kick, group, slots })
+        Ok(Self { kick, group: group.clone(), slots })
     }
 
     /// Changes the values; kicks are refused if a coefficient is not finite for them.
     pub(super) fn vary(&mut self, parameters: &[f64]) {
-        let varied = Self::new(self.kick, self.group.clone(), parameters).map(|new| new.slots);
+        let varied = Self::new(self.kick, &self.group, parameters).map(|new| new.slots);
         self.slots = varied.unwrap_or_else(|_| vec![f64::NAN; self.slots.len()]);
     }
 
@@ -148,10 +150,10 @@ impl<'a> KickSlope<'a> {
     /// Fails if a coefficient is not finite.
     pub(super) fn new(
         kick: &'a Kick,
-        group: &Tables,
+        group: &Arc<Tables>,
         parameters: &[f64],
     ) -> Result<Self, StepError> {
-        let torque = Torque::new(kick, group.clone(), parameters)?;
+        let torque = Torque::new(kick, group, parameters)?;
         let generator = |matrix: &RationalMatrix| {
             DMatrix::from_fn(matrix.rows(), matrix.columns(), |i, j| {
                 matrix.get(i, j).to_f64().unwrap_or(f64::NAN)

@@ -155,7 +155,7 @@ impl<'a> Motion<'a> {
         kicks: Option<&'a Kicks>,
     ) -> Result<Self, StepError> {
         let kicked = kicks.map(|kicks| {
-            let torque = Torque::new(&kicks.kick, (*space.group).clone(), &parameters)?;
+            let torque = Torque::new(&kicks.kick, &space.group, &parameters)?;
             Ok::<_, StepError>(Kicked { kicks, torque })
         });
         let kicked = kicked.transpose()?;

@@ -32,7 +32,7 @@ pub fn run(system: &Derived, setup: &Setup, sink: &mut dyn Sink) -> Result<Outco
     let (schedule, grid) = (&setup.schedule, setup.schedule.grid());
     let (compiled, motion, start) = system.begin(setup)?;
     motion.defined(&start, grid.start).map_err(RunError::at(grid.start))?;
-    let warnings = system.gave_way().map(Warning::Method).into_iter().collect();
+    let warnings = system.gave_way().map(|text| Warning::Method { text }).into_iter().collect();
     let subject = Subject { setup, watched: system.watched(grid.step), warnings };
     let made = subject.run(&motion, &start, sink);
     let code = compiled.as_ref().map(|compiled| compiled.code());
