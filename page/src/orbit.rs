@@ -40,7 +40,7 @@ pub struct Orbit {
 
 impl Orbit {
     /// The orbit through μ; none where it is no surface.
-    pub fn new(energy: &Energy, casimir: &Numeric, mu: &[f64]) -> Option<Self> {
+    pub fn new(energy: &Energy<'_>, casimir: &Numeric, mu: &[f64]) -> Option<Self> {
         let surface = Surface::new(casimir, mu)?;
         let values: Vec<f64> = surface.points.iter().map(|p| energy.value(START, p)).collect();
         let finite = || values.iter().copied().filter(|value| value.is_finite());

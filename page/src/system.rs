@@ -3,11 +3,10 @@
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie::{self, LieAlgebra, catalogue};
-use coadjoint_codegen::poly::{Numeric, Polynomial};
-use coadjoint_codegen::problem::values;
+use coadjoint_codegen::poly::Polynomial;
 use coadjoint_codegen::step::{Energy, Invariants, Origin, Step};
 use coadjoint_codegen::system::{self, Options, Units};
-use coadjoint_program::{Argument, Graph, Precision, Program, Stepper};
+use coadjoint_program::{Argument, Precision, Program, Stepper};
 
 use crate::fields::Fields;
 use crate::file::File;
@@ -57,7 +56,7 @@ pub struct System {
     pub h: f64,
     /// μ at the start.
     pub momentum: Vec<f64>,
-    pub energy: Energy,
+    pub energy: Energy<'static>,
     /// μ, then t where H is no polynomial, ↦ ∂H/∂μ.
     pub gradient: Program,
     pub casimirs: Vec<Polynomial>,
@@ -67,20 +66,6 @@ pub struct System {
     /// Runge and Kutta's method of order four for the same equations.
     pub rival: Rival,
     pub units: Units,
-}
-
-/// μ, then t where H is no polynomial, ↦ ∂H/∂μ. That of a polynomial is made coordinate by coordinate, which takes fewer operations
-/// than reverse mode.
-fn gradient_of(origin: &Origin) -> Program {
-    let problem = match origin {
-        Origin::Series(integrator) => &integrator.problem,
-        Origin::Collocation(smooth) => return smooth.gradient.clone(),
-    };
-    let (graph, dim) = (Graph::new(), problem.algebra.dim());
-    let energy = Numeric::new(&problem.hamiltonian, dim, &values(&problem.symbols));
-    let mu: Vec<_> = (0..dim).map(|i| graph.input(i)).collect();
-    let slopes: Vec<_> = energy.gradient(dim).iter().map(|slope| slope.node(&graph, &mu)).collect();
-    graph.finish(dim, &slopes)
 }
 
 /// The first inputs of a program, as what it is differentiated in.
@@ -105,11 +90,11 @@ impl System {
                 "give a number for each coordinate",
             )]);
         };
-        let energy = Energy::new(&read.problem);
+        let energy = Energy::new(&read.problem).into_owned();
         let invariants = Invariants::new(read.problem.facts().algebra, Some(&read.problem), None);
         let large = |error| vec![Mistake::of("truncation", error, "lower the truncation")];
         let origin = Origin::derive(read.problem.settled().0, LIMIT).map_err(large)?;
-        let gradient = gradient_of(&origin);
+        let gradient = origin.energy(&[]).slope();
         let refused = |error: &dyn std::fmt::Display| vec![Mistake::of_all(error, None)];
         let step = origin.step(Precision::Double).map_err(|error| refused(&error))?;
         let programs = &step.kernel().programs;

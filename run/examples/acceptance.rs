@@ -215,11 +215,10 @@ fn rows(name: &str, compact: bool, truncation: usize, rows: usize, seed: u64) ->
     );
     let system = read_varying(name, &text, Options::default(), &[]);
     let system = system.map_err(|error| said(&error))?;
-    let energy_of = Energy::new(&system.problem);
+    let energy_of = Energy::new(&system.problem).into_owned();
     let derived = Arc::new(Derived::of(system).map_err(|error| said(&error))?);
     let (structure, factors) = (algebra.constants(), algebra.factor_of_coordinates());
-    let slope = energy_of.gradient(dim);
-    let truth = Truth { velocity: &|mu| slope(0.0, mu), structure, factors, compact };
+    let truth = Truth { velocity: &|mu| energy_of.gradient(0.0, mu), structure, factors, compact };
     let step = Single::new(derived, 1.0, Backend::Interpreter, 1.0);
     let step = step.map_err(|error| said(&error))?;
     let size = step.matrix_size();

@@ -196,9 +196,8 @@ impl Case {
         let facts = system.problem.facts();
         let (dim, structure) = (facts.algebra.dim(), facts.algebra.constants());
         let energy = Energy::new(&system.problem);
-        let gradient = energy.gradient(dim);
         let field = |mu: &[f64]| {
-            let (omega, mut field) = (gradient(0.0, mu), vec![0.0; dim]);
+            let (omega, mut field) = (energy.gradient(0.0, mu), vec![0.0; dim]);
             structure.iter().for_each(|&(i, j, k, c)| field[j] += omega[i] * c * mu[k]);
             field
         };

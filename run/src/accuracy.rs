@@ -72,10 +72,9 @@ pub fn meet_tolerance(
             Err(error) => return Err(RunError::of(path)(error)),
         }
         let open = open.clone();
-        let kept =
-            choice.is_some() && matches!(problem.clone().settled().0, Hamiltonian::Polynomial(..));
+        let kept = choice.is_some() && problem.clone().settled().0.polynomial().is_some();
         if let Some(open) = open.filter(|_| !kept) {
-            *problem = Hamiltonian::Smooth(open);
+            *problem = Hamiltonian::from(*open);
             choice = None;
         }
     }

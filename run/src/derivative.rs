@@ -3,10 +3,9 @@
 #[cfg(test)]
 mod tests;
 
-use coadjoint_program::Trajectories;
 use nalgebra::{DMatrix, DVector};
 
-use crate::engine::{Differentiable, Linear, Motion, Numbers};
+use crate::engine::{Linear, Motion, Numbers};
 use crate::error::RunError;
 use crate::load::Derived;
 use crate::simulate::{Schedule, Setup};
@@ -18,7 +17,7 @@ use crate::simulate::{Schedule, Setup};
 /// flattened. The steps are those of a run to rounding, and derivatives those of the steps, not of the flow: the tangent
 /// map is symplectic to rounding.
 pub struct Derivatives<'a> {
-    motion: Box<dyn Motion + 'a>,
+    motion: Motion<'a>,
     start: Numbers,
     schedule: Schedule,
 }
@@ -40,20 +39,15 @@ impl<'a> Derivatives<'a> {
     /// # Errors
     /// Settings that make no sense.
     pub fn new(system: &'a Derived, setup: &Setup) -> Result<Self, RunError> {
-        if setup.momentum.len() != system.facts().algebra.dim() {
-            return Err(RunError::Option("the momentum does not fit the group".to_owned()));
-        }
-        let schedule = &setup.schedule;
-        system.reaches(schedule)?;
-        system.resolves(schedule.grid(), schedule.steps, Some(&setup.momentum))?;
-        let (grid, steps) = (schedule.grid(), schedule.steps as f64);
-        let compiled = system.compiled(grid.step, setup.backend, steps, Trajectories::One)?;
-        let motion = system.steps(grid, compiled.as_ref()).map_err(RunError::unmade)?;
-        let start = setup.start(&system.file, motion.space())?;
+        let (_, motion, start) = system.begin(setup)?;
         Ok(Self { motion, start, schedule: setup.schedule })
     }
 
-    fn steps(&self) -> Result<&dyn Differentiable, RunError> {
+    /// q, the number of parameters.
+    ///
+    /// # Errors
+    /// Fails where derivatives are not known.
+    fn known(&self) -> Result<usize, RunError> {
         let what = "no derivatives are known of learned maps, of functions of the user's, of torques and of damping";
         self.motion.differentiable().ok_or_else(|| RunError::Option(what.to_owned()))
     }
@@ -65,7 +59,7 @@ impl<'a> Derivatives<'a> {
 
     /// q, the number of parameters.
     pub fn parameters(&self) -> usize {
-        self.motion.differentiable().map_or(0, Differentiable::parameters)
+        self.motion.differentiable().unwrap_or(0)
     }
 
     /// The error of a step after `done` steps.
@@ -82,7 +76,7 @@ impl<'a> Derivatives<'a> {
 
     /// The derivative of the step after `done`, from the state before it.
     fn linear(&self, done: u64, state: &Numbers) -> Result<Linear, RunError> {
-        let linear = self.steps()?.linear(state, done);
+        let linear = self.motion.linear(state, done);
         let linear = linear.map_err(|error| self.failed(done, &error))?;
         self.finite(done, [&linear.state, &linear.parameters])?;
         Ok(linear)
@@ -130,7 +124,7 @@ impl<'a> Derivatives<'a> {
         parameters: &DMatrix<f64>,
         at: &[u64],
     ) -> Result<Vec<DMatrix<f64>>, RunError> {
-        let (n, q, k) = (self.dim(), self.steps()?.parameters(), tangents.ncols());
+        let (n, q, k) = (self.dim(), self.known()?, tangents.ncols());
         if tangents.nrows() != 2 * n || parameters.shape() != (q, k) {
             return Err(RunError::Option(format!(
                 "{k} tangents are {}×{k} numbers of the state and {q}×{k} of the parameters",
@@ -164,7 +158,7 @@ impl<'a> Derivatives<'a> {
     /// # Errors
     /// Fails if the shapes do not fit, and why the run stopped.
     pub fn backward(&self, cotangents: &[(u64, DMatrix<f64>)]) -> Result<Adjoint, RunError> {
-        let q = self.steps()?.parameters();
+        let q = self.known()?;
         let (n, count) = (self.dim(), cotangents.last().map_or(0, |&(last, _)| last));
         let k = cotangents.first().map_or(0, |(_, first)| first.ncols());
         if cotangents.iter().any(|(_, own)| own.shape() != (2 * n, k)) {

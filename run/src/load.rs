@@ -9,16 +9,14 @@ use coadjoint_codegen::integrator::{Integrator, Kick, Kicks};
 use coadjoint_codegen::lie;
 use coadjoint_codegen::problem::Problem;
 use coadjoint_codegen::signal::Signal;
-use coadjoint_codegen::smooth::{Facts, Functions, Hamiltonian, Smooth};
+use coadjoint_codegen::smooth::{Facts, Functions, Hamiltonian};
 use coadjoint_codegen::step::{Invariants, Origin};
 use coadjoint_codegen::system::{self, Options, Run};
 use coadjoint_learn::{GroupChoice, ModelFile};
 use coadjoint_program::Trajectories;
 
 use crate::backend::Backend;
-use crate::engine::{
-    Charted, Compiled, Damped, Damper, Kept, Motion, Varied, product_group, whole_group,
-};
+use crate::engine::{Charted, Compiled, Damper, Kept, Motion, group_of};
 use crate::error::RunError;
 use crate::grid::Grid;
 use crate::inputs;
@@ -69,24 +67,16 @@ pub fn polynomial(
     advice: &str,
 ) -> Result<system::System, RunError> {
     let System { problem, potential, damping, run, units, parameters } = system;
-    match problem {
-        Hamiltonian::Polynomial(problem, _) => {
-            let problem = *problem;
-            Ok(system::System { problem, potential, damping, run, units, parameters })
-        }
-        Hamiltonian::Smooth(smooth) => Err(not_of_series(path, &smooth, lacking, advice)),
-    }
-}
-
-/// The error of a system without series where `lacking`, which is made from one, is asked for.
-pub(crate) fn not_of_series(path: &Path, smooth: &Smooth, lacking: &str, advice: &str) -> RunError {
-    let nodes = smooth.nodes();
-    RunError::Option(format!(
-        "{}: {lacking}: the steps of this system are made by collocation, of order {} from ∂H/∂μ at {nodes} nodes, and not by \
-         the series of a polynomial; {advice}",
-        path.display(),
-        2 * nodes,
-    ))
+    let problem = problem.into_polynomial().map_err(|smooth| {
+        let nodes = smooth.nodes();
+        RunError::Option(format!(
+            "{}: {lacking}: the steps of this system are made by collocation, of order {} from ∂H/∂μ at {nodes} nodes, and not \
+             by the series of a polynomial; {advice}",
+            path.display(),
+            2 * nodes,
+        ))
+    })?;
+    Ok(system::System { problem, potential, damping, run, units, parameters })
 }
 
 /// Reads the group of a system file alone; `name` is what mistakes call it.
@@ -165,10 +155,7 @@ impl Derived {
         let kicks = potential.as_ref().map(|(kicks, _)| kicks);
         let invariants = Invariants::new(problem.facts().algebra, Some(&problem), kicks);
         // Kicks look at the matrices of the whole group; a flow alone goes factor by factor.
-        let group = match &potential {
-            Some(_) => whole_group(file, problem.facts().algebra)?,
-            None => product_group(file, problem.facts().algebra)?,
-        };
+        let group = group_of(file, problem.facts().algebra, potential.is_some())?;
         let mut origin = derive(file, problem)?;
         if let Some((potential, splitting)) = potential {
             let kicked = origin.with_kicks(Kick::build(potential), splitting);
@@ -217,12 +204,10 @@ impl Derived {
         self.damping.is_some()
     }
 
-    /// The flows by collocation between kicks, where there are kicks, as a system without them.
+    /// The flows between kicks, where there are kicks, as a system without them.
     pub(crate) fn without_kicks(&self) -> Option<Self> {
-        let smooth = self.origin.smooth().filter(|smooth| smooth.kicks.is_some())?;
-        let smooth = Smooth { kicks: None, ..smooth.clone() };
         Some(Self {
-            origin: smooth.into(),
+            origin: self.origin.without_kicks()?,
             group: self.group.clone(),
             kept: Kept::default(),
             damping: None,
@@ -289,7 +274,7 @@ impl Derived {
         &self,
         grid: Grid,
         compiled: Option<&Arc<Compiled>>,
-    ) -> Result<Box<dyn Varied + '_>, StepError> {
+    ) -> Result<Motion<'_>, StepError> {
         self.with_parameters(grid, &self.facts().defaults(), compiled)
     }
 
@@ -297,26 +282,14 @@ impl Derived {
     ///
     /// # Errors
     /// As [`Derived::steps`].
-    pub(crate) fn varied(
+    pub(crate) fn with_parameters(
         &self,
         grid: Grid,
         parameters: &[f64],
         compiled: Option<&Arc<Compiled>>,
-    ) -> Result<Box<dyn Motion + '_>, StepError> {
-        Ok(self.with_parameters(grid, parameters, compiled)?)
-    }
-
-    fn with_parameters(
-        &self,
-        grid: Grid,
-        parameters: &[f64],
-        compiled: Option<&Arc<Compiled>>,
-    ) -> Result<Box<dyn Varied + '_>, StepError> {
-        let motion = self.group.steps(&self.origin, grid, parameters, compiled)?;
-        Ok(match &self.damping {
-            Some(damper) => Box::new(Damped::new(motion, damper, &self.origin, parameters)),
-            None => motion,
-        })
+    ) -> Result<Motion<'_>, StepError> {
+        let system = (&self.origin, self.damping.as_ref());
+        self.group.steps(system, grid, parameters, compiled)
     }
 
     /// The order of accuracy: K + 1, or that of the splitting where it is lower; 2 with damping.

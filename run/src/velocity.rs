@@ -1,13 +1,14 @@
 //! The velocity of a motion in its Lie algebra.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use coadjoint::LieGroup;
 use coadjoint_codegen::integrator::Kick;
 use coadjoint_codegen::step::Energy;
 use nalgebra::DVector;
 
-use crate::engine::{Torque, phase_of, product_group, whole_group};
+use crate::engine::{Torque, group_of, phase_of};
 use crate::error::RunError;
 use crate::load::System;
 
@@ -33,22 +34,18 @@ pub fn velocities(
     instants: &[Instant<'_>],
 ) -> Result<Vec<Vec<f64>>, RunError> {
     let (energy, algebra) = (Energy::new(&system.problem), system.problem.facts().algebra);
-    let slope = energy.gradient(algebra.dim());
     let Some(rates) = &system.damping else {
-        return Ok(instants.iter().map(|at| slope(at.time, at.momentum)).collect());
+        return Ok(instants.iter().map(|at| energy.gradient(at.time, at.momentum)).collect());
     };
     let potential = system.potential.as_ref().map(|(potential, _)| potential);
     let potential = potential.filter(|potential| potential.alone().is_none());
-    let group = match potential {
-        Some(_) => whole_group(file, algebra)?,
-        None => product_group(file, algebra)?,
-    };
+    let group = Arc::new(group_of(file, algebra, potential.is_some())?);
     let kick = potential.cloned().map(Kick::build);
     let parameters = system.problem.facts().defaults();
-    let torque = kick.as_ref().map(|kick| Torque::new(kick, group.clone(), &parameters));
+    let torque = kick.as_ref().map(|kick| Torque::new(kick, &group, &parameters));
     let torque = torque.transpose().map_err(RunError::unmade)?;
     let damped = |at: &Instant<'_>| {
-        let omega = DVector::from_vec(slope(at.time, at.momentum));
+        let omega = DVector::from_vec(energy.gradient(at.time, at.momentum));
         let mut force = group.ad_star(&omega, &DVector::from_column_slice(at.momentum));
         if let Some(torque) = &torque {
             let state = phase_of(&group, at.matrix, at.momentum);

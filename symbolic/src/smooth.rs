@@ -9,7 +9,7 @@ use num_traits::ToPrimitive;
 use crate::integrator::{Kick, Kicks};
 use crate::lie::LieAlgebra;
 use crate::potential::undefined;
-use crate::problem::{Parameter, Problem, Symbol, values};
+use crate::problem::{Parameter, Problem, Solver, Symbol, values};
 use crate::signal::{self, Signal};
 
 /// A smooth Hamiltonian H(t, μ) on the dual of a Lie algebra, as straight-line programs.
@@ -203,6 +203,18 @@ pub enum Hamiltonian {
     Smooth(Box<Smooth>),
 }
 
+impl From<Problem> for Hamiltonian {
+    fn from(problem: Problem) -> Self {
+        Self::Polynomial(Box::new(problem), None)
+    }
+}
+
+impl From<Smooth> for Hamiltonian {
+    fn from(smooth: Smooth) -> Self {
+        Self::Smooth(Box::new(smooth))
+    }
+}
+
 impl Hamiltonian {
     /// The facts of the system.
     pub fn facts(&self) -> Facts<'_> {
@@ -249,6 +261,24 @@ impl Hamiltonian {
         match self {
             Self::Polynomial(problem, _) => problem.truncation = truncation,
             Self::Smooth(smooth) => smooth.truncation = truncation,
+        }
+    }
+
+    /// Asks for a solver of the equation of a series; another Hamiltonian has its own.
+    pub fn set_solver(&mut self, solver: Solver) {
+        if let Self::Polynomial(problem, _) = self {
+            problem.solver = Some(solver);
+        }
+    }
+
+    /// The polynomial that it is.
+    ///
+    /// # Errors
+    /// The smooth function, where it is taken as one.
+    pub fn into_polynomial(self) -> Result<Problem, Box<Smooth>> {
+        match self {
+            Self::Polynomial(problem, _) => Ok(*problem),
+            Self::Smooth(smooth) => Err(smooth),
         }
     }
 

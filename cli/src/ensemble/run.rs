@@ -28,10 +28,10 @@ const TOLD: usize = 5;
 const LIST: &[u8] = b"row,step,reason\n";
 
 /// A run that is set up.
-pub(crate) struct Job<'a> {
+pub(crate) struct Job<'a, 's> {
     pub options: &'a EnsembleOptions,
     /// Advances rows.
-    pub engine: &'a Engine<'a>,
+    pub engine: &'a Engine<'s>,
     /// The source of rows.
     pub states: States,
     /// Everything the run reads.
@@ -88,8 +88,8 @@ impl Files {
 }
 
 /// A run on its way.
-struct Run<'a> {
-    job: Job<'a>,
+struct Run<'a, 's> {
+    job: Job<'a, 's>,
     files: Files,
     /// The files that grow, kept from other processes: the output and the list of rejected rows.
     output: Output,
@@ -99,7 +99,7 @@ struct Run<'a> {
 }
 
 /// Runs from the beginning, or from where an earlier run was stopped.
-pub(crate) fn run(job: Job<'_>) -> Result<Outcome, CliError> {
+pub(crate) fn run(job: Job<'_, '_>) -> Result<Outcome, CliError> {
     let begun = Instant::now();
     let files = Files::of(&job.options.out);
     // Before anything is read that another process may write.
@@ -132,7 +132,7 @@ fn remove(path: &Path) -> Result<(), CliError> {
     }
 }
 
-impl Run<'_> {
+impl Run<'_, '_> {
     /// Goes on behind what the journal counts.
     fn resume(&mut self) -> Result<(), CliError> {
         let both = [(&mut self.output, &self.files.out), (&mut self.list, &self.files.list)];

@@ -88,7 +88,7 @@ pub(crate) fn assemble_either(draft: Draft, diagnostics: &Diagnostics) -> Option
             }
         };
         let smooth = in_units(assemble_smooth(draft, None, diagnostics)?, polynomial.as_ref());
-        return Some(Hamiltonian::Smooth(Box::new(smooth)));
+        return Some(smooth.into());
     }
     let open = open(&draft);
     let problem = assemble_polynomial(draft, read, diagnostics)?;
@@ -141,7 +141,7 @@ pub(crate) fn assemble_given(
         let message = "[parameters]: a Hamiltonian that is a function has its own";
         diagnostics.report_other(Span::Whole, message, "leave them out");
     }
-    assemble_smooth(draft, Some(function), diagnostics).map(Box::new).map(Hamiltonian::Smooth)
+    assemble_smooth(draft, Some(function), diagnostics).map(Hamiltonian::from)
 }
 
 /// The largest truncation of collocation: 8 nodes.

@@ -147,8 +147,7 @@ impl System<Hamiltonian> {
 impl From<System> for System<Hamiltonian> {
     fn from(system: System) -> Self {
         let System { problem, potential, damping, run, units, parameters } = system;
-        let problem = Hamiltonian::Polynomial(Box::new(problem), None);
-        Self { problem, potential, damping, run, units, parameters }
+        Self { problem: problem.into(), potential, damping, run, units, parameters }
     }
 }
 

@@ -1,7 +1,6 @@
 //! The states at which laws are tried: those of the file's own run, and others near to them.
 
-use coadjoint::{Phase, StepError, laws};
-use coadjoint_codegen::step::{Drift, nudge};
+use coadjoint::{LieGroup, Phase, StepError, laws};
 use coadjoint_program::Trajectories;
 use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
@@ -9,11 +8,12 @@ use rand_chacha::ChaCha8Rng;
 
 use super::trial::Trial;
 use crate::backend::Backend;
-use crate::engine::{Group, Numbers, Restore, Torque, identity, phase_of};
+use crate::engine::{Tables, Torque, phase_of};
 use crate::error::RunError;
 use crate::grid::Grid;
 use crate::load::Derived;
-use crate::simulate::not_an_element;
+use crate::number::maximum;
+use crate::simulate;
 
 /// Steps of the run that are looked at, at most; of more dimensions than a dozen fewer.
 const LONGEST: f64 = 2000.0;
@@ -50,12 +50,12 @@ pub(super) struct Course {
 }
 
 /// A state from which a step of this size and one back can be made, and its time.
-pub(super) type Start<G> = (Phase<G>, f64);
+pub(super) type Start = (Phase<Tables>, f64);
 /// Points at which laws are tried, and starts from which the order is measured.
-pub(super) type Tried<G> = (Vec<Phase<G>>, Vec<Start<G>>);
+pub(super) type Tried = (Vec<Phase<Tables>>, Vec<Start>);
 
 /// Makes a step of a state, as a trial.
-pub(super) type Attempt<'a, G> = dyn FnMut(&Phase<G>) -> Result<(), StepError> + 'a;
+pub(super) type Attempt<'a> = dyn FnMut(&Phase<Tables>) -> Result<(), StepError> + 'a;
 
 impl Course {
     /// Follows the run of the file in steps of the trial's size, until one cannot be made.
@@ -72,22 +72,14 @@ impl Course {
         let grid = Grid { start: trial.start, step: h };
         let motion = system.steps(grid, compiled.as_ref()).map_err(RunError::unmade)?;
         let space = motion.space();
-        let matrix = match &trial.element {
-            Some(rows) => space
-                .nearest(&rows.concat())
-                .map_err(|error| not_an_element(&system.file, &error))?,
-            None => identity(space.size()),
-        };
-        let group = &*system.group.exponential;
-        let torque = system
-            .kicks()
-            .map(|kicks| Torque::new(&kicks.kick, group.clone(), &system.facts().defaults()));
+        let group = &system.group.exponential;
+        let torque =
+            system.kicks().map(|kicks| Torque::new(&kicks.kick, group, &system.facts().defaults()));
         let torque = torque.transpose().map_err(RunError::unmade)?;
-        let mut state = Numbers { g: space.numbers(&matrix), mu: about.clone() };
+        let mut state = simulate::start(&system.file, space, trial.element.as_deref(), about)?;
         let observed = space.observe(&[&state]);
         let start = system.invariants.start(trial.start, observed.seen(0, &state.mu));
         let known = !start.momenta().is_empty();
-        let mut drift = Drift { spatial_momentum: known.then_some(0.0), ..Drift::default() };
         for n in 0..=count {
             let (time, element) = (grid.time(n), space.matrix(&state.g));
             let force = torque.as_ref().map_or(0.0, |torque| {
@@ -99,16 +91,12 @@ impl Course {
             if n == count || motion.advance(&mut state, n, 1).is_err() {
                 break;
             }
-            let mut beside = state.clone();
-            nudge(&mut beside.g);
-            nudge(&mut beside.mu);
-            let observed = space.observe(&[&state, &beside]);
-            let seen = [observed.seen(0, &state.mu), observed.seen(1, &beside.mu)];
-            let conserved = system.invariants.conserved(grid.time(n + 1), &seen);
-            let measured = start.measured(&conserved[0], &conserved[1]);
-            if let Some(now) = measured.spatial_momentum.filter(|_| known) {
-                drift.raise(Drift { spatial_momentum: Some(now), ..Drift::default() });
-                course.drift = drift.spatial_momentum.map(|drift| (drift, n + 1));
+            let (_, conserved) = space.conserved(&system.invariants, grid.time(n + 1), &[&state]);
+            let measured = conserved.first().map(|[now, beside]| start.measured(now, beside));
+            let measured = measured.and_then(|drift| drift.spatial_momentum).filter(|_| known);
+            if let Some(now) = measured {
+                let largest = course.drift.map_or(now, |(drift, _)| maximum(drift, now));
+                course.drift = Some((largest, n + 1));
             }
         }
         Ok(course)
@@ -119,12 +107,12 @@ impl Course {
     ///
     /// # Errors
     /// The reason if no step can be made there.
-    fn point<G: Group + Restore>(
+    fn point(
         &self,
-        (group, kicked): (&G, bool),
+        (group, kicked): (&Tables, bool),
         random: &mut ChaCha8Rng,
-        attempt: &mut Attempt<'_, G>,
-    ) -> Result<Start<G>, StepError> {
+        attempt: &mut Attempt<'_>,
+    ) -> Result<Start, StepError> {
         let mut refused = StepError::NonFiniteState;
         for number in 0..ATTEMPTS {
             let mut vector =
@@ -153,12 +141,12 @@ impl Course {
     }
 
     /// Points at which laws are tried, and starts from which the order is measured.
-    pub(super) fn states<G: Group + Restore>(
+    pub(super) fn states(
         &self,
         trial: &Trial,
-        (group, kicked): (&G, bool),
-        mut attempt: impl FnMut(&Phase<G>) -> Result<(), StepError>,
-    ) -> Result<Tried<G>, StepError> {
+        (group, kicked): (&Tables, bool),
+        mut attempt: impl FnMut(&Phase<Tables>) -> Result<(), StepError>,
+    ) -> Result<Tried, StepError> {
         let mut random = ChaCha8Rng::seed_from_u64(trial.seed);
         let mut point = || self.point((group, kicked), &mut random, &mut attempt);
         let points = (0..trial.points).map(|_| point().map(|(phase, _)| phase));
@@ -168,7 +156,7 @@ impl Course {
     }
 
     /// The states of the run where the torque is largest, of which a step turns the momentum by more than rounding.
-    pub(super) fn forced<G: Restore>(&self, group: &G, step: f64, count: usize) -> Vec<Start<G>> {
+    pub(super) fn forced(&self, group: &Tables, step: f64, count: usize) -> Vec<Start> {
         let acts = |place: &&Place| {
             let size = place.momentum.iter().fold(0.0_f64, |size, mu| size.max(mu.abs()));
             (step * place.force).abs() > 1e-10 * size

@@ -10,22 +10,16 @@ mod trial;
 
 use std::sync::Arc;
 
-use coadjoint::groups::{Cayley, Chart, DirectProduct, Exponential, MatrixGroup};
-use coadjoint::steps::advance;
-use coadjoint::{Phase, StepError, laws};
-use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::step::{Convergence, Seen, rounding};
+use coadjoint::groups::Exponential;
+use coadjoint::{LieGroup, Phase, StepError, laws};
+use coadjoint_codegen::step::{Seen, rounding};
 use coadjoint_program::Trajectories;
-use course::{Course, starts as starts_in};
+use course::{Course, Start, starts as starts_in};
 use limit::{LATE, Limit};
-use nalgebra::DVector;
 use order::measured;
 
 use crate::backend::Backend;
-use crate::engine::{
-    Compiled, Group, Interpreter, Motion, Numbers, Restore, STEEP, Varied, advise, entries_of,
-    phase_of,
-};
+use crate::engine::{Compiled, Interpreter, Motion, STEEP, Tables, entries_of};
 use crate::error::RunError;
 use crate::grid::Grid;
 use crate::load::Derived;
@@ -57,19 +51,11 @@ pub fn unmeasured(system: &Derived) -> Option<String> {
 /// A step cannot be made.
 pub fn check(system: &Derived, trial: &Trial) -> Result<(Vec<Law>, Option<f64>), RunError> {
     let course = Course::new(system, trial)?;
-    if system.damping.is_some() {
-        return Ok((laws_of_steps(system, trial, &course)?, None));
+    let alone = if system.is_damped() { None } else { system.without_kicks() };
+    let (mut laws, ratio) = laws_of_steps(alone.as_ref().unwrap_or(system), trial, &course)?;
+    if system.is_damped() {
+        return Ok((laws, ratio));
     }
-    let (mut laws, ratio) = match (system.series(), &system.group.cayley) {
-        (None, _) => {
-            let alone = system.without_kicks();
-            (laws_of_steps(alone.as_ref().unwrap_or(system), trial, &course)?, None)
-        }
-        (Some(series), None) => {
-            laws_of::<_, Exponential>(series, trial, &course, &*system.group.exponential)?
-        }
-        (Some(series), Some(group)) => laws_of::<_, Cayley>(series, trial, &course, &**group)?,
-    };
     if let Some(kicks) = system.kicks() {
         laws.extend(kicked(system, kicks.torque().is_none(), trial, &course)?);
     }
@@ -93,61 +79,19 @@ const LAWS: [(&str, &str, &str); 6] = [
     ("symmetric", "symmetric", "Φ₋ₕ(Φₕ(α)) = α"),
 ];
 
-fn laws_of<G: Group + Restore, C: Chart<G> + Send + Sync>(
-    integrator: &Integrator,
-    trial: &Trial,
-    course: &Course,
-    group: &G,
-) -> Result<(Vec<Law>, Option<f64>), RunError> {
-    let h = trial.step;
-    let make = |h| Interpreter::<G, C>::new(integrator, group.clone(), h, &[]);
-    let there = make(h).map_err(RunError::unmade)?;
-    let back = make(-h).map_err(RunError::unmade)?;
-    let both = |point: &Phase<G>| {
-        advance(&there, &mut point.clone())?;
-        advance(&back, &mut point.clone()).map(drop)
-    };
-    let refused = |error| {
-        let momentum = trial.about.clone().unwrap_or_else(|| vec![1.0; group.dim()]);
-        let start = Phase::<G>::new(group.identity(), DVector::from_vec(momentum));
-        let works = |h| make(h).is_ok_and(|step| advance(&step, &mut start.clone()).is_ok());
-        RunError::at(trial.start)(advise(error, h, works))
-    };
-    let (points, starts) = course.states(trial, (group, false), both).map_err(refused)?;
-    let convergence = Convergence::new(integrator);
-    let ratio = Convergence::fold(integrator, h, &[], STEEP).ok().map(|folded| {
-        let momenta: Vec<&[f64]> = points.iter().map(|point| point.momentum.as_slice()).collect();
-        convergence.ratios(&folded, &momenta).into_iter().fold(0.0, maximum)
-    });
-    let ratio = ratio.filter(|ratio| *ratio > STEEP);
-    let steps = |map: &Interpreter<'_, G, C>, state: &mut _| advance(map, state).map(drop);
-    let (ahead, behind) =
-        (|state: &mut _| steps(&there, state), |state: &mut _| steps(&back, state));
-    let in_chart = |point: &_, laws: &mut _| laws::check_in_chart(&there, point, laws);
-    let tried = tried((group, &points), (&ahead, &behind), Some(&in_chart));
-    let mut laws = tried.map_err(RunError::at(trial.start))?;
-    let expected = integrator.order() as f64;
-    laws.push(measured(h, expected, group, &starts, &mut |(h, steps), _, state| {
-        let map = make(h)?;
-        (0..steps).try_for_each(|_| advance(&map, state).map(|_| ()))
-    }));
-    Ok((laws, ratio))
-}
-
 /// A step of a state.
-type Step<'a, G> = dyn Fn(&mut Phase<G>) -> Result<(), StepError> + 'a;
+type Step<'a> = dyn Fn(&mut Phase<Tables>) -> Result<(), StepError> + 'a;
 /// The symplectic law of a map on a group without logarithm.
-type InChart<'a, G> = dyn Fn(&Phase<G>, &mut Vec<laws::Law>) -> Result<(), StepError> + 'a;
+type InChart<'a> = dyn Fn(&Phase<Tables>, &mut Vec<laws::Law>) -> Result<(), StepError> + 'a;
 
 /// The laws that are printed of a step there and back, at these points; those of derivatives at as many of them as there is time for.
-fn tried<G: Group>(
-    (group, points): (&G, &[Phase<G>]),
-    (there, back): (&Step<'_, G>, &Step<'_, G>),
-    in_chart: Option<&InChart<'_, G>>,
+fn tried(
+    (group, points): (&Tables, &[Phase<Tables>]),
+    (there, back): (&Step<'_>, &Step<'_>),
+    in_chart: Option<&InChart<'_>>,
 ) -> Result<Vec<Law>, StepError> {
     let mut tried: Vec<laws::Law> = Vec::new();
     let limit = Limit::new();
-    let in_chart = in_chart.filter(|_| group.log(&group.identity()).is_none());
     for point in points {
         let mut further = tried.clone();
         let mut step = |state: &mut _| limit.within(|| there(state));
@@ -180,58 +124,92 @@ fn tried<G: Group>(
     Ok(printed.collect())
 }
 
-/// Steps of one size.
-type Steps<'a> = Box<dyn Varied + 'a>;
-/// The programs of steps, where there are any.
-type Programs = Option<Arc<Compiled>>;
-
-/// The steps of a trial and those back, and their programs.
-fn there_and_back<'a>(
+/// The steps of a trial and those back, and their programs, where there are any.
+struct Steps<'a> {
     system: &'a Derived,
-    &Trial { start, step: h, .. }: &Trial,
-) -> Result<(Steps<'a>, Steps<'a>, Programs), RunError> {
-    let compiled = system.compiled(h, Backend::Auto, STEPS, Trajectories::One)?;
-    let steps = |start, step| {
-        let steps = system.steps(Grid { start, step }, compiled.as_ref());
-        steps.map_err(RunError::unmade)
-    };
-    let (there, back) = (steps(start, h)?, steps(start + h, -h)?);
-    Ok((there, back, compiled))
+    there: Motion<'a>,
+    back: Motion<'a>,
+    compiled: Option<Arc<Compiled>>,
 }
 
-/// The laws of steps by collocation. Each is made as the first of a run: only then is it a map of the state alone.
-fn laws_of_steps(system: &Derived, trial: &Trial, course: &Course) -> Result<Vec<Law>, RunError> {
+impl<'a> Steps<'a> {
+    fn new(system: &'a Derived, &Trial { start, step: h, .. }: &Trial) -> Result<Self, RunError> {
+        let compiled = system.compiled(h, Backend::Auto, STEPS, Trajectories::One)?;
+        let steps = |start, step| {
+            let steps = system.steps(Grid { start, step }, compiled.as_ref());
+            steps.map_err(RunError::unmade)
+        };
+        let (there, back) = (steps(start, h)?, steps(start + h, -h)?);
+        Ok(Self { system, there, back, compiled })
+    }
+
+    /// The order of accuracy from these starts.
+    fn order(&self, starts: &[Start]) -> Law {
+        let Self { system, there, compiled, .. } = self;
+        let (step, expected) = (there.grid().step, f64::from(system.order()));
+        measured(
+            step,
+            expected,
+            &there.space().group,
+            starts,
+            &mut |(step, steps), start, phase| {
+                let motion = system.steps(Grid { start, step }, compiled.as_ref())?;
+                let mut state = motion.space().state(phase);
+                motion.advance(&mut state, 0, steps.into()).map_err(|(_, error)| error)?;
+                *phase = motion.space().phase(&state);
+                Ok(())
+            },
+        )
+    }
+}
+
+/// Makes a step of a state from the start of the motion's grid. It is made as the first of a run: only then is one by collocation a
+/// map of the state alone.
+fn one(motion: &Motion<'_>, phase: &mut Phase<Tables>) -> Result<(), StepError> {
+    let mut state = motion.space().state(phase);
+    motion.one_at(&mut state, motion.grid().start)?;
+    *phase = motion.space().phase(&state);
+    Ok(())
+}
+
+/// The laws of steps, and the ratio that is worth a warning.
+fn laws_of_steps(
+    system: &Derived,
+    trial: &Trial,
+    course: &Course,
+) -> Result<(Vec<Law>, Option<f64>), RunError> {
     let (&Trial { start, step: h, .. }, group) = (trial, &*system.group.exponential);
-    let (forward, backward, compiled) = there_and_back(system, trial)?;
-    let one = |motion: &dyn Motion, state: &mut Phase<_>| {
-        moved(motion, group, state, |motion, state| {
-            motion.advance(state, 0, 1).map(drop).map_err(|(_, error)| error)
-        })
-    };
-    let (there, back) =
-        (|state: &mut _| one(&*forward, state), |state: &mut _| one(&*backward, state));
+    let steps = Steps::new(system, trial)?;
+    let Steps { there: forward, back: backward, .. } = &steps;
+    let (there, back) = (|state: &mut _| one(forward, state), |state: &mut _| one(backward, state));
     // With damping a potential is a part of these steps, which then have no law of [`LAWS`] to keep; back in time there may be
     // none where the run has one.
     let kicked = system.kicks().is_some();
     let states = course.states(trial, (group, kicked), |point| {
-        one(&*forward, &mut point.clone())?;
-        if kicked { Ok(()) } else { one(&*backward, &mut point.clone()) }
+        one(forward, &mut point.clone())?;
+        if kicked { Ok(()) } else { one(backward, &mut point.clone()) }
     });
     let (points, starts) = states.map_err(RunError::at(start))?;
     let mut laws = Vec::new();
     if !kicked {
-        laws = tried((group, &points), (&there, &back), None).map_err(RunError::at(start))?;
+        // Of groups without logarithm the function S tells the symplectic law; they have the exponential chart alone.
+        let series = system.series().filter(|_| group.log(&group.identity()).is_none());
+        let map = series.map(|series| Interpreter::new(series, group.clone(), h, &[])).transpose();
+        let map: Option<Interpreter<'_, _, Exponential>> = map.map_err(RunError::unmade)?;
+        let in_chart = map.as_ref().map(|map| {
+            move |point: &Phase<_>, laws: &mut Vec<_>| laws::check_in_chart(map, point, laws)
+        });
+        let in_chart = in_chart.as_ref().map(|law| law as &InChart<'_>);
+        let tried = tried((group, &points), (&there, &back), in_chart);
+        laws = tried.map_err(RunError::at(start))?;
     }
-    let expected = f64::from(system.order());
-    laws.push(measured(h, expected, group, &starts, &mut |steps, from, state| {
-        advanced((system, &compiled), group, state, steps, from)
-    }));
+    laws.push(steps.order(&starts));
     if system.damping.is_some() {
         laws.retain(|law| !["Poisson", "symplectic"].contains(&law.name));
         laws.iter_mut().filter(|law| law.name == "order").for_each(|law| {
             law.statement = "steps and damping: error ∝ h²";
         });
-        let energy = |time: f64, state: &Phase<DirectProduct<MatrixGroup>>| {
+        let energy = |time: f64, state: &Phase<Tables>| {
             let matrix = entries_of(group, &state.group_element);
             let seen = Seen { spatial: &[], matrix: &matrix, momentum: state.momentum.as_slice() };
             let conserved = system.invariants.conserved(time, &[seen]);
@@ -241,7 +219,7 @@ fn laws_of_steps(system: &Derived, trial: &Trial, course: &Course) -> Result<Vec
             let mut rise = f64::NEG_INFINITY;
             for point in &points {
                 let mut end = point.clone();
-                one(&*forward, &mut end).map_err(RunError::at(start))?;
+                one(forward, &mut end).map_err(RunError::at(start))?;
                 let [before, after] = [(start, point), (start + h, &end)]
                     .map(|(time, state)| energy(time, state).unwrap_or(f64::NAN));
                 rise = maximum(rise, (after - before) * h.signum() / before.abs());
@@ -257,7 +235,9 @@ fn laws_of_steps(system: &Derived, trial: &Trial, course: &Course) -> Result<Vec
         }
     }
     laws.retain(|law| law.name != "order" || unmeasured(system).is_none());
-    Ok(laws)
+    let momenta: Vec<&[f64]> = points.iter().map(|point| point.momentum.as_slice()).collect();
+    let ratio = forward.ratios(&momenta).into_iter().fold(0.0, maximum);
+    Ok((laws, Some(ratio).filter(|ratio| *ratio > STEEP)))
 }
 
 /// The laws that are left to the whole step where a potential breaks the symmetry; where a torque does that is not Hamiltonian,
@@ -269,19 +249,17 @@ fn kicked(
     course: &Course,
 ) -> Result<Vec<Law>, RunError> {
     let (&Trial { start, step: h, .. }, group) = (trial, &*system.group.exponential);
-    let (there, back, compiled) = there_and_back(system, trial)?;
-    let made = |motion: &dyn Motion, state: &mut Phase<_>, time| {
-        moved(motion, group, state, |motion, state| motion.one_at(state, time))
-    };
+    let steps = Steps::new(system, trial)?;
+    let Steps { there, back, .. } = &steps;
     let states = course.states(trial, (group, true), |point| {
-        made(&*there, &mut point.clone(), start)?;
-        made(&*back, &mut point.clone(), start + h)
+        one(there, &mut point.clone())?;
+        one(back, &mut point.clone())
     });
     let (points, starts) = states.map_err(RunError::at(start))?;
     let (mut symplectic, mut symmetric): (Option<f64>, _) = (None, 0.0_f64);
     let limit = Limit::new();
     for point in points.iter().filter(|_| hamiltonian) {
-        let mut step = |state: &mut _| limit.within(|| made(&*there, state, start));
+        let mut step = |state: &mut _| limit.within(|| one(there, state));
         let defect = laws::symplectic_defect_of(group, point, &mut step);
         let defect = match limit.is_over() {
             true => Some(f64::NAN),
@@ -293,8 +271,8 @@ fn kicked(
             (worst, defect) => defect.or(worst),
         };
         let mut state = point.clone();
-        made(&*there, &mut state, start).map_err(RunError::at(start))?;
-        made(&*back, &mut state, start + h).map_err(RunError::at(start + h))?;
+        one(there, &mut state).map_err(RunError::at(start))?;
+        one(back, &mut state).map_err(RunError::at(start + h))?;
         let difference = (&state.momentum - &point.momentum).amax() / point.momentum.amax();
         symmetric = maximum(symmetric, difference);
     }
@@ -308,10 +286,7 @@ fn kicked(
             true => course.forced(group, h, starts_in(system.facts().algebra.dim())),
             false => starts,
         };
-        let expected = f64::from(system.order());
-        let mut order = measured(h, expected, group, &starts, &mut |steps, from, state| {
-            advanced((system, &compiled), group, state, steps, from)
-        });
+        let mut order = steps.order(&starts);
         if starts.is_empty() {
             let why = "the force does not act on the part of the run that is looked at";
             order.verdict = Verdict::NotMeasured(why);
@@ -321,36 +296,4 @@ fn kicked(
     });
     let symmetric = hamiltonian.then_some(symmetric);
     Ok(symplectic.into_iter().chain(symmetric).chain(order).collect())
-}
-
-/// Makes steps of this size and number of a state from this time on.
-fn advanced(
-    (system, compiled): (&Derived, &Programs),
-    group: &DirectProduct<MatrixGroup>,
-    state: &mut Phase<DirectProduct<MatrixGroup>>,
-    (step, steps): (f64, u32),
-    start: f64,
-) -> Result<(), StepError> {
-    moved(
-        &*system.steps(Grid { start, step }, compiled.as_ref())?,
-        group,
-        state,
-        |motion, state| {
-            motion.advance(state, 0, steps.into()).map(drop).map_err(|(_, error)| error)
-        },
-    )
-}
-
-/// Moves a state by steps of a motion.
-fn moved(
-    motion: &dyn Motion,
-    group: &DirectProduct<MatrixGroup>,
-    phase: &mut Phase<DirectProduct<MatrixGroup>>,
-    by: impl Fn(&dyn Motion, &mut Numbers) -> Result<(), StepError>,
-) -> Result<(), StepError> {
-    let g = motion.space().numbers(&entries_of(group, &phase.group_element));
-    let mut state = Numbers { g, mu: phase.momentum.as_slice().to_vec() };
-    by(motion, &mut state)?;
-    *phase = phase_of(group, &motion.space().matrix(&state.g), &state.mu);
-    Ok(())
 }

@@ -6,7 +6,7 @@ use coadjoint::{Phase, StepError};
 use super::course::Start;
 use super::law::{Law, Verdict};
 use super::limit::Limit;
-use crate::engine::Group;
+use crate::engine::Tables;
 
 /// Steps of the coarsest run.
 const STEPS: u32 = 4;
@@ -21,17 +21,17 @@ const LARGE: f64 = 0.5;
 const EXACT: f64 = 4.0;
 
 /// Makes this number of steps of this size from this time.
-pub(super) type Steps<'a, G> =
-    dyn FnMut((f64, u32), f64, &mut Phase<G>) -> Result<(), StepError> + 'a;
+pub(super) type Steps<'a> =
+    dyn FnMut((f64, u32), f64, &mut Phase<Tables>) -> Result<(), StepError> + 'a;
 
 /// The order of accuracy from these starts: their median, since at one of them the leading term of the error may happen to
 /// cancel.
-pub(super) fn measured<G: Group>(
+pub(super) fn measured(
     step: f64,
     expected: f64,
-    group: &G,
-    starts: &[Start<G>],
-    run: &mut Steps<'_, G>,
+    group: &Tables,
+    starts: &[Start],
+    run: &mut Steps<'_>,
 ) -> Law {
     let (bound, limit) = (expected - SLACK, Limit::new());
     let mut run = |steps, from, state: &mut _| limit.within(|| run(steps, from, state));
@@ -54,11 +54,11 @@ pub(super) fn measured<G: Group>(
 /// smallest show the leading term of the error best, the first two neighbours that agree or are both above the bound tell the
 /// order; where it rises as steps become smaller, as much as it rose is added. An order below the bound is believed where
 /// [`MANY`] of them agree.
-fn order_from<G: Group>(
+fn order_from(
     (step, bound): (f64, f64),
-    group: &G,
-    (start, from): &Start<G>,
-    run: &mut Steps<'_, G>,
+    group: &Tables,
+    (start, from): &Start,
+    run: &mut Steps<'_>,
 ) -> Option<f64> {
     let (mut orders, mut exact): (Vec<f64>, _) = (Vec::new(), false);
     for exponent in -12..=24 {
@@ -94,26 +94,23 @@ fn order_from<G: Group>(
 #[allow(clippy::unwrap_used)]
 mod tests {
     use coadjoint::LieGroup;
-    use coadjoint::groups::{DirectProduct, MatrixGroup};
     use coadjoint_codegen::lie::catalogue;
     use nalgebra::DVector;
 
     use super::*;
-    use crate::engine::product_group;
+    use crate::engine::group_of;
 
     /// A law of order p by a map whose errors over a time t are t·h^p (1 + c h), and 1e-15 of rounding.
     fn law(order: i32, expected: f64, c: f64) -> Law {
         let algebra = catalogue::lookup("SO3").unwrap();
-        let group: DirectProduct<MatrixGroup> =
-            product_group(std::path::Path::new("test"), &algebra).unwrap();
-        let mut run =
-            |(size, count): (f64, u32), _: f64, state: &mut Phase<DirectProduct<MatrixGroup>>| {
-                let time = size * f64::from(count);
-                let error = time * size.powi(order) * (1.0 + c * size);
-                let rounding = 1e-15 * f64::from(count % 3);
-                state.momentum *= 1.0 + error + rounding;
-                Ok(())
-            };
+        let group = group_of(std::path::Path::new("test"), &algebra, false).unwrap();
+        let mut run = |(size, count): (f64, u32), _: f64, state: &mut Phase<Tables>| {
+            let time = size * f64::from(count);
+            let error = time * size.powi(order) * (1.0 + c * size);
+            let rounding = 1e-15 * f64::from(count % 3);
+            state.momentum *= 1.0 + error + rounding;
+            Ok(())
+        };
         let start = Phase::new(group.exp(&DVector::zeros(3)), DVector::from_element(3, 1.0));
         measured(0.1, expected, &group, &[(start, 0.0)], &mut run)
     }

@@ -152,7 +152,7 @@ fn coordinates(algebra: &LieAlgebra, g: &[f64], change: &[f64]) -> DVector<f64> 
 /// The state after steps by the generic solver, its matrix by rows, with other values of the parameters.
 fn end(case: &Case, system: &Derived, parameters: &[f64], start: Numbers, steps: u64) -> Numbers {
     let grid = Grid { start: START, step: case.step };
-    let motion = system.varied(grid, parameters, None).unwrap();
+    let motion = system.with_parameters(grid, parameters, None).unwrap();
     let mut state = start;
     motion.advance(&mut state, 0, steps).unwrap();
     state

@@ -1,332 +1,172 @@
-//! Steps by collocation, for Hamiltonians that are no polynomials: by programs where there are any, else, and where these refuse a
-//! step, by the runtime's.
+//! Flows by collocation, for Hamiltonians that are no polynomials, without programs: by the runtime.
 
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use coadjoint::collocation::{Collocation, Energy, Undefined};
-use coadjoint::groups::{DirectProduct, Exponential, MatrixGroup};
-use coadjoint::steps::{Piece, Splitting, compose};
+use coadjoint::groups::Exponential;
 use coadjoint::{Phase, StepError};
 use coadjoint_codegen::cancel;
-use coadjoint_codegen::integrator::Kicks;
 use coadjoint_codegen::smooth::Smooth;
+use coadjoint_codegen::step;
 use nalgebra::DVector;
 
-use super::compiled::{Compiled, Folded, Numbers, Solved, Solves};
-use super::kick::Torque;
-use super::linear::{Differentiable, Linear};
-use super::motion::{Motion, Varied, advise, one_by_one};
+use super::compiled::Solved;
+use super::linear::{Linear, moved};
+use super::motion::{Flow, Method, Slope};
 use super::response::Response;
-use super::space::{Elements, Space};
-use super::tangent::{KickSlope, moved};
+use super::space::Tables;
 use crate::error::kept;
-use crate::grid::Grid;
 
-/// The steps of this grid of a smooth system, for these values of the parameters that it keeps.
+/// Flows of a smooth system, for these values of the parameters that it keeps; steps of this size are remembered where that helps.
 ///
 /// # Errors
 /// Fails if the size makes no sense, or an expression in the parameters is not finite.
-pub(crate) fn collocated<'a>(
+pub(super) fn collocated<'a>(
     smooth: &'a Smooth,
-    elements: Elements<Group>,
-    grid: Grid,
+    group: &Tables,
+    size: f64,
     parameters: &[f64],
-) -> Result<Box<dyn Varied + 'a>, StepError> {
-    let energy = Interpreted::new(smooth, parameters);
-    if let Some(value) = energy.symbols.iter().copied().find(|value| !value.is_finite()) {
+) -> Result<Box<dyn Method<'a> + 'a>, StepError> {
+    let symbols = smooth.symbols_at(parameters);
+    if let Some(value) = symbols.into_iter().find(|value| !value.is_finite()) {
         return Err(StepError::InvalidParameter { name: "of the Hamiltonian", value });
     }
     Ok(match smooth.nodes() {
-        1 => Box::new(Collocated::<1>::new(elements, energy, grid)?),
-        2 => Box::new(Collocated::<2>::new(elements, energy, grid)?),
-        3 => Box::new(Collocated::<3>::new(elements, energy, grid)?),
-        4 => Box::new(Collocated::<4>::new(elements, energy, grid)?),
-        5 => Box::new(Collocated::<5>::new(elements, energy, grid)?),
-        6 => Box::new(Collocated::<6>::new(elements, energy, grid)?),
-        7 => Box::new(Collocated::<7>::new(elements, energy, grid)?),
-        _ => Box::new(Collocated::<8>::new(elements, energy, grid)?),
+        1 => Box::new(Collocated::<1>::new(smooth, group, size, parameters)?),
+        2 => Box::new(Collocated::<2>::new(smooth, group, size, parameters)?),
+        3 => Box::new(Collocated::<3>::new(smooth, group, size, parameters)?),
+        4 => Box::new(Collocated::<4>::new(smooth, group, size, parameters)?),
+        5 => Box::new(Collocated::<5>::new(smooth, group, size, parameters)?),
+        6 => Box::new(Collocated::<6>::new(smooth, group, size, parameters)?),
+        7 => Box::new(Collocated::<7>::new(smooth, group, size, parameters)?),
+        _ => Box::new(Collocated::<8>::new(smooth, group, size, parameters)?),
     })
 }
 
 /// The energy by its programs.
 #[derive(Clone, Debug)]
-pub(super) struct Interpreted<'a> {
-    smooth: &'a Smooth,
-    symbols: Arc<[f64]>,
-    parameters: Arc<[f64]>,
-}
+pub(super) struct Interpreted<'a>(Arc<step::Energy<'a>>);
 
 impl<'a> Interpreted<'a> {
-    /// For these values of the parameters that the system keeps.
-    pub(super) fn new(smooth: &'a Smooth, parameters: &[f64]) -> Self {
-        let symbols = smooth.symbols_at(parameters).into();
-        Self { smooth, symbols, parameters: parameters.into() }
+    pub(super) fn new(energy: step::Energy<'a>) -> Self {
+        Self(Arc::new(energy))
     }
 }
 
 impl Energy<DVector<f64>> for Interpreted<'_> {
     fn value(&self, time: f64, mu: &DVector<f64>) -> f64 {
-        self.smooth.energy(&self.symbols, time, mu.as_slice())
+        self.0.value(time, mu.as_slice())
     }
 
     fn gradient(&self, time: f64, mu: &DVector<f64>) -> DVector<f64> {
         cancel::check();
-        DVector::from_vec(self.smooth.gradient(&self.symbols, time, mu.as_slice()))
+        DVector::from_vec(self.0.gradient(time, mu.as_slice()))
     }
 
     fn reach(&self, from: (f64, &DVector<f64>), to: (f64, &DVector<f64>)) -> Option<f64> {
         let [from, to] = [from, to].map(|(time, mu)| (time, mu.as_slice()));
-        self.smooth.reach(&self.symbols, from, to)
+        self.0.reach(from, to)
     }
 
     fn unit(&self, i: usize) -> f64 {
-        self.smooth.units[i]
+        self.0.unit(i)
     }
 
     fn undefined(&self, time: f64, mu: &DVector<f64>) -> Option<Undefined> {
-        let (number, argument) = self.smooth.undefined(&self.symbols, time, mu.as_slice())?;
-        Some(Undefined { expression: kept(&self.smooth.expressions[number]), argument })
+        let (expression, argument) = self.0.undefined(time, mu.as_slice())?;
+        Some(Undefined { expression: kept(expression), argument })
     }
 }
 
-/// The group of all steps by collocation.
-pub(crate) type Group = DirectProduct<MatrixGroup>;
+/// Steps of one size that know those before them.
+type Remembering<'a, const M: usize> = Mutex<Collocation<Tables, Interpreted<'a>, M>>;
 
-/// The kicks between the flows of a step.
-#[derive(Debug)]
-struct Kicked<'a> {
-    splitting: Splitting,
-    torque: Torque<'a, Group>,
-}
-
-impl<'a> Kicked<'a> {
-    /// The kicks of a system, for these values of the parameters that it keeps.
-    fn new(
-        smooth: &'a Smooth,
-        group: &Group,
-        parameters: &[f64],
-    ) -> Result<Option<Self>, StepError> {
-        let Some(Kicks { kick, splitting, .. }) = &smooth.kicks else { return Ok(None) };
-        let torque = Torque::new(kick, group.clone(), parameters)?;
-        Ok(Some(Self { splitting: *splitting, torque }))
-    }
-}
-
-/// Steps of one size at `M` nodes.
+/// Collocation at `M` nodes.
 struct Collocated<'a, const M: usize> {
-    elements: Elements<Group>,
-    grid: Grid,
-    step: Mutex<Collocation<Group, Interpreted<'a>, M>>,
-    kicks: Option<Kicked<'a>>,
-    /// The second derivatives, and those of kicks, once they were asked for.
-    response: OnceLock<(Response<'a>, Option<KickSlope<'a, Group>>)>,
+    smooth: &'a Smooth,
+    energy: Interpreted<'a>,
+    /// Of a function of the user's. Steps of a system too large for programs begin anew: so their bits do not depend on how a run is
+    /// cut.
+    whole: Option<Remembering<'a, M>>,
 }
 
 impl<'a, const M: usize> Collocated<'a, M> {
     fn new(
-        elements: Elements<Group>,
-        energy: Interpreted<'a>,
-        grid: Grid,
-    ) -> Result<Self, StepError> {
-        let group = &*elements.group;
-        let kicks = Kicked::new(energy.smooth, group, &energy.parameters)?;
-        let step = Mutex::new(Collocation::new(group.clone(), energy, grid.step)?);
-        Ok(Self { elements, grid, step, kicks, response: OnceLock::new() })
-    }
-
-    fn step(&self) -> MutexGuard<'_, Collocation<Group, Interpreted<'a>, M>> {
-        // A thread that panicked has left whole steps, if any.
-        self.step.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// One step from this time, which knows no steps before it, by the runtime. The error of one that cannot be made names a size
-    /// that works.
-    fn rescue(&self, state: &mut Numbers, time: f64, size: f64) -> Result<Solves, StepError> {
-        let step = self.step();
-        let mut phase = self.elements.phase(state);
-        let made = self.alone(&step, &mut phase, time, size);
-        let solves = made.map_err(|error| {
-            let works =
-                |size| self.alone(&step, &mut self.elements.phase(state), time, size).is_ok();
-            advise(error, size, works)
-        })?;
-        *state = self.elements.state(&phase);
-        Ok(solves)
-    }
-
-    /// One step of another size from this time, which knows no steps before it.
-    fn alone(
-        &self,
-        step: &Collocation<Group, Interpreted<'a>, M>,
-        phase: &mut Phase<Group>,
-        time: f64,
+        smooth: &'a Smooth,
+        group: &Tables,
         size: f64,
-    ) -> Result<Solves, StepError> {
-        let flow = |phase: &mut Phase<Group>, time, size| {
-            let (group, energy) = (step.group().clone(), step.energy().clone());
-            Collocation::<_, _, M>::new(group, energy, size)?.advance(phase, time)
-        };
-        let Some(Kicked { splitting, torque }) = &self.kicks else {
-            let report = flow(phase, time, size)?;
-            return Ok(Some(Solved::one(report.iterations, report.residual)));
-        };
-        compose(*splitting, phase, [time, size], |piece, phase, time, length| match piece {
-            Piece::Kick => torque.kick(phase, time, length),
-            Piece::Flow(_) => flow(phase, time, length).map(drop),
-        })?;
-        Ok(None)
+        parameters: &[f64],
+    ) -> Result<Self, StepError> {
+        let energy = Interpreted::new(step::Energy::smooth(smooth, parameters));
+        let remembers = smooth.given.is_some() && smooth.kicks.is_none();
+        let whole = || Collocation::new(group.clone(), energy.clone(), size);
+        let whole = remembers.then(whole).transpose()?.map(Mutex::new);
+        Ok(Self { smooth, energy, whole })
     }
 }
 
-impl<const M: usize> Motion for Collocated<'_, M> {
-    fn space(&self) -> &dyn Space {
-        &self.elements
+impl<'a, const M: usize> Method<'a> for Collocated<'a, M> {
+    fn flow(&self, group: &Tables, length: f64, _: &[f64]) -> Result<Flow<'a>, StepError> {
+        let flow = Collocation::<_, _, M>::new(group.clone(), self.energy.clone(), length)?;
+        Ok(Box::new(move |phase, time| {
+            let report = flow.clone().advance(phase, time)?;
+            Ok(Solved::one(report.iterations, report.residual))
+        }))
     }
 
-    fn grid(&self) -> Grid {
-        self.grid
+    fn go_on(&self, phase: &mut Phase<Tables>, time: f64) -> Option<Solved> {
+        // A thread that panicked has left whole steps, if any.
+        let mut whole = self.whole.as_ref()?.lock().unwrap_or_else(PoisonError::into_inner);
+        let report = whole.advance(phase, time).ok()?;
+        Some(Solved::one(report.iterations, report.residual))
     }
 
-    fn advance(
+    /// Of a function of the user's there is no Hessian.
+    fn is_differentiable(&self) -> bool {
+        self.smooth.given.is_none()
+    }
+
+    fn slopes(
         &self,
-        state: &mut Numbers,
-        first: u64,
-        count: u64,
-    ) -> Result<Solves, (u64, StepError)> {
-        let Grid { start, step: size } = self.grid;
-        if let Some(compiled) = &self.elements.compiled {
-            let rescue =
-                |state: &mut Numbers, number| self.rescue(state, self.grid.time(number), size);
-            return Ok(Some(compiled.advance(state, start, [first, count], rescue)?));
-        }
-        // Steps of a system too large for programs begin anew: so their bits do not depend on how a run is cut.
-        let remembers = self.kicks.is_none() && self.step().energy().smooth.given.is_some();
-        let mut number = first;
-        one_by_one(count, || {
-            let time = self.grid.time(number);
-            number += 1;
-            if remembers {
-                let mut phase = self.elements.phase(state);
-                if let Ok(report) = self.step().advance(&mut phase, time) {
-                    *state = self.elements.state(&phase);
-                    return Ok(Some(Solved::one(report.iterations, report.residual)));
-                }
-            }
-            self.rescue(state, time, size)
-        })
+        group: &Tables,
+        lengths: &[f64],
+        parameters: &[f64],
+    ) -> Result<Vec<Slope<'a>>, StepError> {
+        let response = Arc::new(Response::new(self.smooth, parameters));
+        let slope = |&length: &f64| -> Result<Slope<'a>, StepError> {
+            let flow = Collocation::<_, _, M>::new(group.clone(), self.energy.clone(), length)?;
+            let response = response.clone();
+            Ok(Box::new(move |phase, time| {
+                let (group, mu) = (flow.group(), &phase.momentum);
+                let solution = flow.solution(mu, time)?;
+                let [hessian, mixed] = response.of(group, &solution, length)?;
+                // In the chart of tables, which is exp.
+                let (place, x) = ((Exponential, group), &solution.x);
+                let of_momentum = Linear::response(place, x, mu, [&hessian, &mixed])?;
+                Ok(moved(place, x, phase, &of_momentum))
+            }))
+        };
+        lengths.iter().map(slope).collect()
     }
 
-    fn beside(&self, state: &Numbers, time: f64, size: f64) -> Result<Numbers, StepError> {
-        let mut state = state.clone();
-        if let Some(compiled) = &self.elements.compiled {
-            let parameters = self.step().energy().parameters.clone();
-            let other = compiled.anew(size, &parameters)?;
-            if other.one_at(&mut state, time) {
-                return Ok(state);
+    fn vary(&mut self, parameters: &[f64]) {
+        self.energy = Interpreted::new(step::Energy::smooth(self.smooth, parameters));
+        if let Some(whole) = &mut self.whole {
+            let step = whole.get_mut().unwrap_or_else(PoisonError::into_inner);
+            let (group, energy) = (step.group().clone(), self.energy.clone());
+            if let Ok(varied) = Collocation::new(group, energy, step.step()) {
+                *step = varied;
             }
         }
-        self.rescue(&mut state, time, size)?;
-        Ok(state)
     }
 
-    fn one_at(&self, state: &mut Numbers, time: f64) -> Result<(), StepError> {
-        let made = self.elements.compiled.as_ref().is_some_and(|own| own.one_at(state, time));
-        if made {
-            return Ok(());
-        }
-        self.rescue(state, time, self.grid.step).map(drop)
-    }
-
-    fn lanes(&self) -> Option<&Compiled> {
-        self.elements.compiled.as_deref()
-    }
-
-    /// Of a function of the user's there is no Hessian, and of torques without potential no derivatives are known.
-    fn differentiable(&self) -> Option<&dyn Differentiable> {
-        let Smooth { given, kicks, .. } = self.step().energy().smooth;
-        let torque = kicks.as_ref().and_then(Kicks::torque);
-        (given.is_none() && torque.is_none()).then_some(self)
-    }
-
-    fn defined(&self, state: &Numbers, time: f64) -> Result<(), StepError> {
-        let (step, mu) = (self.step(), DVector::from_column_slice(&state.mu));
-        let energy = step.energy();
+    fn defined(&self, time: f64, mu: &[f64]) -> Result<(), StepError> {
+        let energy = &self.energy.0;
         // A function of the user's says by its value alone that there is none.
-        let lost = || energy.smooth.given.is_some() && !energy.value(time, &mu).is_finite();
-        let nothing = || Undefined { expression: "H", argument: f64::NAN };
-        let found = energy.undefined(time, &mu).or_else(|| lost().then(nothing));
-        if let Some(Undefined { expression, argument }) = found {
-            return Err(StepError::Undefined { expression, argument, time, at: None });
-        }
-        let kicks = self.kicks.as_ref();
-        kicks.map_or(Ok(()), |kicks| kicks.torque.defined(&self.elements.phase(state), time))
-    }
-}
-
-impl<const M: usize> Varied for Collocated<'_, M> {
-    /// The steps made before are forgotten.
-    fn vary(&mut self, parameters: &[f64], folded: Option<Folded>) {
-        if let (Some(compiled), Some(folded)) = (&mut self.elements.compiled, folded) {
-            Arc::make_mut(compiled).with(folded);
-        }
-        let step = self.step.get_mut().unwrap_or_else(PoisonError::into_inner);
-        let (group, size) = (step.group().clone(), step.step());
-        let energy = Interpreted::new(step.energy().smooth, parameters);
-        self.response = OnceLock::new();
-        if let Some(kicks) = &mut self.kicks {
-            kicks.torque.vary(parameters);
-        }
-        if let Ok(varied) = Collocation::new(group, energy, size) {
-            *step = varied;
-        }
-    }
-}
-
-impl<const M: usize> Differentiable for Collocated<'_, M> {
-    fn parameters(&self) -> usize {
-        let step = self.step();
-        step.energy().parameters.len()
-    }
-
-    fn linear(&self, state: &Numbers, first: u64) -> Result<Linear, StepError> {
-        let step = self.step();
-        let (group, place) = (step.group(), (Exponential, step.group()));
-        let Interpreted { smooth, symbols, parameters } = step.energy().clone();
-        let (response, slope) = match self.response.get() {
-            Some(made) => made,
-            None => {
-                let kick = smooth.kicks.as_ref().map(|kicks| &kicks.kick);
-                let slope =
-                    kick.map(|kick| KickSlope::new(kick, group, &parameters)).transpose()?;
-                let made = (Response::new(smooth, symbols, &parameters), slope);
-                self.response.get_or_init(|| made)
-            }
-        };
-        let mut phase = self.elements.phase(state);
-        let (time, size) = (self.grid.time(first), self.grid.step);
-        let flow = |step: &Collocation<_, _, M>, phase: &mut Phase<Group>, time| {
-            let solution = step.solution(&phase.momentum, time)?;
-            let [hessian, mixed] = response.of(group, &solution, step.step())?;
-            let (x, mu) = (&solution.x, &phase.momentum);
-            let of_momentum = Linear::response(place, x, mu, [&hessian, &mixed])?;
-            // In the chart of tables, which is exp.
-            Ok(moved(place, x, phase, &of_momentum))
-        };
-        let (Some(kicks), Some(slope)) = (&self.kicks, slope) else {
-            return flow(&step, &mut phase, time);
-        };
-        let mut total = Linear::identity(phase.momentum.len(), parameters.len());
-        compose(kicks.splitting, &mut phase, [time, size], |piece, phase, time, length| {
-            let next = match piece {
-                Piece::Kick => slope.linear(phase, [time, length])?,
-                Piece::Flow(_) => {
-                    let energy = step.energy().clone();
-                    flow(&Collocation::new(group.clone(), energy, length)?, phase, time)?
-                }
-            };
-            total = total.then(&next);
-            Ok(())
-        })?;
-        Ok(total)
+        let lost = || self.smooth.given.is_some() && !energy.value(time, mu).is_finite();
+        let found = energy.undefined(time, mu).or_else(|| lost().then_some(("H", f64::NAN)));
+        found.map_or(Ok(()), |(expression, argument)| {
+            Err(StepError::Undefined { expression: kept(expression), argument, time, at: None })
+        })
     }
 }

@@ -2,22 +2,20 @@
 
 use std::sync::Arc;
 
-use coadjoint::collocation::{Damping, Energy, Undefined};
+use coadjoint::collocation::Damping;
 use coadjoint::{Phase, StepError};
-use coadjoint_codegen::poly::Numeric;
 use coadjoint_codegen::step::Origin;
 use nalgebra::DVector;
 
-use super::collocation::{Group, Interpreted};
-use super::compiled::{Folded, Numbers, Solves};
+use super::collocation::Interpreted;
+use super::compiled::Numbers;
 use super::kick::Torque;
-use super::motion::{Motion, Varied, advise, one_by_one};
-use super::space::{Space, entries_of, phase_of};
-use crate::grid::Grid;
+use super::motion::advise;
+use super::space::{Space, Tables};
 
 /// Moves a state by a step of damping from this time, of this length.
 type Damp<'a> =
-    Box<dyn Fn(&mut Phase<Group>, f64, f64) -> Result<(), StepError> + Send + Sync + 'a>;
+    Box<dyn Fn(&mut Phase<Tables>, f64, f64) -> Result<(), StepError> + Send + Sync + 'a>;
 
 /// Damping by the double bracket.
 #[derive(Clone, Debug)]
@@ -25,100 +23,57 @@ pub(crate) struct Damper {
     /// The diagonal of Γ.
     pub rates: Vec<f64>,
     /// The group.
-    pub group: Arc<Group>,
+    pub group: Arc<Tables>,
 }
 
-/// The Hamiltonian of the steps for values of the parameters that are kept.
-enum Given<'a> {
-    Polynomial(Numeric, Vec<Numeric>),
-    Smooth(Interpreted<'a>),
-}
-
-impl<'a> Given<'a> {
-    fn new(origin: &'a Origin, parameters: &[f64]) -> Self {
-        match origin {
-            Origin::Series(integrator) => {
-                let problem = &integrator.problem;
-                let (dim, symbols) = (problem.algebra.dim(), problem.symbols_at(parameters));
-                let value = Numeric::new(&problem.hamiltonian, dim, &symbols);
-                let gradient = value.gradient(dim);
-                Self::Polynomial(value, gradient)
-            }
-            Origin::Collocation(smooth) => Self::Smooth(Interpreted::new(smooth, parameters)),
-        }
-    }
-}
-
-impl Energy<DVector<f64>> for Given<'_> {
-    fn value(&self, time: f64, mu: &DVector<f64>) -> f64 {
-        match self {
-            Self::Polynomial(value, _) => value.value(mu.as_slice()),
-            Self::Smooth(energy) => energy.value(time, mu),
-        }
-    }
-
-    fn gradient(&self, time: f64, mu: &DVector<f64>) -> DVector<f64> {
-        match self {
-            Self::Polynomial(_, slopes) => {
-                DVector::from_fn(slopes.len(), |i, _| slopes[i].value(mu.as_slice()))
-            }
-            Self::Smooth(energy) => energy.gradient(time, mu),
-        }
-    }
-
-    fn undefined(&self, time: f64, mu: &DVector<f64>) -> Option<Undefined> {
-        match self {
-            Self::Polynomial(..) => None,
-            Self::Smooth(energy) => energy.undefined(time, mu),
-        }
-    }
-}
-
-/// Steps between halves of damping.
-pub(crate) struct Damped<'a> {
-    motion: Box<dyn Varied + 'a>,
+/// Damping before and after each step.
+pub(super) struct Damped<'a> {
     damper: &'a Damper,
     origin: &'a Origin,
     damp: Result<Damp<'a>, StepError>,
 }
 
 impl<'a> Damped<'a> {
-    /// These steps of this system between halves of damping, for these values of the parameters that are kept.
-    pub(crate) fn new(
-        motion: Box<dyn Varied + 'a>,
-        damper: &'a Damper,
-        origin: &'a Origin,
-        parameters: &[f64],
-    ) -> Self {
-        let damp = damp(damper, origin, parameters);
-        Self { motion, damper, origin, damp }
+    /// The damping of this system, for these values of the parameters that are kept.
+    pub(super) fn new(damper: &'a Damper, origin: &'a Origin, parameters: &[f64]) -> Self {
+        Self { damper, origin, damp: damp(damper, origin, parameters) }
+    }
+
+    /// Takes other values of the parameters.
+    pub(super) fn vary(&mut self, parameters: &[f64]) {
+        self.damp = damp(self.damper, self.origin, parameters);
     }
 
     /// `step` from this time, of this size, between halves of damping.
-    fn around<T>(
+    pub(super) fn around<T>(
         &self,
+        space: &Space,
         state: &mut Numbers,
         [time, size]: [f64; 2],
         step: impl FnOnce(&mut Numbers) -> Result<T, StepError>,
     ) -> Result<T, StepError> {
         let mut next = state.clone();
-        self.half(&mut next, time, size)?;
+        self.half(space, &mut next, time, size)?;
         let made = step(&mut next)?;
-        self.half(&mut next, time + size, size)?;
+        self.half(space, &mut next, time + size, size)?;
         *state = next;
         Ok(made)
     }
 
     /// Half of the damping of a step of this size.
-    fn half(&self, state: &mut Numbers, time: f64, size: f64) -> Result<(), StepError> {
+    fn half(
+        &self,
+        space: &Space,
+        state: &mut Numbers,
+        time: f64,
+        size: f64,
+    ) -> Result<(), StepError> {
         let damp = self.damp.as_ref().map_err(|error| *error)?;
-        let (group, space) = (&*self.damper.group, self.motion.space());
-        let mut phase = phase_of(group, &space.matrix(&state.g), &state.mu);
+        let mut phase = space.phase(state);
         damp(&mut phase, time, 0.5 * size).map_err(|error| {
             advise(error, size, |size| damp(&mut phase.clone(), time, 0.5 * size).is_ok())
         })?;
-        let g = space.numbers(&entries_of(group, &phase.group_element));
-        *state = Numbers { g, mu: phase.momentum.as_slice().to_vec() };
+        *state = space.state(&phase);
         Ok(())
     }
 }
@@ -129,81 +84,26 @@ fn damp<'a>(
     origin: &'a Origin,
     parameters: &[f64],
 ) -> Result<Damp<'a>, StepError> {
-    let (group, given) = ((*damper.group).clone(), Given::new(origin, parameters));
+    let (group, energy) = ((*damper.group).clone(), Interpreted::new(origin.energy(parameters)));
     let rates = DVector::from_column_slice(&damper.rates);
     // A torque without potential has no energy that could fall.
     let kick = origin.kicks().map(|kicks| &kicks.kick);
     let kick = kick.filter(|kick| kick.potential.alone().is_none());
-    let torque = kick.map(|kick| Torque::new(kick, group.clone(), parameters)).transpose()?;
+    let torque = kick.map(|kick| Torque::new(kick, &damper.group, parameters)).transpose()?;
     if origin.series().is_some_and(|series| series.problem.is_quadratic()) {
-        return Ok(damp_by(Damping::<_, _, 1>::new(group, given, rates)?, torque));
+        return Ok(damp_by(Damping::<_, _, 1>::new(group, energy, rates)?, torque));
     }
-    Ok(damp_by(Damping::<_, _, 8>::new(group, given, rates)?, torque))
+    Ok(damp_by(Damping::<_, _, 8>::new(group, energy, rates)?, torque))
 }
 
 /// The damping beside the torque of a potential, if there is one.
 fn damp_by<'a, const M: usize>(
-    damping: Damping<Group, Given<'a>, M>,
-    torque: Option<Torque<'a, Group>>,
+    damping: Damping<Tables, Interpreted<'a>, M>,
+    torque: Option<Torque<'a>>,
 ) -> Damp<'a> {
     Box::new(move |phase, time, length| {
         let Some(torque) = &torque else { return damping.advance(phase, time, length).map(drop) };
         let mu = phase.momentum.clone();
         damping.advance_beside(phase, time, length, |g| torque.torque(g, &mu, time)).map(drop)
     })
-}
-
-impl Motion for Damped<'_> {
-    fn space(&self) -> &dyn Space {
-        self.motion.space()
-    }
-
-    fn grid(&self) -> Grid {
-        self.motion.grid()
-    }
-
-    fn advance(
-        &self,
-        state: &mut Numbers,
-        first: u64,
-        count: u64,
-    ) -> Result<Solves, (u64, StepError)> {
-        let mut number = first;
-        one_by_one(count, || {
-            let place = [self.grid().time(number), self.grid().step];
-            let solved = self.around(state, place, |state| {
-                self.motion.advance(state, number, 1).map_err(|(_, error)| error)
-            });
-            number += 1;
-            solved
-        })
-    }
-
-    fn beside(&self, state: &Numbers, time: f64, size: f64) -> Result<Numbers, StepError> {
-        let mut next = state.clone();
-        self.around(&mut next, [time, size], |state| {
-            *state = self.motion.beside(state, time, size)?;
-            Ok(())
-        })?;
-        Ok(next)
-    }
-
-    fn one_at(&self, state: &mut Numbers, time: f64) -> Result<(), StepError> {
-        self.around(state, [time, self.grid().step], |state| self.motion.one_at(state, time))
-    }
-
-    fn ratios(&self, momenta: &[&[f64]]) -> Vec<f64> {
-        self.motion.ratios(momenta)
-    }
-
-    fn defined(&self, state: &Numbers, time: f64) -> Result<(), StepError> {
-        self.motion.defined(state, time)
-    }
-}
-
-impl Varied for Damped<'_> {
-    fn vary(&mut self, parameters: &[f64], folded: Option<Folded>) {
-        self.motion.vary(parameters, folded);
-        self.damp = damp(self.damper, self.origin, parameters);
-    }
 }

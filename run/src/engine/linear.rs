@@ -10,25 +10,14 @@
 //! and the method enters by δx alone: where x = ∂S/∂p(p), p = (d^R τ_x)ᵀ μ, by the Hessian of S at the p of the step,
 //! δx = (1 − S_pp D)⁻¹ (S_pp (d^R τ_x)ᵀ ν + S_pθ δθ), D = ∂p/∂x. Every symmetric S_pp makes this symplectic.
 
-use coadjoint::StepError;
 use coadjoint::groups::Chart;
 use coadjoint::steps::Circumstances;
+use coadjoint::{Phase, StepError};
+use coadjoint_codegen::graph::Program;
+use coadjoint_program::Argument;
 use nalgebra::{DMatrix, DVector};
 
-use super::compiled::Numbers;
 use super::space::Group;
-
-/// Steps whose derivatives are known.
-pub(crate) trait Differentiable {
-    /// q, the number of parameters that derivatives are taken in.
-    fn parameters(&self) -> usize;
-
-    /// The derivative of the next step of a state that `first` steps from the start of the grid have reached.
-    ///
-    /// # Errors
-    /// Fails if there is no step.
-    fn linear(&self, state: &Numbers, first: u64) -> Result<Linear, StepError>;
-}
 
 /// The derivative of a step, or of several, in the state before it and in the parameters θ.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,6 +32,18 @@ pub(crate) struct Linear {
 pub(super) fn columns(dim: usize, map: impl Fn(&DVector<f64>) -> DVector<f64>) -> DMatrix<f64> {
     let unit = |j| DVector::from_fn(dim, |i, _| if i == j { 1.0 } else { 0.0 });
     DMatrix::from_columns(&(0..dim).map(|j| map(&unit(j))).collect::<Vec<_>>())
+}
+
+/// The derivative of a program in all of its inputs.
+pub(super) fn push_forward(program: &Program) -> Program {
+    let inputs: Vec<Argument> = (0..program.inputs()).map(Argument::Input).collect();
+    program.push_forward(&inputs)
+}
+
+/// A matrix of `dim` rows with these columns, of which there may be none.
+pub(super) fn matrix(dim: usize, columns: impl Iterator<Item = DVector<f64>>) -> DMatrix<f64> {
+    let entries: Vec<f64> = columns.flat_map(|column| column.as_slice().to_vec()).collect();
+    DMatrix::from_column_slice(dim, entries.len() / dim, &entries)
 }
 
 /// The error of a step whose solution is also that of another one.
@@ -116,4 +117,18 @@ impl Linear {
         };
         Ok([by_momentum, by_parameters])
     }
+}
+
+/// Moves a state by τ(x); the derivative of that.
+pub(super) fn moved<G: Group, C: Chart<G>>(
+    (chart, group): (C, &G),
+    x: &DVector<f64>,
+    phase: &mut Phase<G>,
+    response: &[DMatrix<f64>; 2],
+) -> Linear {
+    let (increment, after) = chart.transport(group, x, &phase.momentum);
+    let linear = Linear::of_motion((chart, group), x, &after, response);
+    phase.group_element = group.compose(&phase.group_element, &increment);
+    phase.momentum = after;
+    linear
 }

@@ -1,27 +1,24 @@
-//! The step the command line runs: the interpreter of the expression graph on a group of tables.
+//! The step the command line runs: its programs, and beside them the runtime's step on a group of tables.
 
 mod card;
 mod charted;
 mod collocation;
 mod compiled;
 mod damping;
-mod interpreter;
 mod kick;
 mod linear;
 mod motion;
 mod response;
+mod series;
 mod space;
-mod tangent;
 
 pub(crate) use card::{card, device_text};
 pub(crate) use charted::Charted;
 pub use compiled::STEEP;
-pub(crate) use compiled::{Compiled, Kept, Numbers, Solved, Solves};
-pub(crate) use damping::{Damped, Damper};
-pub(crate) use interpreter::Interpreter;
+pub(crate) use compiled::{Compiled, Kept, Numbers, Solved};
+pub(crate) use damping::Damper;
 pub(crate) use kick::Torque;
-pub(crate) use linear::{Differentiable, Linear};
-pub(crate) use motion::{Motion, Varied};
-pub(crate) use motion::{advise, one_by_one};
-pub(crate) use space::{Elements, Group, Observed, Restore, Space, identity};
-pub(crate) use space::{entries_of, phase_of, product_group, whole_group};
+pub(crate) use linear::Linear;
+pub(crate) use motion::Motion;
+pub(crate) use series::Interpreter;
+pub(crate) use space::{Observed, Space, Tables, entries_of, group_of, identity, phase_of};

@@ -2,102 +2,442 @@
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use coadjoint::groups::Chart;
+use coadjoint::steps::{Piece, Splitting, compose};
 use coadjoint::{Phase, StepError};
-use coadjoint_codegen::hamilton_jacobi::TermLimit;
-use coadjoint_codegen::in_other_frame;
-use coadjoint_codegen::integrator::{Integrator, Kicks};
-use coadjoint_codegen::potential::Force;
-use coadjoint_codegen::step::{Convergence, Converging};
+use coadjoint_codegen::integrator::Kicks;
 
-use super::compiled::{Compiled, Folded, Numbers, STEEP, Solved, Solves};
-use super::kick::{Map, Torque, longest_flow, map};
-use super::linear::{Differentiable, Linear};
-use super::space::{Elements, Restore, Space};
-use super::tangent::Tangent;
+use super::compiled::{Compiled, Folded, Numbers, Solved, Solves};
+use super::damping::Damped;
+use super::kick::{KickSlope, Torque};
+use super::linear::Linear;
+use super::space::{Space, Tables};
 use crate::grid::Grid;
 
-/// Moves states by steps of one size.
-pub(crate) trait Motion: Send + Sync {
+/// Makes a flow of a state from this time.
+pub(super) type Flow<'a> =
+    Box<dyn Fn(&mut Phase<Tables>, f64) -> Result<Solved, StepError> + Send + Sync + 'a>;
+
+/// As [`Flow`], with its derivative.
+pub(super) type Slope<'a> =
+    Box<dyn Fn(&mut Phase<Tables>, f64) -> Result<Linear, StepError> + Send + Sync + 'a>;
+
+/// A way to make flows without programs: where programs refuse a step, and where a system has none.
+pub(super) trait Method<'a>: Send + Sync {
+    /// The flow of this length, for these values of the parameters that are kept.
+    ///
+    /// # Errors
+    /// Fails if the length makes no sense, or a coefficient is not finite.
+    fn flow(&self, group: &Tables, length: f64, parameters: &[f64]) -> Result<Flow<'a>, StepError>;
+
+    /// True if the derivatives of flows are known.
+    fn is_differentiable(&self) -> bool {
+        false
+    }
+
+    /// The derivatives of the flows of these lengths, if they are known; else none.
+    ///
+    /// # Errors
+    /// As [`Method::flow`].
+    fn slopes(
+        &self,
+        _: &Tables,
+        _lengths: &[f64],
+        _parameters: &[f64],
+    ) -> Result<Vec<Slope<'a>>, StepError> {
+        Ok(Vec::new())
+    }
+
+    /// Makes the next step of a motion that it remembers, where there is one.
+    fn go_on(&self, _: &mut Phase<Tables>, _time: f64) -> Option<Solved> {
+        None
+    }
+
+    /// Takes other values of the parameters.
+    fn vary(&mut self, _parameters: &[f64]) {}
+
+    /// As [`Motion::ratios`], where the longest flow of a step has this length.
+    fn ratios(
+        &self,
+        _: Option<&Compiled>,
+        _longest: f64,
+        _parameters: &[f64],
+        momenta: &[&[f64]],
+    ) -> Vec<f64> {
+        vec![0.0; momenta.len()]
+    }
+
+    /// This method in the comoving frame, where there is one and the choice is left.
+    fn comoving(&self) -> Option<Box<dyn Method<'_> + '_>> {
+        None
+    }
+
+    /// Checks that the Hamiltonian is defined.
+    ///
+    /// # Errors
+    /// The expression in it that is not.
+    fn defined(&self, _time: f64, _mu: &[f64]) -> Result<(), StepError> {
+        Ok(())
+    }
+}
+
+/// The kicks between the flows of a step.
+#[derive(Debug)]
+struct Kicked<'a> {
+    kicks: &'a Kicks,
+    torque: Torque<'a>,
+}
+
+/// A step of this size without programs: its flows, one after the other.
+struct Map<'a> {
+    size: f64,
+    flows: Vec<Flow<'a>>,
+}
+
+impl Map<'_> {
+    /// Makes a step of a state from this time.
+    fn step(
+        &self,
+        kicked: Option<&Kicked<'_>>,
+        phase: &mut Phase<Tables>,
+        time: f64,
+    ) -> Result<Solves, StepError> {
+        let Some(Kicked { kicks, torque }) = kicked else {
+            return self.flows.first().map(|flow| flow(phase, time)).transpose();
+        };
+        compose(
+            kicks.splitting,
+            phase,
+            [time, self.size],
+            |piece, phase, time, length| match piece {
+                Piece::Kick => torque.kick(phase, time, length),
+                Piece::Flow(number) => self.flows[number](phase, time).map(drop),
+            },
+        )?;
+        Ok(None)
+    }
+}
+
+/// The lengths of the flows of a step of this size.
+fn lengths(kicks: Option<&Kicks>, size: f64) -> Vec<f64> {
+    let parts = |splitting: Splitting| splitting.flows().map(|part| size * part).collect();
+    kicks.map_or_else(|| vec![size], |kicks| parts(kicks.splitting))
+}
+
+/// Moves states by steps of one size: by programs where there are any, else by its [`Method`], which also makes the steps that
+/// programs refuse.
+pub(crate) struct Motion<'a> {
+    space: Space,
+    grid: Grid,
+    /// The values of the parameters that are kept.
+    parameters: Vec<f64>,
+    method: Box<dyn Method<'a> + 'a>,
+    kicked: Option<Kicked<'a>>,
+    /// The damping before and after each step.
+    damped: Option<Damped<'a>>,
+    /// The step without programs, once one was needed.
+    map: OnceLock<Map<'a>>,
+    /// The programs of the step of another size that was made last.
+    other: Mutex<Option<Arc<Compiled>>>,
+    /// The derivatives of flows and kicks, once they were asked for.
+    slopes: OnceLock<(Vec<Slope<'a>>, Option<KickSlope<'a>>)>,
+}
+
+impl<'a> Motion<'a> {
+    /// The steps of this grid for these values of the parameters that are kept.
+    ///
+    /// # Errors
+    /// Fails if a coefficient is not finite; where there are no programs also if the size of the step makes no sense.
+    pub(super) fn new(
+        space: Space,
+        grid: Grid,
+        parameters: Vec<f64>,
+        method: Box<dyn Method<'a> + 'a>,
+        kicks: Option<&'a Kicks>,
+    ) -> Result<Self, StepError> {
+        let kicked = kicks.map(|kicks| {
+            let torque = Torque::new(&kicks.kick, &space.group, &parameters)?;
+            Ok::<_, StepError>(Kicked { kicks, torque })
+        });
+        let kicked = kicked.transpose()?;
+        let (map, other, slopes, damped) = Default::default();
+        let motion = Self { space, grid, parameters, method, kicked, damped, map, other, slopes };
+        if motion.space.compiled.is_none() {
+            motion.whole()?;
+        }
+        Ok(motion)
+    }
+
+    /// These steps between halves of damping.
+    pub(super) fn between(self, damped: Option<Damped<'a>>) -> Self {
+        Self { damped, ..self }
+    }
+
     /// The group that the states belong to.
-    fn space(&self) -> &dyn Space;
+    pub(crate) fn space(&self) -> &Space {
+        &self.space
+    }
 
     /// The times between steps.
-    fn grid(&self) -> Grid;
+    pub(crate) fn grid(&self) -> Grid {
+        self.grid
+    }
+
+    fn kicks(&self) -> Option<&'a Kicks> {
+        self.kicked.as_ref().map(|own| own.kicks)
+    }
+
+    /// The step of this size by a method.
+    fn map<'m>(&self, method: &dyn Method<'m>, size: f64) -> Result<Map<'m>, StepError> {
+        let flow = |length| method.flow(&self.space.group, length, &self.parameters);
+        let flows: Result<_, _> = lengths(self.kicks(), size).into_iter().map(flow).collect();
+        Ok(Map { size, flows: flows? })
+    }
+
+    /// The step without programs.
+    fn whole(&self) -> Result<&Map<'a>, StepError> {
+        if let Some(map) = self.map.get() {
+            return Ok(map);
+        }
+        let made = self.map(&*self.method, self.grid.step)?;
+        Ok(self.map.get_or_init(|| made))
+    }
+
+    /// A step of this size without programs. The error of one that cannot be made names a size that works.
+    fn rescue(&self, state: &mut Numbers, time: f64, size: f64) -> Result<Solves, StepError> {
+        let (kicked, phase) = (self.kicked.as_ref(), self.space.phase(state));
+        let step = |phase: &mut Phase<Tables>, size: f64| match size == self.grid.step {
+            true => self.whole()?.step(kicked, phase, time),
+            false => self.map(&*self.method, size)?.step(kicked, phase, time),
+        };
+        let mut next = phase.clone();
+        let solves = step(&mut next, size).map_err(|error| {
+            advise(error, size, |shorter| step(&mut phase.clone(), shorter).is_ok())
+        })?;
+        *state = self.space.state(&next);
+        Ok(solves)
+    }
+
+    /// Makes one step of this size by the programs, if any, else without.
+    fn alone(
+        &self,
+        compiled: Option<&Arc<Compiled>>,
+        state: &mut Numbers,
+        [time, size]: [f64; 2],
+    ) -> Result<(), StepError> {
+        self.around(state, [time, size], |state| {
+            match compiled.is_some_and(|own| own.one_at(state, time)) {
+                true => Ok(()),
+                false => self.rescue(state, time, size).map(drop),
+            }
+        })
+    }
+
+    /// `step` from this time, of this size, between halves of damping where there is any.
+    fn around<T>(
+        &self,
+        state: &mut Numbers,
+        place: [f64; 2],
+        step: impl FnOnce(&mut Numbers) -> Result<T, StepError>,
+    ) -> Result<T, StepError> {
+        match &self.damped {
+            Some(damped) => damped.around(&self.space, state, place, step),
+            None => step(state),
+        }
+    }
 
     /// Makes `count` steps of a state that `first` steps from the start of the [grid](Motion::grid) have reached. The state
     /// that comes of them does not depend on how many are made at a time.
     ///
     /// # Errors
     /// Returns the number of steps made and the error of the next one; the state is then the one before it.
-    fn advance(
+    pub(crate) fn advance(
         &self,
         state: &mut Numbers,
         first: u64,
         count: u64,
-    ) -> Result<Solves, (u64, StepError)>;
+    ) -> Result<Solves, (u64, StepError)> {
+        if self.damped.is_none() {
+            return self.undamped(state, first, count);
+        }
+        one_by_one(first, count, |number| {
+            self.around(state, [self.grid.time(number), self.grid.step], |state| {
+                self.undamped(state, number, 1).map_err(|(_, error)| error)
+            })
+        })
+    }
+
+    /// As [`Motion::advance`], without damping.
+    fn undamped(
+        &self,
+        state: &mut Numbers,
+        first: u64,
+        count: u64,
+    ) -> Result<Solves, (u64, StepError)> {
+        if let Some(compiled) = &self.space.compiled {
+            let rescue = |state: &mut Numbers, number| {
+                self.rescue(state, self.grid.time(number), self.grid.step)
+            };
+            let made = compiled.advance(state, self.grid.start, [first, count], rescue)?;
+            // A bound, which may be far below what rounding leaves.
+            return Ok(Some(Solved { residual: made.residual.max(f64::EPSILON), ..made }));
+        }
+        one_by_one(first, count, |number| {
+            let (time, mut phase) = (self.grid.time(number), self.space.phase(state));
+            if let Some(solved) = self.method.go_on(&mut phase, time) {
+                *state = self.space.state(&phase);
+                return Ok(Some(solved));
+            }
+            self.rescue(state, time, self.grid.step)
+        })
+    }
 
     /// The state after one step of another size from this time.
     ///
     /// # Errors
     /// Fails if there is none.
-    fn beside(&self, state: &Numbers, time: f64, size: f64) -> Result<Numbers, StepError>;
+    pub(crate) fn beside(
+        &self,
+        state: &Numbers,
+        time: f64,
+        size: f64,
+    ) -> Result<Numbers, StepError> {
+        let mut next = state.clone();
+        let other = self.space.compiled.as_ref().map(|own| {
+            // A thread that panicked has left whole programs, if any.
+            let mut other = self.other.lock().unwrap_or_else(PoisonError::into_inner);
+            let found = other.as_ref().unwrap_or(own).anew(size, &self.parameters)?;
+            Ok::<_, StepError>(other.insert(found).clone())
+        });
+        self.alone(other.transpose()?.as_ref(), &mut next, [time, size])?;
+        Ok(next)
+    }
 
     /// Makes one step from this time, whatever steps were made before.
     ///
     /// # Errors
     /// Returns the reason for which there is none.
-    fn one_at(&self, state: &mut Numbers, time: f64) -> Result<(), StepError>;
+    pub(crate) fn one_at(&self, state: &mut Numbers, time: f64) -> Result<(), StepError> {
+        self.alone(self.space.compiled.as_ref(), state, [time, self.grid.step])
+    }
 
     /// The ratio of the last two terms of the series at each momentum, where it may be worth a warning; else 0.
-    fn ratios(&self, momenta: &[&[f64]]) -> Vec<f64> {
-        vec![0.0; momenta.len()]
+    pub(crate) fn ratios(&self, momenta: &[&[f64]]) -> Vec<f64> {
+        let longer = |longest: f64, own: f64| if own.abs() > longest.abs() { own } else { longest };
+        let flows = self.kicks().map(|kicks| kicks.splitting.flows().fold(0.0, longer));
+        let longest = self.grid.step * flows.unwrap_or(1.0);
+        let compiled = self.space.compiled.as_deref();
+        self.method.ratios(compiled, longest, &self.parameters, momenta)
     }
 
     /// The ratio at one momentum.
-    fn ratio(&self, mu: &[f64]) -> f64 {
+    pub(crate) fn ratio(&self, mu: &[f64]) -> f64 {
         self.ratios(&[mu]).into_iter().fold(0.0, f64::max)
     }
 
-    /// The steps with their derivatives, if these are known.
-    fn differentiable(&self) -> Option<&dyn Differentiable> {
-        None
-    }
-
     /// Advice beside that of an error, for a step from this time that this state refused.
-    fn advice(&self, _: &Numbers, _time: f64, _: &StepError) -> Option<&'static str> {
-        None
+    pub(crate) fn advice(
+        &self,
+        state: &Numbers,
+        time: f64,
+        error: &StepError,
+    ) -> Option<&'static str> {
+        if self.damped.is_some() || !error.asks_for_smaller_step() {
+            return None;
+        }
+        let comoving = self.method.comoving()?;
+        let map = self.map(&*comoving, self.grid.step).ok()?;
+        let made = map.step(self.kicked.as_ref(), &mut self.space.phase(state), time);
+        made.is_ok().then_some(
+            "; this step can be made in the comoving frame: [integrator] frame = \"comoving\"",
+        )
     }
 
     /// Checks that the Hamiltonian and the torque of kicks are defined in a state of this time.
     ///
     /// # Errors
     /// The expression in them that is not.
-    fn defined(&self, state: &Numbers, time: f64) -> Result<(), StepError>;
+    pub(crate) fn defined(&self, state: &Numbers, time: f64) -> Result<(), StepError> {
+        self.method.defined(time, &state.mu)?;
+        self.kicked.as_ref().map_or(Ok(()), |own| own.torque.defined(&self.space, state, time))
+    }
 
     /// The programs that move many states side by side, where there are any.
-    fn lanes(&self) -> Option<&Compiled> {
-        None
+    pub(crate) fn lanes(&self) -> Option<&Compiled> {
+        self.space.compiled.as_deref().filter(|_| self.damped.is_none())
+    }
+
+    /// q, the number of parameters that derivatives are taken in; none where the derivatives of steps are not known, as those of
+    /// torques without potential.
+    pub(crate) fn differentiable(&self) -> Option<usize> {
+        let hamiltonian = self.damped.is_none() && self.kicks().and_then(Kicks::torque).is_none();
+        (hamiltonian && self.method.is_differentiable()).then_some(self.parameters.len())
+    }
+
+    /// The derivative of the next step of a state that `first` steps from the start of the grid have reached.
+    ///
+    /// # Errors
+    /// Fails if there is no step.
+    pub(crate) fn linear(&self, state: &Numbers, first: u64) -> Result<Linear, StepError> {
+        let (group, size) = (&self.space.group, self.grid.step);
+        let (flows, kick) = match self.slopes.get() {
+            Some(slopes) => slopes,
+            None => {
+                let lengths = lengths(self.kicks(), size);
+                let flows = self.method.slopes(group, &lengths, &self.parameters)?;
+                let kick =
+                    self.kicks().map(|own| KickSlope::new(&own.kick, group, &self.parameters));
+                let made = (flows, kick.transpose()?);
+                self.slopes.get_or_init(|| made)
+            }
+        };
+        let (mut phase, time) = (self.space.phase(state), self.grid.time(first));
+        let mut total = Linear::identity(phase.momentum.len(), self.parameters.len());
+        let (Some(kicks), Some(kick)) = (self.kicks(), kick) else {
+            return flows.first().map_or(Ok(total), |flow| flow(&mut phase, time));
+        };
+        compose(kicks.splitting, &mut phase, [time, size], |piece, phase, time, length| {
+            let next = match piece {
+                Piece::Kick => kick.linear(phase, [time, length])?,
+                Piece::Flow(number) => flows[number](phase, time)?,
+            };
+            total = total.then(&next);
+            Ok(())
+        })?;
+        Ok(total)
+    }
+
+    /// Takes these values of the parameters, and what its programs read for them, where it has any. Steps made before are
+    /// forgotten.
+    pub(crate) fn vary(&mut self, parameters: &[f64], folded: Option<Folded>) {
+        self.parameters.clear();
+        self.parameters.extend_from_slice(parameters);
+        self.method.vary(parameters);
+        if let Some(kicked) = &mut self.kicked {
+            kicked.torque.vary(parameters);
+        }
+        if let Some(damped) = &mut self.damped {
+            damped.vary(parameters);
+        }
+        // These are of other values.
+        (self.map, self.slopes) = Default::default();
+        if let (Some(compiled), Some(folded)) = (&mut self.space.compiled, folded) {
+            Arc::make_mut(compiled).with(folded);
+        }
     }
 }
 
-/// A motion whose parameters may take other values.
-pub(crate) trait Varied: Motion {
-    /// Takes these values, and what its programs read for them, where it has any.
-    fn vary(&mut self, parameters: &[f64], folded: Option<Folded>);
-}
-
-/// Makes steps one by one with `step`, which leaves a state that it cannot move as it is.
+/// Makes steps one by one with `step`, which is given the number of steps before it, and leaves a state that it cannot move as it is.
 ///
 /// # Errors
 /// As [`Motion::advance`].
-pub(crate) fn one_by_one(
+fn one_by_one(
+    first: u64,
     count: u64,
-    mut step: impl FnMut() -> Result<Solves, StepError>,
+    mut step: impl FnMut(u64) -> Result<Solves, StepError>,
 ) -> Result<Solves, (u64, StepError)> {
     let mut total: Solves = None;
     for made in 0..count {
-        let solved = step().map_err(|error| (made, error))?;
+        let solved = step(first + made).map_err(|error| (made, error))?;
         total = match (total, solved) {
             (Some(total), Some(solved)) => Some(total.with(solved)),
             (total, solved) => total.or(solved),
@@ -112,7 +452,7 @@ const MOST_HALVINGS: u32 = 24;
 /// The error with the longest of h/2, h/4, … with which `works` says that the step can be made; as it is where there is
 /// none, and where the length of the step is not to blame.
 #[cold]
-pub(crate) fn advise(error: StepError, h: f64, mut works: impl FnMut(f64) -> bool) -> StepError {
+pub(super) fn advise(error: StepError, h: f64, mut works: impl FnMut(f64) -> bool) -> StepError {
     if !error.asks_for_smaller_step() {
         return error;
     }
@@ -124,228 +464,4 @@ pub(crate) fn advise(error: StepError, h: f64, mut works: impl FnMut(f64) -> boo
         }
     }
     error
-}
-
-/// The equations of a motion: a flow, kicks where there are any, and the values of the parameters that are kept.
-#[derive(Clone, Debug)]
-pub(crate) struct Equations<'a> {
-    /// The flow and the kicks.
-    pub integrator: &'a Integrator,
-    /// The values of the parameters.
-    pub parameters: Vec<f64>,
-}
-
-impl Equations<'_> {
-    /// True if steps depend on the time.
-    fn moves(&self) -> bool {
-        self.integrator.kicks.as_ref().is_some_and(Kicks::moves)
-    }
-}
-
-/// The steps of a system: by programs where there are any, else by the generic solver, which also makes the steps that
-/// programs refuse.
-pub(super) struct Steps<'a, G: Restore, C> {
-    elements: Elements<G>,
-    equations: Equations<'a>,
-    grid: Grid,
-    /// The step of the generic solver, once one was needed.
-    generic: OnceLock<Map<'a, G>>,
-    /// Maps of half the step, of a quarter, …, as far as advice has needed them.
-    shorter: Mutex<Vec<Option<Map<'a, G>>>>,
-    /// The programs of ratios, once one was asked for, where there are no other programs.
-    convergence: OnceLock<Convergence>,
-    /// Their coefficients for the longest flow of a step.
-    converging: OnceLock<Option<Converging>>,
-    /// The derivative of a step, once one was asked for.
-    tangent: OnceLock<Tangent<'a, G, C>>,
-    /// This system in the comoving frame, once advice was asked for, where there is one and the choice is left.
-    comoving: OnceLock<Option<Integrator>>,
-}
-
-impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Steps<'a, G, C> {
-    pub(super) fn new(elements: Elements<G>, equations: Equations<'a>, grid: Grid) -> Self {
-        let (generic, shorter, convergence, converging) = Default::default();
-        let (tangent, comoving) = Default::default();
-        Self {
-            elements,
-            equations,
-            grid,
-            generic,
-            shorter,
-            convergence,
-            converging,
-            tangent,
-            comoving,
-        }
-    }
-
-    fn map(&self, size: f64) -> Result<Map<'a, G>, StepError> {
-        let Equations { integrator, parameters } = &self.equations;
-        map::<G, C>(integrator, &self.elements.group, size, parameters)
-    }
-
-    /// The error of the next step of a state, with a step size that works there.
-    fn advise(&self, error: StepError, phase: &Phase<G>, time: f64) -> StepError {
-        // A thread that panicked has left whole steps, if any.
-        let mut shorter = self.shorter.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut place = 0;
-        advise(error, self.grid.step, |size| {
-            if shorter.len() == place {
-                shorter.push(self.map(size).ok());
-            }
-            place += 1;
-            let step = shorter.get(place - 1).and_then(Option::as_ref);
-            step.is_some_and(|step| step(&mut phase.clone(), time).is_ok())
-        })
-    }
-
-    /// A step by the generic solver. The error of one that cannot be made names a size that works.
-    fn rescue(&self, state: &mut Numbers, number: u64) -> Result<Solves, StepError> {
-        let time = self.grid.time(number);
-        let step = match self.generic.get() {
-            Some(step) => step,
-            None => {
-                let made = self.map(self.grid.step)?;
-                self.generic.get_or_init(|| made)
-            }
-        };
-        let mut phase = self.elements.phase(state);
-        let solved = step(&mut phase, time).map_err(|error| self.advise(error, &phase, time))?;
-        *state = self.elements.state(&phase);
-        Ok(solved)
-    }
-}
-
-impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Motion for Steps<'a, G, C> {
-    fn space(&self) -> &dyn Space {
-        &self.elements
-    }
-
-    fn grid(&self) -> Grid {
-        self.grid
-    }
-
-    fn advance(
-        &self,
-        state: &mut Numbers,
-        first: u64,
-        count: u64,
-    ) -> Result<Solves, (u64, StepError)> {
-        let Some(compiled) = &self.elements.compiled else {
-            let mut numbers = first..;
-            return one_by_one(count, || self.rescue(state, numbers.next().unwrap_or(first)));
-        };
-        let rescue = |state: &mut Numbers, number| self.rescue(state, number);
-        let made = compiled.advance(state, self.grid.start, [first, count], rescue)?;
-        // A bound, which may be far below what rounding leaves.
-        Ok(Some(Solved { residual: made.residual.max(f64::EPSILON), ..made }))
-    }
-
-    fn beside(&self, state: &Numbers, time: f64, size: f64) -> Result<Numbers, StepError> {
-        let mut phase = self.elements.phase(state);
-        self.map(size)?(&mut phase, time)?;
-        Ok(self.elements.state(&phase))
-    }
-
-    fn one_at(&self, state: &mut Numbers, time: f64) -> Result<(), StepError> {
-        if self.equations.moves() {
-            *state = self.beside(state, time, self.grid.step)?;
-            return Ok(());
-        }
-        self.advance(state, 0, 1).map(drop).map_err(|(_, error)| error)
-    }
-
-    fn ratios(&self, momenta: &[&[f64]]) -> Vec<f64> {
-        let Equations { integrator, parameters } = &self.equations;
-        let compiled = self.elements.compiled.as_ref();
-        let quiet = |compiled: &Arc<Compiled>| momenta.iter().all(|mu| compiled.is_quiet(mu));
-        if integrator.largest_rate.is_none() && compiled.is_some_and(quiet) {
-            return vec![0.0; momenta.len()];
-        }
-        let fold = || {
-            let longest = self.grid.step * integrator.kicks.as_ref().map_or(1.0, longest_flow);
-            Convergence::fold(integrator, longest, parameters, STEEP).ok()
-        };
-        let convergence = match compiled {
-            Some(compiled) => compiled.convergence(integrator),
-            None => self.convergence.get_or_init(|| Convergence::new(integrator)),
-        };
-        let folded = self.converging.get_or_init(fold).as_ref();
-        folded.map_or_else(|| vec![0.0; momenta.len()], |own| convergence.ratios(own, momenta))
-    }
-
-    fn advice(&self, state: &Numbers, time: f64, error: &StepError) -> Option<&'static str> {
-        let Equations { integrator, parameters } = &self.equations;
-        let make = || {
-            let problem = in_other_frame(&integrator.problem)?;
-            let limit = TermLimit::of_open_method();
-            let made = problem.comoving.is_some().then(|| Integrator::build(problem, limit).ok());
-            match &integrator.kicks {
-                Some(Kicks { kick, splitting, .. }) => {
-                    made.flatten()?.with_kicks(kick.clone(), *splitting)
-                }
-                None => made.flatten(),
-            }
-        };
-        let works = |comoving: &Integrator| {
-            let map = map::<G, C>(comoving, &self.elements.group, self.grid.step, parameters);
-            map.is_ok_and(|step| step(&mut self.elements.phase(state), time).is_ok())
-        };
-        let comoving = error.asks_for_smaller_step().then(|| self.comoving.get_or_init(make));
-        let advice =
-            "; this step can be made in the comoving frame: [integrator] frame = \"comoving\"";
-        comoving?.as_ref().filter(|comoving| works(comoving)).map(|_| advice)
-    }
-
-    /// Of torques without potential no derivatives are known.
-    fn differentiable(&self) -> Option<&dyn Differentiable> {
-        let kicks = self.equations.integrator.kicks.as_ref();
-        kicks.and_then(Kicks::torque).is_none().then_some(self)
-    }
-
-    fn defined(&self, state: &Numbers, time: f64) -> Result<(), StepError> {
-        let Equations { integrator, parameters } = &self.equations;
-        // A polynomial is defined everywhere.
-        let Some(kicks) = &integrator.kicks else { return Ok(()) };
-        if matches!(kicks.kick.potential.force, Force::Polynomial(_)) {
-            return Ok(());
-        }
-        let torque = Torque::new(&kicks.kick, (*self.elements.group).clone(), parameters)?;
-        torque.defined(&self.elements.phase(state), time)
-    }
-
-    fn lanes(&self) -> Option<&Compiled> {
-        self.elements.compiled.as_deref()
-    }
-}
-
-impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Differentiable for Steps<'a, G, C> {
-    fn parameters(&self) -> usize {
-        self.equations.parameters.len()
-    }
-
-    fn linear(&self, state: &Numbers, first: u64) -> Result<Linear, StepError> {
-        let tangent = match self.tangent.get() {
-            Some(tangent) => tangent,
-            None => {
-                let Equations { integrator, parameters } = &self.equations;
-                let group: &G = &self.elements.group;
-                let made = Tangent::new(integrator, group, self.grid.step, parameters)?;
-                self.tangent.get_or_init(|| made)
-            }
-        };
-        tangent.linear(self.elements.phase(state), self.grid.time(first))
-    }
-}
-
-impl<'a, G: Restore + 'a, C: Chart<G> + Send + Sync + 'a> Varied for Steps<'a, G, C> {
-    fn vary(&mut self, parameters: &[f64], folded: Option<Folded>) {
-        self.equations.parameters.clear();
-        self.equations.parameters.extend_from_slice(parameters);
-        // These are of other values.
-        (self.generic, self.converging, self.shorter, self.tangent) = Default::default();
-        if let (Some(compiled), Some(folded)) = (&mut self.elements.compiled, folded) {
-            Arc::make_mut(compiled).with(folded);
-        }
-    }
 }

@@ -1,17 +1,15 @@
 //! The generating function of a step of collocation, to second order.
 
-use std::sync::Arc;
-
-use coadjoint::StepError;
 use coadjoint::collocation::{Node, Solution};
 use coadjoint::groups::Coordinates;
+use coadjoint::{LieGroup, StepError};
 use coadjoint_codegen::graph::Program;
 use coadjoint_codegen::smooth::Smooth;
 use coadjoint_program::Argument;
 use nalgebra::{DMatrix, DVector};
 
 use super::linear::{columns, meeting};
-use super::space::Group;
+use super::space::Tables;
 
 /// The spacing of differences that are exact on polynomials.
 const SPACING: f64 = 0.25;
@@ -19,7 +17,7 @@ const SPACING: f64 = 0.25;
 /// The second derivatives of a smooth Hamiltonian, and those of the generating functions of its steps.
 pub(crate) struct Response<'a> {
     smooth: &'a Smooth,
-    symbols: Arc<[f64]>,
+    symbols: Vec<f64>,
     /// μ, t, the signals, v ↦ ∂²H/∂μ² v.
     hessian: Program,
     /// μ, t, the signals, the change of the symbols ↦ that of ∂H/∂μ.
@@ -29,8 +27,9 @@ pub(crate) struct Response<'a> {
 }
 
 impl<'a> Response<'a> {
-    /// For these values of the parameters that the system keeps, from which the symbols have theirs.
-    pub(crate) fn new(smooth: &'a Smooth, symbols: Arc<[f64]>, parameters: &[f64]) -> Self {
+    /// For these values of the parameters that the system keeps.
+    pub(crate) fn new(smooth: &'a Smooth, parameters: &[f64]) -> Self {
+        let symbols = smooth.symbols_at(parameters);
         let inputs: Vec<Argument> = (0..smooth.algebra.dim()).map(Argument::Input).collect();
         let slots: Vec<Argument> = (0..symbols.len()).map(Argument::Slot).collect();
         let slope = |number: usize| {
@@ -57,9 +56,9 @@ impl<'a> Response<'a> {
     ///
     /// # Errors
     /// Fails if two solutions meet.
-    pub(crate) fn of<G: Group, const M: usize>(
+    pub(crate) fn of<const M: usize>(
         &self,
-        group: &G,
+        group: &Tables,
         solution: &Solution<DVector<f64>, M>,
         step: f64,
     ) -> Result<[DMatrix<f64>; 2], StepError> {
@@ -68,7 +67,7 @@ impl<'a> Response<'a> {
         let mut matrix = DMatrix::identity(size * M, size * M);
         let mut right = DMatrix::zeros(size * M, n + q);
         for (i, node) in solution.nodes.iter().enumerate() {
-            let [by_state, by_parameters] = self.node::<G, M>(group, node, step);
+            let [by_state, by_parameters] = self.node::<M>(group, node, step);
             for j in 0..M {
                 let weight = solution.matrix[j][i];
                 let mut block = matrix.view_mut((i * size, j * size), (size, size));
@@ -90,9 +89,9 @@ impl<'a> Response<'a> {
     }
 
     /// The derivatives of h(ẋ, ṗ) at a node: in (x, p), 2n×2n, and in the parameters, 2n×q.
-    fn node<G: Group, const M: usize>(
+    fn node<const M: usize>(
         &self,
-        group: &G,
+        group: &Tables,
         node: &Node<DVector<f64>>,
         step: f64,
     ) -> [DMatrix<f64>; 2] {

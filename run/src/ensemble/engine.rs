@@ -3,10 +3,8 @@
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use coadjoint::StepError;
 use coadjoint_codegen::problem::{Parameter, Solver};
-use coadjoint_codegen::smooth::Hamiltonian;
-use coadjoint_codegen::step::{self, Invariants, Seen, nudge};
+use coadjoint_codegen::step::{self, Invariants};
 use coadjoint_native::cards::{Card, Device};
 use coadjoint_program::{Precision, Trajectories, WIDTH};
 use rayon::prelude::*;
@@ -14,7 +12,7 @@ use rayon::prelude::*;
 use super::layout::{Attitude, Layout, Shape};
 use super::march::{March, STRETCH, Way};
 use crate::backend::Backend;
-use crate::engine::{Compiled, Motion, Numbers, STEEP, Varied, card, identity};
+use crate::engine::{Compiled, Motion, Numbers, STEEP, card, identity};
 use crate::error::RunError;
 use crate::grid::Grid;
 use crate::load::{Derived, System};
@@ -32,9 +30,7 @@ pub fn in_lanes(mut system: System) -> Result<System, RunError> {
             "the event `{name}`: ensembles do not look for events; leave [[event]] out, or use simulate"
         )));
     }
-    if let Hamiltonian::Polynomial(problem, _) = &mut system.problem {
-        problem.solver = Some(Solver::Newton);
-    }
+    system.problem.set_solver(Solver::Newton);
     Ok(system)
 }
 
@@ -115,12 +111,12 @@ impl Course {
         self.stops.len().max(1)
     }
 
-    /// From step to step, with the number of the stop that is there.
-    fn legs(&self) -> impl Iterator<Item = (u64, u64, Option<usize>)> {
+    /// From step to step, with the stop that is there.
+    fn legs(&self) -> impl Iterator<Item = (u64, u64, Option<Stop>)> {
         let ends = self.stops.iter().map(|stop| stop.step);
         let starts = std::iter::once(0).chain(ends.clone());
-        let numbers = (0..self.stops.len()).map(Some).chain([None]);
-        starts.zip(ends.chain([self.steps])).zip(numbers).map(|((a, b), stop)| (a, b, stop))
+        let stops = self.stops.iter().copied().map(Some).chain([None]);
+        starts.zip(ends.chain([self.steps])).zip(stops).map(|((a, b), stop)| (a, b, stop))
     }
 }
 
@@ -171,7 +167,7 @@ pub struct Engine<'a> {
     parameters: Vec<f64>,
     grid: Grid,
     /// With the parameters as the file has them.
-    motion: Box<dyn Motion + 'a>,
+    motion: Motion<'a>,
     compiled: Option<Arc<Compiled>>,
     card: Option<Mutex<Card>>,
     /// Rows of which the device has refused a step.
@@ -427,16 +423,6 @@ impl<'a> Engine<'a> {
         rows.par_iter().map(estimate).collect()
     }
 
-    /// The shorter steps to each stop, where there is one.
-    fn shorter(&self, course: &Course) -> Result<Vec<Option<Box<dyn Motion + 'a>>>, StepError> {
-        let shorter = |stop: &Stop| {
-            let grid = Grid { start: self.grid.time(stop.step), step: stop.part };
-            let motion = || self.system.varied(grid, &self.parameters, self.compiled.as_ref());
-            (stop.part != 0.0).then(motion).transpose()
-        };
-        course.stops.iter().map(shorter).collect()
-    }
-
     /// The state of a row, or what is wrong with it.
     fn read(&self, layout: &Layout, row: &[f64]) -> Result<Numbers, String> {
         check(layout, row)?;
@@ -467,26 +453,18 @@ impl<'a> Engine<'a> {
         let (invariants, space) = (&self.invariants, self.motion.space());
         // Energies alone depend on the time, and are not measured.
         let time = self.grid.start;
-        let after = || ways.iter().map(|way| &way.state);
-        let mut beside: Vec<Numbers> = after().cloned().collect();
-        for state in &mut beside {
-            nudge(&mut state.g);
-            nudge(&mut state.mu);
-        }
-        let states: Vec<&Numbers> = before.iter().chain(after()).chain(&beside).collect();
-        let observed = space.observe(&states);
-        let seen: Vec<Seen<'_>> =
-            (0..states.len()).map(|at| observed.seen(at, &states[at].mu)).collect();
-        let (rows, conserved) = (before.len(), invariants.conserved(time, &seen));
+        let after: Vec<&Numbers> = ways.iter().map(|way| &way.state).collect();
+        let (_, after) = space.conserved(invariants, time, &after);
+        let starts = space.observe(&before.iter().collect::<Vec<_>>());
         let known = invariants.directions.as_ref().is_none_or(|known| !known.is_empty());
-        let drift = |row: usize| {
-            let start = invariants.start(time, seen[row]);
-            let conserved = start.measured(&conserved[rows + row], &conserved[2 * rows + row]);
+        let drift = |(row, [now, beside]): (usize, &[Vec<f64>; 2])| {
+            let start = invariants.start(time, starts.seen(row, &before[row].mu));
+            let conserved = start.measured(now, beside);
             let hidden = known && conserved.spatial_momentum.is_none()
                 || invariants.casimirs > 0 && conserved.casimirs.is_none();
             Drift { conserved, unmeasured: hidden.into(), ..Drift::default() }
         };
-        (0..rows).map(drift).collect()
+        after.iter().enumerate().map(drift).collect()
     }
 
     /// Makes the steps of all states.
@@ -496,9 +474,7 @@ impl<'a> Engine<'a> {
         course: &Course,
         watch: &Watch<'_>,
     ) -> Result<Vec<Way>, RunError> {
-        let shorter = self.shorter(course);
-        let shorter = shorter.map_err(RunError::unmade)?;
-        let march = March { motion: self.motion.as_ref(), stop: watch.stop };
+        let march = March { motion: &self.motion, stop: watch.stop };
         let mut ways: Vec<Way> = states.into_iter().map(Way::from).collect();
         ways.par_chunks_mut(WIDTH).for_each(|ways| march.look(ways));
         match &self.card {
@@ -506,8 +482,7 @@ impl<'a> Engine<'a> {
                 for (first, end, stop) in course.legs() {
                     march.march(&mut ways, first, end, watch.made);
                     let Some(stop) = stop else { continue };
-                    let shorter = shorter[stop].as_deref();
-                    ways.par_iter_mut().for_each(|way| march.keep(way, end, shorter));
+                    ways.par_iter_mut().for_each(|way| march.keep(way, stop));
                 }
             }
             Some(card) => {
@@ -531,41 +506,27 @@ impl<'a> Engine<'a> {
         watch: &Watch<'_>,
     ) -> Vec<Way> {
         let places = self.places(layout);
-        let part = |stop: &Stop| Grid { start: self.grid.time(stop.step), step: stop.part };
-        let grids: Vec<Grid> =
-            [self.grid].into_iter().chain(course.stops.iter().map(part)).collect();
-        // The steps, and the shorter ones to each stop, where there are any: those of size 0 are not made.
-        let motions = || {
-            let made = |&grid: &Grid| if grid.step == 0.0 { self.grid } else { grid };
-            let steps = |grid| self.system.steps(grid, self.compiled.as_ref()).ok();
-            grids.iter().map(made).filter_map(steps).collect::<Vec<Box<dyn Varied>>>()
-        };
-        let stop = watch.stop;
-        let advance = |motions: &mut Vec<Box<dyn Varied>>, (ways, own): (&mut [Way], &[&[f64]])| {
+        let (compiled, stop) = (self.compiled.as_ref(), watch.stop);
+        let motion = || self.system.steps(self.grid, compiled).ok();
+        let advance = |motion: &mut Option<Motion<'_>>, (ways, own): (&mut [Way], &[&[f64]])| {
+            let Some(motion) = motion else { return };
             let parameters = own.iter().map(|own| self.parameters(&places, own));
             let parameters: Vec<Vec<f64>> = parameters.collect();
-            let fold = |&Grid { step, .. }: &Grid| {
-                let compiled = self.compiled.as_ref().filter(|_| step != 0.0);
-                let rows = compiled.map(|own| own.fold_rows(step, &parameters));
-                rows.unwrap_or_default().into_iter()
-            };
-            let mut folded: Vec<_> = grids.iter().map(fold).collect();
+            let folded = compiled.map(|own| own.fold_rows(self.grid.step, &parameters));
+            let mut folded = folded.unwrap_or_default().into_iter();
             for ((way, own), parameters) in ways.iter_mut().zip(own).zip(&parameters) {
-                for (motion, folded) in motions.iter_mut().zip(&mut folded) {
-                    match folded.next().transpose() {
-                        Ok(folded) => motion.vary(parameters, folded),
-                        Err(error) => {
-                            let values = layout.parameters.iter().zip(*own);
-                            let values: Vec<String> = values
-                                .map(|(name, x)| format!("{name} = {}", shortest(*x)))
-                                .collect();
-                            let why = format!("with {}: {error}", values.join(", "));
-                            way.stopped = Some((0, why));
-                        }
+                match folded.next().transpose() {
+                    Ok(folded) => {
+                        motion.vary(parameters, folded);
+                        follow(motion, way, course, stop);
                     }
-                }
-                if way.stopped.is_none() {
-                    follow(motions, way, course, stop);
+                    Err(error) => {
+                        let values = layout.parameters.iter().zip(*own);
+                        let values: Vec<String> =
+                            values.map(|(name, x)| format!("{name} = {}", shortest(*x))).collect();
+                        let why = format!("with {}: {error}", values.join(", "));
+                        way.stopped = Some((0, why));
+                    }
                 }
             }
         };
@@ -574,7 +535,7 @@ impl<'a> Engine<'a> {
         for (ways, own) in ways.chunks_mut(ROWS).zip(own.chunks(ROWS)) {
             made += ways.len() as u64;
             let pieces = ways.par_chunks_mut(WIDTH).zip(own.par_chunks(WIDTH));
-            pieces.for_each_init(motions, advance);
+            pieces.for_each_init(motion, advance);
             // As many steps as all rows had made if they had gone together.
             (watch.made)(course.steps * made / count);
         }
@@ -582,12 +543,11 @@ impl<'a> Engine<'a> {
     }
 }
 
-/// Makes the steps of a row alone; `motions` are the steps, and the shorter ones to each stop.
-fn follow(motions: &[Box<dyn Varied + '_>], way: &mut Way, course: &Course, stop: &AtomicBool) {
-    let Some((motion, shorter)) = motions.split_first() else { return };
-    let march = March { motion: motion.as_ref(), stop };
+/// Makes the steps of a row alone.
+fn follow(motion: &Motion<'_>, way: &mut Way, course: &Course, stop: &AtomicBool) {
+    let march = March { motion, stop };
     march.look(std::slice::from_mut(way));
-    for (first, end, place) in course.legs() {
+    for (first, end, at) in course.legs() {
         let mut done = first;
         while done < end && way.stopped.is_none() && !stop.load(Ordering::Relaxed) {
             let next = end.min(done + STRETCH);
@@ -595,10 +555,9 @@ fn follow(motions: &[Box<dyn Varied + '_>], way: &mut Way, course: &Course, stop
             march.look(std::slice::from_mut(way));
             done = next;
         }
-        let Some(place) = place else { continue };
-        let whole = course.stops[place].part == 0.0;
-        let shorter: Option<&dyn Motion> = if whole { None } else { Some(shorter[place].as_ref()) };
-        march.keep(way, end, shorter);
+        if let Some(at) = at {
+            march.keep(way, at);
+        }
     }
     if !stop.load(Ordering::Relaxed) {
         march.end(way, course.steps);

@@ -11,14 +11,15 @@ use rayon::prelude::*;
 
 use crate::engine::{Motion, Numbers};
 use crate::number::maximum;
+use crate::simulate::Stop;
 
 /// Steps that all trajectories make before the next: each is then about as far, and what is told of it is true.
 pub(super) const STRETCH: u64 = 256;
 
 /// The motion of a row, and its limits.
-pub(super) struct March<'a> {
+pub(super) struct March<'a, 's> {
     /// Makes them, and is asked for the ratio of the series after each stretch.
-    pub motion: &'a dyn Motion,
+    pub motion: &'a Motion<'s>,
     /// Stops all rows once it is set.
     pub stop: &'a AtomicBool,
 }
@@ -45,7 +46,7 @@ impl From<Numbers> for Way {
     }
 }
 
-impl March<'_> {
+impl March<'_, '_> {
     /// Takes the ratios of where trajectories are into account.
     pub(super) fn look(&self, ways: &mut [Way]) {
         let momenta: Vec<&[f64]> = ways.iter().map(|way| &way.state.mu[..]).collect();
@@ -108,19 +109,20 @@ impl March<'_> {
         }
     }
 
-    /// Keeps the state of a trajectory after `step` steps, or that after a shorter step from there.
-    pub(super) fn keep(&self, way: &mut Way, step: u64, shorter: Option<&dyn Motion>) {
+    /// Keeps the state of a trajectory at this stop, which its whole steps have reached.
+    pub(super) fn keep(&self, way: &mut Way, Stop { step, part }: Stop) {
         if way.stopped.is_some() {
             return;
         }
-        let (mut state, time) = (way.state.clone(), self.motion.grid().time(step));
-        let made = shorter.map_or(Ok(()), |shorter| shorter.one_at(&mut state, time));
-        let time = time + shorter.map_or(0.0, |shorter| shorter.grid().step);
-        match made.and_then(|()| self.motion.defined(&state, time)) {
-            Ok(()) => way.kept.push(state),
-            Err(error) => {
-                way.stopped = Some((step + u64::from(shorter.is_some()), error.to_string()));
-            }
+        let time = self.motion.grid().time(step);
+        let made = match part == 0.0 {
+            true => Ok(way.state.clone()),
+            false => self.motion.beside(&way.state, time, part),
+        };
+        let defined = |state: Numbers| self.motion.defined(&state, time + part).map(|()| state);
+        match made.and_then(defined) {
+            Ok(state) => way.kept.push(state),
+            Err(error) => way.stopped = Some((step + u64::from(part != 0.0), error.to_string())),
         }
     }
 

@@ -52,17 +52,17 @@ impl<'a> Maker<'a> {
     ///
     /// # Errors
     /// Fails if the step or the parameters make no sense.
-    pub(crate) fn steps(self, grid: Grid) -> Result<Box<dyn Motion + 'a>, StepError> {
-        self.system.varied(grid, self.parameters, self.compiled)
+    pub(crate) fn steps(self, grid: Grid) -> Result<Motion<'a>, StepError> {
+        self.system.with_parameters(grid, self.parameters, self.compiled)
     }
 }
 
 /// A run that has been made.
-pub(crate) struct Made<'a> {
+pub(crate) struct Made<'a, 's> {
     /// What makes steps of any size.
     pub maker: Maker<'a>,
     /// The steps of the run.
-    pub motion: &'a dyn Motion,
+    pub motion: &'a Motion<'s>,
     /// The states at its start and end.
     pub ends: [&'a Numbers; 2],
     /// The states on the way, as far as they are known.
@@ -77,7 +77,7 @@ pub(crate) struct Made<'a> {
     pub stop: &'a dyn Fn() -> bool,
 }
 
-impl Made<'_> {
+impl Made<'_, '_> {
     /// Estimates the error at the end: the larger of the relative errors of μ and of the matrix of g, in Euclidean norms.
     ///
     /// Beside the run goes one over the whole time, and Richardson's extrapolation of the difference at the end is the error
@@ -138,7 +138,7 @@ impl Made<'_> {
         let ratio = self.steps / count as f64;
         let grid = Grid { step: ratio * self.grid.step, ..self.grid };
         let Ok(motion) = self.maker.steps(grid) else { return Ok(None) };
-        let steps = (motion.as_ref(), ratio < 1.0);
+        let steps = (&motion, ratio < 1.0);
         let (mut end, mut at, mut way) = (self.ends[0].clone(), 0, Vec::new());
         let places = states.iter().map(|(place, _)| (*place as f64 / ratio) as u64);
         for next in places.chain([count]) {
@@ -169,7 +169,7 @@ impl Made<'_> {
     /// refuse are made by other means, which take long, only if `patient`.
     fn go(
         &self,
-        (motion, patient): (&dyn Motion, bool),
+        (motion, patient): (&Motion<'_>, bool),
         state: &mut Numbers,
         [first, end]: [u64; 2],
     ) -> Result<Result<(), StepError>, Unknown> {
@@ -230,7 +230,7 @@ pub(crate) fn error_of(
     let mut end = start.clone();
     let run = Made {
         maker,
-        motion: motion.as_ref(),
+        motion: &motion,
         ends: [start, start],
         kept: &[],
         part,
@@ -241,7 +241,7 @@ pub(crate) fn error_of(
     let (mut kept, mut at) = (Vec::new(), 0);
     while at < steps {
         let next = steps.min(at + part);
-        run.go((motion.as_ref(), patient), &mut end, [at, next])?.map_err(|_| REFUSED)?;
+        run.go((&motion, patient), &mut end, [at, next])?.map_err(|_| REFUSED)?;
         kept.extend((next < steps).then(|| (next, end.clone())));
         at = next;
     }

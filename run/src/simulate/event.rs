@@ -110,15 +110,15 @@ pub(super) struct Moment {
 }
 
 /// Looks for events within a step.
-pub(super) struct Lookout<'a> {
+pub(super) struct Lookout<'a, 's> {
     pub events: &'a [Event],
-    pub motion: &'a dyn Motion,
+    pub motion: &'a Motion<'s>,
     /// The time at the start of the step, and the step.
     pub time: f64,
     pub step: f64,
 }
 
-impl Lookout<'_> {
+impl Lookout<'_, '_> {
     /// The values of all functions at a state of this time.
     ///
     /// # Errors
@@ -202,7 +202,7 @@ impl Lookout<'_> {
 }
 
 /// The value of an event's function.
-fn value(event: &Event, space: &dyn Space, time: f64, state: &Numbers) -> Result<f64, String> {
+fn value(event: &Event, space: &Space, time: f64, state: &Numbers) -> Result<f64, String> {
     let name = &event.name;
     let value = (event.function)(time, &space.matrix(&state.g), &state.mu);
     let value = value.map_err(|why| format!("the event `{name}` at time {time}: {why}"))?;

@@ -57,9 +57,9 @@ pub(crate) struct Subject<'a> {
 }
 
 /// A run that is going on.
-struct March<'a> {
+struct March<'a, 's> {
     setup: &'a Setup,
-    motion: &'a dyn Motion,
+    motion: &'a Motion<'s>,
     state: Numbers,
     sink: &'a mut dyn Sink,
     recorder: Recorder<'a>,
@@ -94,7 +94,7 @@ impl Subject<'_> {
     /// Returns the reason for which the run stopped.
     pub(crate) fn run(
         self,
-        motion: &dyn Motion,
+        motion: &Motion<'_>,
         start: &Numbers,
         sink: &mut dyn Sink,
     ) -> Result<(Outcome, Numbers, Vec<Milestone>), RunError> {
@@ -174,7 +174,7 @@ impl Subject<'_> {
     }
 }
 
-impl March<'_> {
+impl<'s> March<'_, 's> {
     /// Puts the state of an earlier run in place.
     fn resume(&mut self, resume: Resume) -> Result<(), RunError> {
         let Resume { step, momentum, element, times, tally } = resume;
@@ -299,7 +299,7 @@ impl March<'_> {
     }
 
     /// The lookout for events in the step from this grid point.
-    fn lookout(&self, first: u64) -> Lookout<'_> {
+    fn lookout(&self, first: u64) -> Lookout<'_, 's> {
         let (setup, motion) = (self.setup, self.motion);
         let (time, step) = (setup.schedule.time(first), setup.schedule.step);
         Lookout { events: &setup.events, motion, time, step }

@@ -15,7 +15,7 @@ mod slow;
 mod tally;
 mod unknown;
 
-pub(crate) use setup::not_an_element;
+pub(crate) use setup::start;
 
 pub use blocks::{Block, Kind, matrix, split};
 pub use estimate::LARGE;

@@ -25,7 +25,7 @@ impl Orbit {
     }
 
     /// Puts the momentum back, factor by factor, where that moves it by rounding.
-    pub(super) fn restore(&self, space: &dyn Space, state: &mut Numbers) {
+    pub(super) fn restore(&self, space: &Space, state: &mut Numbers) {
         let widest = self.factors.iter().copied().max().unwrap_or(0);
         let columns: Vec<Vec<f64>> = (0..widest).map(|k| self.column(space, state, k)).collect();
         let now = space.spatial_momentum(state);
@@ -44,7 +44,7 @@ impl Orbit {
     }
 
     /// Column k of the matrix of Ad\*_g, those of all factors one below the other.
-    fn column(&self, space: &dyn Space, state: &Numbers, k: usize) -> Vec<f64> {
+    fn column(&self, space: &Space, state: &Numbers, k: usize) -> Vec<f64> {
         let units = self.factors.iter().flat_map(|&dim| (0..dim).map(move |i| i == k));
         let mu = units.map(|one| if one { 1.0 } else { 0.0 }).collect();
         space.spatial_momentum(&Numbers { g: state.g.clone(), mu })

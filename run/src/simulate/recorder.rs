@@ -2,7 +2,7 @@
 
 use coadjoint_codegen::lie::LieAlgebra;
 pub use coadjoint_codegen::step::{Drift, Scales};
-use coadjoint_codegen::step::{Invariants, Start, nudge, rounding};
+use coadjoint_codegen::step::{Invariants, Start, rounding};
 
 use super::blocks::{Block, blocks, off_group};
 use super::event::Crossing;
@@ -115,7 +115,7 @@ pub(crate) struct Recorder<'a> {
 
 impl<'a> Recorder<'a> {
     /// Measures drifts against a state of this time, which is the start.
-    pub(crate) fn new(watched: Watched<'a>, time: f64, space: &dyn Space, start: &Numbers) -> Self {
+    pub(crate) fn new(watched: Watched<'a>, time: f64, space: &Space, start: &Numbers) -> Self {
         let observed = space.observe(&[start]);
         let start = watched.invariants.start(time, observed.seen(0, &start.mu));
         let size = space.size();
@@ -193,7 +193,7 @@ impl<'a> Recorder<'a> {
     /// what that is.
     pub(crate) fn measure(
         &self,
-        space: &dyn Space,
+        space: &Space,
         states: &[(f64, &Numbers)],
         defined: impl Fn(f64, &Numbers) -> Result<(), String>,
     ) -> (Vec<Measured>, Option<String>) {
@@ -202,27 +202,19 @@ impl<'a> Recorder<'a> {
             .iter()
             .map(|(time, state)| defined(*time, state).and_then(|()| self.sound(state)));
         let count = sound.map_while(|sound| sound.map_err(|what| wrong = Some(what)).ok()).count();
-        let states = &states[..count];
-        let mut beside: Vec<Numbers> = states.iter().map(|(_, state)| (*state).clone()).collect();
-        for state in &mut beside {
-            nudge(&mut state.g);
-            nudge(&mut state.mu);
-        }
-        let all: Vec<&Numbers> = states.iter().map(|(_, state)| *state).chain(&beside).collect();
-        let observed = space.observe(&all);
-        let seen = all.iter().enumerate().map(|(at, state)| observed.seen(at, &state.mu));
         let invariants = self.watched.invariants;
         // An energy that is conserved does not depend on the time.
         let time = states.first().map_or(f64::NAN, |(time, _)| *time);
-        let conserved = invariants.conserved(time, &seen.collect::<Vec<_>>());
+        let states: Vec<&Numbers> = states[..count].iter().map(|(_, state)| *state).collect();
+        let (observed, conserved) = space.conserved(invariants, time, &states);
         let mut measured = Vec::with_capacity(count);
-        for at in 0..count {
-            let energy = invariants.energy_of(&conserved[at]);
+        for (at, [now, beside]) in conserved.iter().enumerate() {
+            let energy = invariants.energy_of(now);
             if let Err(what) = finite("the energy", energy.unwrap_or(0.0)) {
                 wrong = Some(what);
                 break;
             }
-            let mut drift = self.start.measured(&conserved[at], &conserved[count + at]).numbers();
+            let mut drift = self.start.measured(now, beside).numbers();
             for (drift, unknown) in drift.iter_mut().zip(self.unknown) {
                 if unknown.is_some() {
                     *drift = f64::NAN;

@@ -4,27 +4,22 @@ use std::cell::RefCell;
 use std::path::Path;
 use std::sync::Arc;
 
-use coadjoint::StepError;
-use coadjoint::groups::{Cayley, Chart, Exponential};
-use coadjoint::steps::advance;
 use coadjoint_codegen::lie;
 use coadjoint_codegen::smooth::Facts;
 use coadjoint_codegen::step::Invariants;
-use coadjoint_learn::{Generating, LearnError, Model, ModelFile};
+use coadjoint_learn::{LearnError, ModelFile};
 use coadjoint_program::Trajectories;
 
 use super::estimate::{Made, Maker};
 use super::march::Subject;
 use super::milestone::part;
 use super::recorder::{Outcome, Watched};
-use super::setup::Setup;
+use super::setup::{Setup, start};
 use super::sink::Sink;
 use super::slow::slow;
 use super::tally::Warning;
 use super::unknown::Unknown;
-use crate::engine::{
-    Charted, Elements, Motion, Numbers, Restore, Solved, Solves, Space, one_by_one, product_group,
-};
+use crate::engine::{Charted, Compiled, Motion, Numbers, group_of};
 use crate::error::RunError;
 use crate::grid::Grid;
 use crate::load::Derived;
@@ -34,25 +29,16 @@ use crate::load::Derived;
 /// # Errors
 /// Settings that make no sense, and why the run stopped.
 pub fn run(system: &Derived, setup: &Setup, sink: &mut dyn Sink) -> Result<Outcome, RunError> {
-    let facts = system.facts();
-    if setup.momentum.len() != facts.algebra.dim() {
-        return Err(RunError::Option("the momentum does not fit the group".to_owned()));
-    }
-    let schedule = &setup.schedule;
-    system.reaches(schedule)?;
-    system.resolves(schedule.grid(), schedule.steps, Some(&setup.momentum))?;
-    let (grid, expected) = (schedule.grid(), schedule.steps as f64);
-    let compiled = system.compiled(grid.step, setup.backend, expected, Trajectories::One)?;
-    let motion = system.steps(grid, compiled.as_ref()).map_err(RunError::unmade)?;
-    let start = setup.start(&system.file, motion.space())?;
+    let (schedule, grid) = (&setup.schedule, setup.schedule.grid());
+    let (compiled, motion, start) = system.begin(setup)?;
     motion.defined(&start, grid.start).map_err(RunError::at(grid.start))?;
-    let warnings = system.gave_way().map(Warning::Method).into_iter().collect();
+    let warnings = system.gave_way().map(|text| Warning::Method { text }).into_iter().collect();
     let subject = Subject { setup, watched: system.watched(grid.step), warnings };
-    let made = subject.run(motion.as_ref(), &start, sink);
+    let made = subject.run(&motion, &start, sink);
     let code = compiled.as_ref().map(|compiled| compiled.code());
     code.iter().flat_map(|code| code.notes()).for_each(|note| sink.warn(&note));
     let (mut outcome, end, mut kept) = made?;
-    let parameters = facts.defaults();
+    let parameters = system.facts().defaults();
     let maker = Maker { system, parameters: &parameters, compiled: compiled.as_ref() };
     let found = if setup.estimate {
         let sink = RefCell::new(&mut *sink);
@@ -64,7 +50,7 @@ pub fn run(system: &Derived, setup: &Setup, sink: &mut dyn Sink) -> Result<Outco
         kept.retain(|(place, _)| (*place as f64) < steps);
         let made = Made {
             maker,
-            motion: motion.as_ref(),
+            motion: &motion,
             ends: [&start, &end],
             kept: &kept,
             part: part(schedule.steps),
@@ -87,6 +73,28 @@ pub fn run(system: &Derived, setup: &Setup, sink: &mut dyn Sink) -> Result<Outco
 }
 
 impl Derived {
+    /// The programs of a run with these settings, where there are any, its steps, and its start.
+    ///
+    /// # Errors
+    /// Settings that make no sense.
+    pub(crate) fn begin(
+        &self,
+        setup: &Setup,
+    ) -> Result<(Option<Arc<Compiled>>, Motion<'_>, Numbers), RunError> {
+        if setup.momentum.len() != self.facts().algebra.dim() {
+            return Err(RunError::Option("the momentum does not fit the group".to_owned()));
+        }
+        let (schedule, grid) = (&setup.schedule, setup.schedule.grid());
+        self.reaches(schedule)?;
+        self.resolves(grid, schedule.steps, Some(&setup.momentum))?;
+        let steps = schedule.steps as f64;
+        let compiled = self.compiled(grid.step, setup.backend, steps, Trajectories::One)?;
+        let motion = self.steps(grid, compiled.as_ref()).map_err(RunError::unmade)?;
+        let start =
+            start(&self.file, motion.space(), setup.group_element.as_deref(), &setup.momentum)?;
+        Ok((compiled, motion, start))
+    }
+
     /// The quantities watched in a run in steps of this size.
     pub(crate) fn watched(&self, step: f64) -> Watched<'_> {
         let Facts { algebra, coordinates, .. } = self.facts();
@@ -120,60 +128,11 @@ pub fn run_model(
     let watched = Watched { algebra, coordinates, invariants, attitude, damped: None };
     let warnings = if attitude { Vec::new() } else { vec![Warning::NoAttitude] };
     let chart = if model.chart == "cayley" { lie::Chart::Cayley } else { lie::Chart::Exponential };
-    let group = Charted::new(file, product_group(file, algebra)?, chart)?;
+    let group = Charted::new(file, group_of(file, algebra, false)?, chart)?;
     let grid = setup.schedule.grid();
-    let motion: Box<dyn Motion + '_> = match &group.cayley {
-        None => Box::new(Learned::<_, Exponential>::new(&group.exponential, model, grid)),
-        Some(group) => Box::new(Learned::<_, Cayley>::new(group, model, grid)),
-    };
-    let start = setup.start(file, motion.space())?;
-    let (mut outcome, ..) =
-        Subject { setup, watched, warnings }.run(motion.as_ref(), &start, sink)?;
+    let motion = group.learned(model, grid).map_err(RunError::unmade)?;
+    let start = start(file, motion.space(), setup.group_element.as_deref(), &setup.momentum)?;
+    let (mut outcome, ..) = Subject { setup, watched, warnings }.run(&motion, &start, sink)?;
     outcome.estimated_error = Err(Unknown::LEARNED);
     Ok(outcome)
-}
-
-struct Learned<'a, G: Restore, C: Chart<G>> {
-    elements: Elements<G>,
-    grid: Grid,
-    map: Generating<G, C, &'a Model>,
-}
-
-impl<'a, G: Restore, C: Chart<G>> Learned<'a, G, C> {
-    fn new(group: &Arc<G>, model: &'a ModelFile, grid: Grid) -> Self {
-        let map = Generating::new((**group).clone(), &model.model);
-        Self { elements: Elements { group: group.clone(), compiled: None }, grid, map }
-    }
-}
-
-impl<G: Restore, C: Chart<G> + Send + Sync> Motion for Learned<'_, G, C> {
-    fn space(&self) -> &dyn Space {
-        &self.elements
-    }
-
-    fn grid(&self) -> Grid {
-        self.grid
-    }
-
-    fn advance(&self, state: &mut Numbers, _: u64, count: u64) -> Result<Solves, (u64, StepError)> {
-        one_by_one(count, || {
-            let mut phase = self.elements.phase(state);
-            let report = advance(&self.map, &mut phase)?;
-            *state = self.elements.state(&phase);
-            Ok(Some(Solved::one(report.iterations, report.residual)))
-        })
-    }
-
-    /// A learned map has one step.
-    fn beside(&self, _: &Numbers, _: f64, size: f64) -> Result<Numbers, StepError> {
-        Err(StepError::InvalidStep { step: size })
-    }
-
-    fn one_at(&self, state: &mut Numbers, _: f64) -> Result<(), StepError> {
-        self.advance(state, 0, 1).map(drop).map_err(|(_, error)| error)
-    }
-
-    fn defined(&self, _: &Numbers, _: f64) -> Result<(), StepError> {
-        Ok(())
-    }
 }

@@ -270,26 +270,31 @@ impl Setup {
             group_element,
         }
     }
+}
 
-    /// The state at the start.
-    ///
-    /// # Errors
-    /// Fails if the matrix given is no element of the group.
-    pub(crate) fn start(&self, file: &Path, space: &dyn Space) -> Result<Numbers, RunError> {
-        let size = space.size();
-        let matrix = match &self.group_element {
-            None => identity(size),
-            Some(rows) if rows.len() != size || rows.iter().any(|row| row.len() != size) => {
-                return Err(RunError::Option(format!(
-                    "the group element must be a matrix of {size} rows and columns"
-                )));
-            }
-            Some(rows) => {
-                space.nearest(&rows.concat()).map_err(|error| not_an_element(file, &error))?
-            }
-        };
-        Ok(Numbers { g: space.numbers(&matrix), mu: self.momentum.clone() })
-    }
+/// The state at the start of a run of the system that is called `file`; without an element that of the identity.
+///
+/// # Errors
+/// Fails if the matrix given, by rows, is no element of the group.
+pub(crate) fn start(
+    file: &Path,
+    space: &Space,
+    element: Option<&[Vec<f64>]>,
+    momentum: &[f64],
+) -> Result<Numbers, RunError> {
+    let size = space.size();
+    let matrix = match element {
+        None => identity(size),
+        Some(rows) if rows.len() != size || rows.iter().any(|row| row.len() != size) => {
+            return Err(RunError::Option(format!(
+                "the group element must be a matrix of {size} rows and columns"
+            )));
+        }
+        Some(rows) => {
+            space.nearest(&rows.concat()).map_err(|error| not_an_element(file, &error))?
+        }
+    };
+    Ok(Numbers { g: space.numbers(&matrix), mu: momentum.to_vec() })
 }
 
 /// The error of a matrix that is no element of the group.

@@ -45,9 +45,9 @@ impl<S: AsRef<Derived>> Single<S> {
     }
 
     /// The steps from this time on.
-    fn motion(&self, start: f64) -> Result<Box<dyn Motion + '_>, StepError> {
+    fn motion(&self, start: f64) -> Result<Motion<'_>, StepError> {
         let grid = Grid { start, step: self.step };
-        Ok(self.system.as_ref().steps(grid, self.compiled.as_ref())?)
+        self.system.as_ref().steps(grid, self.compiled.as_ref())
     }
 
     /// Rows of the group's matrices.

@@ -34,7 +34,7 @@ pub(super) fn slow<'a>(
     outcome: &Outcome,
     size: f64,
     start: &Numbers,
-    other: impl Fn(f64) -> Result<Box<dyn Motion + 'a>, StepError>,
+    other: impl Fn(f64) -> Result<Motion<'a>, StepError>,
 ) -> Option<Warning> {
     let (steps, rescued) = (outcome.steps, outcome.solver?.rescued);
     let serves = |step: &f64| {

@@ -70,15 +70,22 @@ pub struct Steep {
 }
 
 /// A warning about a run.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Warning {
     /// The series hardly converges.
+    #[serde(rename = "series_ratio")]
     Steep(Steep),
     /// A map learned from momenta alone moves no attitude.
     NoAttitude,
     /// The series gave way to collocation, for this reason.
-    Method(String),
+    Method {
+        /// The reason, for people.
+        #[serde(skip)]
+        text: String,
+    },
     /// The error estimated at the end is large.
+    #[serde(rename = "estimated_error")]
     Inaccurate {
         /// The estimate.
         error: f64,
@@ -93,12 +100,14 @@ pub enum Warning {
         bound: f64,
     },
     /// Many steps were made by the generic solver, which takes hundreds of times as long as the programs that refused them.
+    #[serde(rename = "slow_steps")]
     Slow {
         /// Such steps.
         rescued: u64,
         /// All steps.
         steps: u64,
         /// A smaller step, with which the programs make all steps of the run; none where none was found.
+        #[serde(skip_serializing_if = "Option::is_none")]
         step: Option<f64>,
     },
     /// The error estimated at the end is above the tolerance asked for.
@@ -111,11 +120,13 @@ pub enum Warning {
     /// Runs in steps of other sizes end elsewhere.
     Unresolved {
         /// Until this time they go together.
+        #[serde(rename = "trusted_until")]
         until: f64,
     },
     /// An event that was to end the run did not occur.
     NoEvent {
         /// Its name.
+        #[serde(rename = "event")]
         name: String,
         /// The values of its function at the start and at the end.
         values: [f64; 2],
@@ -136,7 +147,7 @@ impl Warning {
                 since the data leave it open up to a rotation about the momentum"
                     .to_owned()
             }
-            Self::Method(text) => text.clone(),
+            Self::Method { text } => text.clone(),
             Self::Inaccurate { error } => format!(
                 "the error at the end is about {:.0} %: take a smaller step or a larger truncation",
                 error * 100.0
@@ -172,39 +183,10 @@ impl Warning {
         }
     }
 
-    /// For programs.
+    /// For programs: its kind, its numbers, and the text for people.
     pub fn object(&self) -> Value {
-        let text = self.text();
-        match self {
-            Self::Steep(Steep { step, time, ratio }) => json!({
-                "kind": "series_ratio", "step": step, "time": time, "ratio": ratio, "text": text,
-            }),
-            Self::NoAttitude => json!({ "kind": "no_attitude", "text": text }),
-            Self::Method(_) => json!({ "kind": "method", "text": text }),
-            Self::Inaccurate { error } => {
-                json!({ "kind": "estimated_error", "error": error, "text": text })
-            }
-            Self::Drift { quantity, drift, bound } => json!({
-                "kind": "drift", "quantity": quantity, "drift": drift, "bound": bound, "text": text,
-            }),
-            Self::Slow { rescued, steps, step } => {
-                let mut object = json!({
-                    "kind": "slow_steps", "rescued": rescued, "steps": steps, "text": text,
-                });
-                if let Some(step) = step {
-                    object["step"] = json!(step);
-                }
-                object
-            }
-            Self::AboveTolerance { error, tolerance } => json!({
-                "kind": "above_tolerance", "error": error, "tolerance": tolerance, "text": text,
-            }),
-            Self::Unresolved { until } => {
-                json!({ "kind": "unresolved", "trusted_until": until, "text": text })
-            }
-            Self::NoEvent { name, values } => {
-                json!({ "kind": "no_event", "event": name, "values": values, "text": text })
-            }
-        }
+        let mut object = json!(self);
+        object["text"] = json!(self.text());
+        object
     }
 }

@@ -29,11 +29,8 @@ const FARTHEST: u64 = 100_000;
 /// # Errors
 /// Fails if the series is too large, or the Hamiltonian a function without formula.
 pub fn judge_of(file: &Path, hamiltonian: &Hamiltonian) -> Result<Judge, RunError> {
-    let judge = match hamiltonian {
-        Hamiltonian::Polynomial(problem, _) => Judge::of_problem(problem, TermLimit::default()),
-        Hamiltonian::Smooth(smooth) => Judge::of_smooth(smooth),
-    };
-    judge.map_err(|error| RunError::Option(format!("{}: {error}", file.display())))
+    Judge::of(hamiltonian, TermLimit::default())
+        .map_err(|error| RunError::Option(format!("{}: {error}", file.display())))
 }
 
 /// The number of rows of a file that stand for all of them: evenly spread, the last among them.

@@ -1,16 +1,15 @@
 //! The states of a table, and what one of them shares with the next.
 
 use std::path::Path;
+use std::sync::Arc;
 
-use coadjoint::LieGroup;
-use coadjoint::groups::{DirectProduct, MatrixGroup};
 use coadjoint_codegen::problem::Parameter;
 use coadjoint_codegen::smooth::{Facts, Hamiltonian};
 use coadjoint_codegen::step;
 use coadjoint_learn::table::{Row, Table};
 use nalgebra::{DMatrix, Quaternion, UnitQuaternion};
 
-use crate::engine::{entries_of, phase_of, product_group};
+use crate::engine::{Numbers, Space, group_of};
 use crate::ensemble::{Attitude, Found, Known, Shape};
 use crate::error::RunError;
 use crate::simulate::DRIFTS;
@@ -139,26 +138,27 @@ impl Measured {
 /// The invariants of a problem, computed from its exact data.
 pub(crate) struct Invariants {
     functions: step::Invariants,
-    /// The group, as tables.
-    group: DirectProduct<MatrixGroup>,
+    /// The group, as tables: its elements are their matrices.
+    space: Space,
 }
 
 impl Invariants {
     /// Of a system whose parameters have values.
     pub(crate) fn new(hamiltonian: &Hamiltonian) -> Result<Self, RunError> {
         let Facts { name, algebra, .. } = hamiltonian.facts();
-        let group = product_group(Path::new(name), algebra)?;
+        let group = Arc::new(group_of(Path::new(name), algebra, false)?);
+        let space = Space { group, compiled: None };
         let functions = step::Invariants::new(algebra, Some(hamiltonian), None);
-        Ok(Self { functions, group })
+        Ok(Self { functions, space })
     }
 
     /// A state and what is conserved there.
     pub(crate) fn at(&self, time: f64, state: State) -> Measured {
         let (functions, mu) = (&self.functions, &state.momentum);
-        let phase = state.element.as_ref().map(|element| phase_of(&self.group, element, mu));
-        let spatial = phase.map(|phase| phase.spatial_momentum(&self.group));
-        let spatial = spatial.as_ref().map_or(&[][..], |spatial| spatial.as_slice());
-        let seen = step::Seen { spatial, matrix: &[], momentum: mu };
+        let numbers = |g: &Vec<f64>| Numbers { g: g.clone(), mu: mu.clone() };
+        let spatial = state.element.as_ref().map(|g| self.space.spatial_momentum(&numbers(g)));
+        let spatial = spatial.unwrap_or_default();
+        let seen = step::Seen { spatial: &spatial, matrix: &[], momentum: mu };
         let start = functions.start(time, seen);
         let (casimirs, energy) = functions.sizes(time, seen);
         let length = mu.iter().map(|mu| mu * mu).sum::<f64>().sqrt();
@@ -174,9 +174,8 @@ impl Invariants {
 
     /// The element of the group that this matrix, row by row, is but for rounding.
     pub(crate) fn nearest(&self, matrix: &[f64]) -> Option<Vec<f64>> {
-        let size = matrix.len().isqrt();
-        let element = self.group.element_from_matrix(|i, j| matrix[i * size + j]).ok()?;
-        Some(entries_of(&self.group, &element))
+        let fits = matrix.len() == self.space.size().pow(2);
+        fits.then(|| self.space.nearest(matrix).ok()).flatten()
     }
 }
 

@@ -60,7 +60,7 @@ use crate::comoving::Frame;
 use crate::hamilton_jacobi::{GeneratingSeries, TermLimit, derive};
 use crate::lie::{Chart, LieAlgebra};
 use crate::problem::Problem;
-use crate::smooth::Smooth;
+use crate::smooth::{Hamiltonian, Smooth};
 use energy::Energy;
 use gauss::{Collocation, Stage};
 use geometry::Geometry;
@@ -100,6 +100,17 @@ impl Judge {
         let orders = (1..=series.truncation()).map(|k| (k as u32, series.order(k)));
         let law = Law::Series(Series::new(&geometry, orders), Vec::new());
         Ok(Self { geometry, law })
+    }
+
+    /// The judge of a system as its Hamiltonian is; a series is derived within this limit.
+    ///
+    /// # Errors
+    /// As [`Judge::of_problem`] and [`Judge::of_smooth`].
+    pub fn of(hamiltonian: &Hamiltonian, limit: TermLimit) -> Result<Self, JudgeError> {
+        match hamiltonian {
+            Hamiltonian::Polynomial(problem, _) => Self::of_problem(problem, limit),
+            Hamiltonian::Smooth(smooth) => Self::of_smooth(smooth),
+        }
     }
 
     /// The judge of a problem that a front end has read, its comoving frame included.

@@ -1,28 +1,51 @@
 //! The Hamiltonian of a system, evaluated at momenta.
 
+use std::borrow::Cow;
+
+use super::Origin;
+use crate::graph::{Graph, Id, Program};
 use crate::poly::Numeric;
 use crate::problem::{Problem, values};
 use crate::smooth::{Hamiltonian, Smooth};
 
-/// An energy as a function of the momentum.
+/// An energy as a function of the time and the momentum.
 #[derive(Clone, Debug)]
-pub enum Energy {
-    /// A polynomial.
-    Polynomial(Numeric),
+pub enum Energy<'a> {
+    /// A polynomial, and its derivatives by the coordinates of the momentum.
+    Polynomial(Numeric, Vec<Numeric>),
     /// A smooth function, and the values of its symbols.
-    Smooth(Box<Smooth>, Vec<f64>),
+    Smooth(Cow<'a, Smooth>, Vec<f64>),
 }
 
-impl Energy {
-    /// A Hamiltonian; a smooth one with the values that its input gives the parameters.
-    pub fn new(hamiltonian: &Hamiltonian) -> Self {
+impl<'a> Energy<'a> {
+    /// A Hamiltonian, with the values that its input gives the parameters.
+    pub fn new(hamiltonian: &'a Hamiltonian) -> Self {
         match hamiltonian {
-            Hamiltonian::Polynomial(problem, _) => {
-                let Problem { hamiltonian, algebra, symbols, .. } = &**problem;
-                Self::Polynomial(Numeric::new(hamiltonian, algebra.dim(), &values(symbols)))
-            }
-            Hamiltonian::Smooth(smooth) => {
-                Self::Smooth(smooth.clone(), smooth.symbols_at(&smooth.facts().defaults()))
+            Hamiltonian::Polynomial(problem, _) => Self::of(problem, &values(&problem.symbols)),
+            Hamiltonian::Smooth(smooth) => Self::smooth(smooth, &smooth.facts().defaults()),
+        }
+    }
+
+    /// A polynomial with these values of its symbols.
+    fn of(problem: &Problem, symbols: &[f64]) -> Self {
+        let dim = problem.algebra.dim();
+        let value = Numeric::new(&problem.hamiltonian, dim, symbols);
+        let slopes = value.gradient(dim);
+        Self::Polynomial(value, slopes)
+    }
+
+    /// A smooth function, for these values of the parameters that are kept.
+    pub fn smooth(smooth: &'a Smooth, parameters: &[f64]) -> Self {
+        Self::Smooth(Cow::Borrowed(smooth), smooth.symbols_at(parameters))
+    }
+
+    /// The same function, apart from the system that it was made from.
+    #[must_use]
+    pub fn into_owned(self) -> Energy<'static> {
+        match self {
+            Self::Polynomial(value, slopes) => Energy::Polynomial(value, slopes),
+            Self::Smooth(smooth, symbols) => {
+                Energy::Smooth(Cow::Owned(smooth.into_owned()), symbols)
             }
         }
     }
@@ -30,8 +53,16 @@ impl Energy {
     /// H(t, μ).
     pub fn value(&self, time: f64, mu: &[f64]) -> f64 {
         match self {
-            Self::Polynomial(polynomial) => polynomial.value(mu),
+            Self::Polynomial(value, _) => value.value(mu),
             Self::Smooth(smooth, symbols) => smooth.energy(symbols, time, mu),
+        }
+    }
+
+    /// ∂H/∂μ(t, μ).
+    pub fn gradient(&self, time: f64, mu: &[f64]) -> Vec<f64> {
+        match self {
+            Self::Polynomial(_, slopes) => slopes.iter().map(|slope| slope.value(mu)).collect(),
+            Self::Smooth(smooth, symbols) => smooth.gradient(symbols, time, mu),
         }
     }
 
@@ -42,19 +73,44 @@ impl Energy {
         Some((&smooth.expressions[number], argument))
     }
 
-    /// ∂H/∂μ in `dim` coordinates.
-    pub fn gradient(&self, dim: usize) -> Slopes<'_> {
+    /// The square of the farthest way that an argument of H's functions goes from one (t, μ) to another, as [`Smooth::reach`];
+    /// none of a function of the user's, and of a polynomial.
+    pub fn reach(&self, from: (f64, &[f64]), to: (f64, &[f64])) -> Option<f64> {
+        let Self::Smooth(smooth, symbols) = self else { return None };
+        smooth.reach(symbols, from, to)
+    }
+
+    /// The factor of a coordinate of a momentum where steps of collocation compare sizes; 1 of a polynomial.
+    pub fn unit(&self, i: usize) -> f64 {
         match self {
-            Self::Polynomial(polynomial) => {
-                let slopes = polynomial.gradient(dim);
-                Box::new(move |_, mu| slopes.iter().map(|slope| slope.value(mu)).collect())
-            }
-            Self::Smooth(smooth, symbols) => {
-                Box::new(|time, mu| smooth.gradient(symbols, time, mu))
-            }
+            Self::Polynomial(..) => 1.0,
+            Self::Smooth(smooth, _) => smooth.units[i],
         }
+    }
+
+    /// μ, then t and the signals where H is no polynomial, ↦ ∂H/∂μ; a smooth function has its symbols as slots. That of a
+    /// polynomial is made coordinate by coordinate, which takes fewer operations than reverse mode.
+    pub fn slope(&self) -> Program {
+        let slopes = match self {
+            Self::Polynomial(_, slopes) => slopes,
+            Self::Smooth(smooth, _) => return smooth.gradient.clone(),
+        };
+        let graph = Graph::new();
+        let mu: Vec<Id> = (0..slopes.len()).map(|i| graph.input(i)).collect();
+        let outputs: Vec<Id> = slopes.iter().map(|slope| slope.node(&graph, &mu)).collect();
+        graph.finish(slopes.len(), &outputs)
     }
 }
 
-/// t, μ ↦ ∂H/∂μ(t, μ).
-pub type Slopes<'a> = Box<dyn Fn(f64, &[f64]) -> Vec<f64> + 'a>;
+impl Origin {
+    /// The Hamiltonian, for these values of the parameters that are kept.
+    pub fn energy(&self, parameters: &[f64]) -> Energy<'_> {
+        match self {
+            Self::Series(integrator) => {
+                let problem = &integrator.problem;
+                Energy::of(problem, &problem.symbols_at(parameters))
+            }
+            Self::Collocation(smooth) => Energy::smooth(smooth, parameters),
+        }
+    }
+}

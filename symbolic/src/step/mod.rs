@@ -40,7 +40,7 @@ use product::{Part, Product, Translations};
 
 pub use convergence::{Convergence, Converging};
 pub use drift::{Drift, MEASURABLE, NUDGE, Scales, Start, nudge, rounding};
-pub use energy::{Energy, Slopes};
+pub use energy::Energy;
 pub(crate) use error::MOST_OF_TABLES;
 pub use error::StepError;
 pub use invariants::{Invariants, Seen};

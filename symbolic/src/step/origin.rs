@@ -53,6 +53,16 @@ impl Origin {
         }
     }
 
+    /// This system with its flow alone, where there are kicks between flows.
+    pub fn without_kicks(&self) -> Option<Self> {
+        let mut alone = self.kicks().is_some().then(|| self.clone())?;
+        match &mut alone {
+            Self::Series(integrator) => integrator.kicks = None,
+            Self::Collocation(smooth) => smooth.kicks = None,
+        }
+        Some(alone)
+    }
+
     /// The programs of a step in numbers of this precision.
     ///
     /// # Errors
