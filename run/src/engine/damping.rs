@@ -10,7 +10,7 @@ use nalgebra::DVector;
 use super::collocation::Interpreted;
 use super::compiled::Numbers;
 use super::kick::Torque;
-use super::motion::advise;
+use super::method::advise;
 use super::space::{Space, Tables};
 
 /// Moves a state by a step of damping from this time, of this length.

@@ -7,6 +7,7 @@ mod compiled;
 mod damping;
 mod kick;
 mod linear;
+mod method;
 mod motion;
 mod response;
 mod series;
