@@ -17,7 +17,6 @@ pub(crate) use card::{card, device_text};
 pub(crate) use charted::Charted;
 pub use compiled::STEEP;
 pub(crate) use compiled::{Compiled, Kept, Numbers, Solved};
-pub(crate) use damping::Damper;
 pub(crate) use kick::Torque;
 pub(crate) use linear::Linear;
 pub(crate) use motion::Motion;

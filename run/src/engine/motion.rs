@@ -350,7 +350,7 @@ impl<'a> Motion<'a> {
             kicked.torque.vary(parameters);
         }
         if let Some(damped) = &mut self.damped {
-            damped.vary(parameters);
+            damped.vary(&self.space.group, parameters);
         }
         // These are of other values.
         (self.map, self.slopes) = Default::default();
