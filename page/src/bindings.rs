@@ -204,14 +204,14 @@ impl Session {
     /// Casimir: the radius of a sphere or 0, the extent, how many curves are of spread levels; then for each curve how
     /// many points it has, and those with the surface's normals, six numbers each.
     pub fn curves(&mut self, momentum: &[f64]) -> Vec<f32> {
-        let energy = &self.system.energy;
+        let energy = self.system.energy();
         // An energy that moves in time has no curves.
         let conserved = self.system.invariants.energy;
         // A momentum dragged over its sphere changes only its own curve.
         if !self.orbit.as_ref().is_some_and(|orbit| orbit.holds(momentum)) {
             self.orbit = match (&self.system.casimirs[..], self.system.dim(), momentum.len()) {
                 ([casimir], 3, 3) if conserved => {
-                    Orbit::new(energy, &Numeric::new(casimir, 3, &[]), momentum)
+                    Orbit::new(&energy, &Numeric::new(casimir, 3, &[]), momentum)
                 }
                 _ => None,
             };

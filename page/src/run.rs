@@ -116,7 +116,7 @@ impl Run {
     }
 
     pub fn energy(&self, system: &System) -> f64 {
-        system.energy.value(self.time(), &self.now.mu)
+        system.energy().value(self.time(), &self.now.mu)
     }
 
     /// μ a part of the way from the last state but one to the last. Only for pictures.

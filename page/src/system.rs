@@ -56,7 +56,6 @@ pub struct System {
     pub h: f64,
     /// μ at the start.
     pub momentum: Vec<f64>,
-    pub energy: Energy<'static>,
     /// μ, then t where H is no polynomial, ↦ ∂H/∂μ.
     pub gradient: Program,
     pub casimirs: Vec<Polynomial>,
@@ -90,7 +89,6 @@ impl System {
                 "give a number for each coordinate",
             )]);
         };
-        let energy = Energy::new(&read.problem).into_owned();
         let invariants = Invariants::new(read.problem.facts().algebra, Some(&read.problem), None);
         let large = |error| vec![Mistake::of("truncation", error, "lower the truncation")];
         let origin = Origin::derive(read.problem.settled().0, LIMIT).map_err(large)?;
@@ -117,7 +115,6 @@ impl System {
             slots,
             h,
             momentum,
-            energy,
             gradient,
             casimirs,
             invariants,
@@ -132,6 +129,11 @@ impl System {
             }
             None => Ok(system),
         }
+    }
+
+    /// The Hamiltonian.
+    pub fn energy(&self) -> Energy<'_> {
+        self.origin.energy(&[])
     }
 
     pub fn dim(&self) -> usize {
@@ -154,7 +156,8 @@ impl System {
 
     /// The expression in H that is not defined, or has no derivative, at (t, μ).
     pub fn undefined(&self, time: f64, mu: &[f64]) -> Option<String> {
-        let (expression, argument) = self.energy.undefined(time, mu)?;
+        let energy = self.energy();
+        let (expression, argument) = energy.undefined(time, mu)?;
         Some(format!("an expression is not defined at time {time}: {expression} of {argument}"))
     }
 

@@ -215,7 +215,8 @@ fn rows(name: &str, compact: bool, truncation: usize, rows: usize, seed: u64) ->
     );
     let system = read_varying(name, &text, Options::default(), &[]);
     let system = system.map_err(|error| said(&error))?;
-    let energy_of = Energy::new(&system.problem).into_owned();
+    let problem = system.problem.clone();
+    let energy_of = Energy::new(&problem);
     let derived = Arc::new(Derived::of(system).map_err(|error| said(&error))?);
     let (structure, factors) = (algebra.constants(), algebra.factor_of_coordinates());
     let truth = Truth { velocity: &|mu| energy_of.gradient(0.0, mu), structure, factors, compact };

@@ -16,7 +16,7 @@ use coadjoint_learn::{GroupChoice, ModelFile};
 use coadjoint_program::Trajectories;
 
 use crate::backend::Backend;
-use crate::engine::{Charted, Compiled, Damper, Kept, Motion, group_of};
+use crate::engine::{Charted, Compiled, Kept, Motion, group_of};
 use crate::error::RunError;
 use crate::grid::Grid;
 use crate::inputs;
@@ -127,8 +127,8 @@ pub struct Derived {
     pub(crate) group: Charted,
     /// The programs compiled so far.
     kept: Kept,
-    /// The damping before and after each, where there is any.
-    pub(crate) damping: Option<Damper>,
+    /// The rates of the damping before and after each step, where there is any.
+    pub(crate) damping: Option<Vec<f64>>,
     /// The conserved quantities.
     pub(crate) invariants: Invariants,
     /// The reason for which the series of a polynomial gave way to collocation, where it did.
@@ -166,7 +166,6 @@ impl Derived {
         }
         let chart = origin.series().map_or(lie::Chart::Exponential, |series| series.problem.chart);
         let group = Charted::new(file, group, chart)?;
-        let damping = damping.map(|rates| Damper { rates, group: group.exponential.clone() });
         let (file, kept) = (file.to_owned(), Kept::default());
         Ok(Self { file, origin, group, kept, damping, invariants, gave_way })
     }
@@ -288,7 +287,7 @@ impl Derived {
         parameters: &[f64],
         compiled: Option<&Arc<Compiled>>,
     ) -> Result<Motion<'_>, StepError> {
-        let system = (&self.origin, self.damping.as_ref());
+        let system = (&self.origin, self.damping.as_deref());
         self.group.steps(system, grid, parameters, compiled)
     }
 

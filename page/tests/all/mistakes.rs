@@ -33,7 +33,7 @@ fn mistakes(change: impl FnOnce(&mut Fields)) -> (Fields, Vec<Mistake>) {
 fn fields_as_people_write_them_are_read() {
     let system = System::new(&body()).unwrap();
     assert_eq!(system.h, 0.1);
-    assert_eq!(system.energy.value(0.0, &[1.0, 1.0, 1.0]), 1.0 / 3.0 + 0.25 + 0.2);
+    assert_eq!(system.energy().value(0.0, &[1.0, 1.0, 1.0]), 1.0 / 3.0 + 0.25 + 0.2);
 }
 
 #[test]

@@ -143,15 +143,15 @@ fn level_curves_are_on_the_orbit_and_on_their_level() {
         let system = System::new(&fields(id)).unwrap();
         let casimir = &Numeric::new(&system.casimirs[0], 3, &[]);
         let mu = &system.momentum;
-        let orbit = Orbit::new(&system.energy, casimir, mu).unwrap();
-        let own = system.energy.value(0.0, mu);
+        let orbit = Orbit::new(&system.energy(), casimir, mu).unwrap();
+        let own = system.energy().value(0.0, mu);
         let through = orbit.level(own);
         assert!(orbit.spread.len() > 10 && !through.is_empty(), "{id}");
         let size = orbit.surface.extent;
         for point in through.iter().flatten() {
             let (on, level) = (
                 casimir.value(&point[..3]) - casimir.value(mu),
-                system.energy.value(0.0, &point[..3]) - own,
+                system.energy().value(0.0, &point[..3]) - own,
             );
             assert!(
                 on.abs() < 0.02 * size * size && level.abs() < 0.02 * size * size,

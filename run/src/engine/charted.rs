@@ -13,8 +13,9 @@ use coadjoint_learn::{Generating, ModelFile};
 
 use super::collocation::collocated;
 use super::compiled::{Compiled, Solved};
-use super::damping::{Damped, Damper};
-use super::motion::{Flow, Method, Motion};
+use super::damping::Damped;
+use super::method::{Flow, Method};
+use super::motion::Motion;
 use super::series::Series;
 use super::space::{Group, Space, Tables, moved_in};
 use crate::error::RunError;
@@ -57,7 +58,7 @@ impl Charted {
     /// Where the size makes no sense, or a coefficient is not finite.
     pub(crate) fn steps<'a>(
         &self,
-        (origin, damper): (&'a Origin, Option<&'a Damper>),
+        (origin, rates): (&'a Origin, Option<&'a [f64]>),
         grid: Grid,
         parameters: &[f64],
         compiled: Option<&Arc<Compiled>>,
@@ -76,7 +77,8 @@ impl Charted {
         };
         let (space, own) = (self.space(compiled), parameters.to_vec());
         let motion = Motion::new(space, grid, own, method, origin.kicks())?;
-        Ok(motion.between(damper.map(|damper| Damped::new(damper, origin, parameters))))
+        let group = &self.exponential;
+        Ok(motion.between(rates.map(|rates| Damped::new(rates, origin, group, parameters))))
     }
 
     /// The steps of a learned map, which are those of this grid.

@@ -12,7 +12,7 @@ use nalgebra::DVector;
 
 use super::compiled::Solved;
 use super::linear::{Linear, moved};
-use super::motion::{Flow, Method, Slope};
+use super::method::{Flow, Method, Slope};
 use super::response::Response;
 use super::space::Tables;
 use crate::error::kept;

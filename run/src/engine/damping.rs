@@ -10,38 +10,35 @@ use nalgebra::DVector;
 use super::collocation::Interpreted;
 use super::compiled::Numbers;
 use super::kick::Torque;
-use super::motion::advise;
+use super::method::advise;
 use super::space::{Space, Tables};
 
 /// Moves a state by a step of damping from this time, of this length.
 type Damp<'a> =
     Box<dyn Fn(&mut Phase<Tables>, f64, f64) -> Result<(), StepError> + Send + Sync + 'a>;
 
-/// Damping by the double bracket.
-#[derive(Clone, Debug)]
-pub(crate) struct Damper {
-    /// The diagonal of Γ.
-    pub rates: Vec<f64>,
-    /// The group.
-    pub group: Arc<Tables>,
-}
-
-/// Damping before and after each step.
+/// Damping by the double bracket before and after each step.
 pub(super) struct Damped<'a> {
-    damper: &'a Damper,
+    /// The diagonal of Γ.
+    rates: &'a [f64],
     origin: &'a Origin,
     damp: Result<Damp<'a>, StepError>,
 }
 
 impl<'a> Damped<'a> {
     /// The damping of this system, for these values of the parameters that are kept.
-    pub(super) fn new(damper: &'a Damper, origin: &'a Origin, parameters: &[f64]) -> Self {
-        Self { damper, origin, damp: damp(damper, origin, parameters) }
+    pub(super) fn new(
+        rates: &'a [f64],
+        origin: &'a Origin,
+        group: &Arc<Tables>,
+        parameters: &[f64],
+    ) -> Self {
+        Self { rates, origin, damp: damp(rates, origin, group, parameters) }
     }
 
     /// Takes other values of the parameters.
-    pub(super) fn vary(&mut self, parameters: &[f64]) {
-        self.damp = damp(self.damper, self.origin, parameters);
+    pub(super) fn vary(&mut self, group: &Arc<Tables>, parameters: &[f64]) {
+        self.damp = damp(self.rates, self.origin, group, parameters);
     }
 
     /// `step` from this time, of this size, between halves of damping.
@@ -80,16 +77,18 @@ impl<'a> Damped<'a> {
 
 /// The damping of this Hamiltonian and of the potential of kicks: the mean slope of H is that in the middle where it is quadratic.
 fn damp<'a>(
-    damper: &Damper,
+    rates: &[f64],
     origin: &'a Origin,
+    group: &Arc<Tables>,
     parameters: &[f64],
 ) -> Result<Damp<'a>, StepError> {
-    let (group, energy) = ((*damper.group).clone(), Interpreted::new(origin.energy(parameters)));
-    let rates = DVector::from_column_slice(&damper.rates);
+    let energy = Interpreted::new(origin.energy(parameters));
+    let rates = DVector::from_column_slice(rates);
     // A torque without potential has no energy that could fall.
     let kick = origin.kicks().map(|kicks| &kicks.kick);
     let kick = kick.filter(|kick| kick.potential.alone().is_none());
-    let torque = kick.map(|kick| Torque::new(kick, &damper.group, parameters)).transpose()?;
+    let torque = kick.map(|kick| Torque::new(kick, group, parameters)).transpose()?;
+    let group = (**group).clone();
     if origin.series().is_some_and(|series| series.problem.is_quadratic()) {
         return Ok(damp_by(Damping::<_, _, 1>::new(group, energy, rates)?, torque));
     }

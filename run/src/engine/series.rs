@@ -19,7 +19,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::compiled::{Compiled, STEEP, Solved, refusal};
 use super::linear::{Linear, columns, matrix, moved, push_forward};
-use super::motion::{Flow, Method, Slope};
+use super::method::{Flow, Method, Slope};
 use super::space::{Group, Tables, moved_in};
 
 /// The series of a polynomial, on a group with its chart.

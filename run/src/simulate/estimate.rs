@@ -71,8 +71,6 @@ pub(crate) struct Made<'a, 's> {
     pub part: u64,
     /// The number of steps, which is not whole where an event has ended the run.
     pub steps: f64,
-    /// The times between the steps.
-    pub grid: Grid,
     /// Asked from time to time whether to stop.
     pub stop: &'a dyn Fn() -> bool,
 }
@@ -97,7 +95,7 @@ impl Made<'_, '_> {
                 states = self.states()?;
             }
             let Some(Beside { grid, end, way }) = self.beside(ratio, &states)? else { continue };
-            let ratio = grid.step / self.grid.step;
+            let ratio = grid.step / self.motion.grid().step;
             let difference = self.apart(self.ends[1], &end);
             found = if difference <= UNRESOLVED {
                 let truncation = difference / (ratio.powi(order) - 1.0).abs();
@@ -108,7 +106,7 @@ impl Made<'_, '_> {
             } else {
                 let mut until = 0;
                 for ((place, kept), (at, state)) in states.iter().zip(&way) {
-                    let part = *place as f64 * self.grid.step - *at as f64 * grid.step;
+                    let part = *place as f64 * self.motion.grid().step - *at as f64 * grid.step;
                     // A refusal of this one step says nothing of the run.
                     let Ok(here) = self.motion.beside(state, grid.time(*at), part) else {
                         continue;
@@ -118,7 +116,7 @@ impl Made<'_, '_> {
                     }
                     until = *place;
                 }
-                Err(Unknown::Unresolved { until: self.grid.time(until) })
+                Err(Unknown::Unresolved { until: self.motion.grid().time(until) })
             };
             if difference <= LARGE {
                 break;
@@ -136,7 +134,7 @@ impl Made<'_, '_> {
             count += 1;
         }
         let ratio = self.steps / count as f64;
-        let grid = Grid { step: ratio * self.grid.step, ..self.grid };
+        let grid = Grid { step: ratio * self.motion.grid().step, ..self.motion.grid() };
         let Ok(motion) = self.maker.steps(grid) else { return Ok(None) };
         let steps = (&motion, ratio < 1.0);
         let (mut end, mut at, mut way) = (self.ends[0].clone(), 0, Vec::new());
@@ -182,7 +180,7 @@ impl Made<'_, '_> {
             let refuse = |_: &mut Numbers, _| Err(StepError::InvalidStep { step: f64::NAN });
             let made = match motion.lanes().filter(|_| !patient) {
                 Some(programs) => {
-                    programs.advance(state, self.grid.start, [at, count], refuse).map(drop)
+                    programs.advance(state, self.motion.grid().start, [at, count], refuse).map(drop)
                 }
                 None => motion.advance(state, at, count).map(drop),
             };
@@ -235,7 +233,6 @@ pub(crate) fn error_of(
         kept: &[],
         part,
         steps: count,
-        grid,
         stop: &stop,
     };
     let (mut kept, mut at) = (Vec::new(), 0);

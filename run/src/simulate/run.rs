@@ -55,7 +55,6 @@ pub fn run(system: &Derived, setup: &Setup, sink: &mut dyn Sink) -> Result<Outco
             kept: &kept,
             part: part(schedule.steps),
             steps,
-            grid,
             stop: &|| sink.borrow_mut().stop(),
         };
         made.error()

@@ -1,7 +1,5 @@
 //! The Hamiltonian of a system, evaluated at momenta.
 
-use std::borrow::Cow;
-
 use super::Origin;
 use crate::graph::{Graph, Id, Program};
 use crate::poly::Numeric;
@@ -14,7 +12,7 @@ pub enum Energy<'a> {
     /// A polynomial, and its derivatives by the coordinates of the momentum.
     Polynomial(Numeric, Vec<Numeric>),
     /// A smooth function, and the values of its symbols.
-    Smooth(Cow<'a, Smooth>, Vec<f64>),
+    Smooth(&'a Smooth, Vec<f64>),
 }
 
 impl<'a> Energy<'a> {
@@ -36,18 +34,7 @@ impl<'a> Energy<'a> {
 
     /// A smooth function, for these values of the parameters that are kept.
     pub fn smooth(smooth: &'a Smooth, parameters: &[f64]) -> Self {
-        Self::Smooth(Cow::Borrowed(smooth), smooth.symbols_at(parameters))
-    }
-
-    /// The same function, apart from the system that it was made from.
-    #[must_use]
-    pub fn into_owned(self) -> Energy<'static> {
-        match self {
-            Self::Polynomial(value, slopes) => Energy::Polynomial(value, slopes),
-            Self::Smooth(smooth, symbols) => {
-                Energy::Smooth(Cow::Owned(smooth.into_owned()), symbols)
-            }
-        }
+        Self::Smooth(smooth, smooth.symbols_at(parameters))
     }
 
     /// H(t, μ).
