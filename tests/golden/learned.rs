@@ -65,7 +65,7 @@ pub struct Learned<T = f64> {
 )]
 const _: () = {
     use ::core::prelude::v1::*;
-    use ::coadjoint::plumbing::Coefficients as _;
+    use ::coadjoint::plumbing::{self, Coefficients as _};
     type Vector<T> = ::coadjoint::nalgebra::SVector<T, 3>;
     type Matrix<T> = ::coadjoint::nalgebra::SMatrix<T, 3, 3>;
     impl<T: ::coadjoint::Scalar> Learned<T> {
@@ -94,9 +94,9 @@ const _: () = {
                 [0.0; 102],
             )?;
             ::core::result::Result::Ok(Self {
-                step,
+                step: step,
                 symbols: *symbols,
-                coefficients,
+                coefficients: coefficients,
             })
         }
 
@@ -186,14 +186,14 @@ const _: () = {
 )]
 const _: () = {
     use ::core::prelude::v1::*;
-    use ::coadjoint::plumbing::Coefficients as _;
+    use ::coadjoint::plumbing::{self, Coefficients as _};
     type Vector<T> = ::coadjoint::nalgebra::SVector<T, 3>;
     type Matrix<T> = ::coadjoint::nalgebra::SMatrix<T, 3, 3>;
     #[inline(always)]
-    fn guess<
-        T: ::coadjoint::plumbing::Number,
-        C: ::coadjoint::plumbing::Coefficients<T>,
-    >(c: C, mu: &[T; 3]) -> ([T; 3], [T; 2]) {
+    fn guess<T: plumbing::Number, C: plumbing::Coefficients<T>>(
+        c: C,
+        mu: &[T; 3],
+    ) -> ([T; 3], [T; 2]) {
         let t7 = mu[2].times_plus(c.at(25), c.at(24));
         let t8 = mu[1].times_plus(c.at(26), t7);
         let t9 = mu[0].times_plus(c.at(27), t8);
@@ -256,16 +256,18 @@ const _: () = {
         let t121 = T::select(t119, T::simd_le(t120, t119), t120);
         let t122 = mu[2].simd_abs();
         let t123 = T::select(t121, T::simd_le(t122, t121), t122);
-        let t124 = c.of(0.000000000000000000000000000000000000011754943508222875) + t123;
+        let t124 = c.of(1.1754943508222875e-38) + t123;
         let t126 = c.of(1.0) / t124;
         ([t40, t78, t116], [t126, c.of(0.0)])
     }
 
     #[inline(always)]
-    fn correct<
-        T: ::coadjoint::plumbing::Number,
-        C: ::coadjoint::plumbing::Coefficients<T>,
-    >(c: C, p: &[T; 3], mu: &[T; 3], k: &[T; 2]) -> ([T; 3], [T; 3], T, T) {
+    fn correct<T: plumbing::Number, C: plumbing::Coefficients<T>>(
+        c: C,
+        p: &[T; 3],
+        mu: &[T; 3],
+        k: &[T; 2],
+    ) -> ([T; 3], [T; 3], T, T) {
         let t12 = p[2].times_plus(c.at(2), c.at(1));
         let t13 = p[1].times_plus(c.at(3), t12);
         let t14 = p[0].times_plus(c.at(0), t13);
@@ -282,72 +284,46 @@ const _: () = {
         let t30 = t29 * t29;
         let t31 = t30 * t30;
         let t34 = t28.times_plus(c.of(-0.041666666666666664), c.of(0.5));
-        let t37 = t28
-            .times_plus(c.of(-0.0000248015873015873), c.of(0.001388888888888889));
+        let t37 = t28.times_plus(c.of(-2.48015873015873e-5), c.of(0.001388888888888889));
         let t38 = t29.times_plus(t37, t34);
-        let t41 = t28
-            .times_plus(
-                c.of(-0.00000000208767569878681),
-                c.of(0.0000002755731922398589),
-            );
+        let t41 = t28.times_plus(c.of(-2.08767569878681e-9), c.of(2.755731922398589e-7));
         let t44 = t28
-            .times_plus(
-                c.of(-0.00000000000004779477332387385),
-                c.of(0.000000000011470745597729725),
-            );
+            .times_plus(c.of(-4.779477332387385e-14), c.of(1.1470745597729725e-11));
         let t45 = t29.times_plus(t44, t41);
         let t46 = t30.times_plus(t45, t38);
         let t49 = t28
-            .times_plus(
-                c.of(-0.0000000000000000004110317623312165),
-                c.of(0.00000000000000015619206968586225),
-            );
-        let t51 = t29.times_plus(c.of(0.0000000000000000000008896791392450574), t49);
+            .times_plus(c.of(-4.110317623312165e-19), c.of(1.5619206968586225e-16));
+        let t51 = t29.times_plus(c.of(8.896791392450574e-22), t49);
         let t52 = t31.times_plus(t51, t46);
         let t55 = t28.times_plus(c.of(-0.008333333333333333), c.of(0.16666666666666666));
         let t58 = t28
-            .times_plus(c.of(-0.0000027557319223985893), c.of(0.0001984126984126984));
+            .times_plus(c.of(-2.7557319223985893e-6), c.of(0.0001984126984126984));
         let t59 = t29.times_plus(t58, t55);
         let t62 = t28
-            .times_plus(
-                c.of(-0.00000000016059043836821613),
-                c.of(0.00000002505210838544172),
-            );
+            .times_plus(c.of(-1.6059043836821613e-10), c.of(2.505210838544172e-8));
         let t65 = t28
-            .times_plus(
-                c.of(-0.0000000000000028114572543455206),
-                c.of(0.0000000000007647163731819816),
-            );
+            .times_plus(c.of(-2.8114572543455206e-15), c.of(7.647163731819816e-13));
         let t66 = t29.times_plus(t65, t62);
         let t67 = t30.times_plus(t66, t59);
         let t70 = t28
-            .times_plus(
-                c.of(-0.000000000000000000019572941063391263),
-                c.of(0.00000000000000000822063524662433),
-            );
+            .times_plus(c.of(-1.9572941063391263e-20), c.of(8.22063524662433e-18));
         let t71 = t31.times_plus(t70, t67);
         let t74 = t28.times_plus(c.of(0.005555555555555556), c.of(-0.08333333333333333));
         let t77 = t28
-            .times_plus(c.of(0.000002204585537918871), c.of(-0.00014880952380952382));
+            .times_plus(c.of(2.204585537918871e-6), c.of(-0.00014880952380952382));
         let t78 = t29.times_plus(t77, t74);
         let t81 = t28
-            .times_plus(
-                c.of(0.0000000001376489471727567),
-                c.of(-0.0000000208767569878681),
-            );
-        let t83 = t29.times_plus(c.of(-0.0000000000006691268265342339), t81);
+            .times_plus(c.of(1.376489471727567e-10), c.of(-2.08767569878681e-8));
+        let t83 = t29.times_plus(c.of(-6.691268265342339e-13), t81);
         let t84 = t30.times_plus(t83, t78);
         let t87 = t28
             .times_plus(c.of(0.0007936507936507937), c.of(-0.016666666666666666));
         let t90 = t28
-            .times_plus(c.of(0.00000020041686708353376), c.of(-0.000016534391534391536));
+            .times_plus(c.of(2.0041686708353376e-7), c.of(-1.6534391534391536e-5));
         let t91 = t29.times_plus(t90, t87);
         let t94 = t28
-            .times_plus(
-                c.of(0.00000000000917659647818378),
-                c.of(-0.0000000016059043836821613),
-            );
-        let t96 = t29.times_plus(c.of(-0.00000000000003936040156083729), t94);
+            .times_plus(c.of(9.17659647818378e-12), c.of(-1.6059043836821613e-9));
+        let t96 = t29.times_plus(c.of(-3.936040156083729e-14), t94);
         let t97 = t30.times_plus(t96, t91);
         let t98 = -mu[2];
         let t99 = mu[1] * t25;
@@ -532,10 +508,13 @@ const _: () = {
     }
 
     #[inline(always)]
-    fn accept<
-        T: ::coadjoint::plumbing::Number,
-        C: ::coadjoint::plumbing::Coefficients<T>,
-    >(c: C, mu: &[T; 3], x: &[T; 3], residual_bound: T, distance: T) -> T {
+    fn accept<T: plumbing::Number, C: plumbing::Coefficients<T>>(
+        c: C,
+        mu: &[T; 3],
+        x: &[T; 3],
+        residual_bound: T,
+        distance: T,
+    ) -> T {
         let t7 = c.epsilon() * c.of(4.0);
         let t9 = x[0] * x[0];
         let t10 = x[1].times_plus(x[1], t9);
@@ -546,7 +525,7 @@ const _: () = {
         let t17 = t15 + t16;
         let t22 = T::select(
             c.of(4.0),
-            T::simd_le(c.at(80), c.of(340282346638528860000000000000000000000.0)),
+            T::simd_le(c.at(80), c.of(3.4028234663852886e38)),
             c.of(9.0),
         );
         let t23 = t17 * t22;
@@ -557,10 +536,12 @@ const _: () = {
     }
 
     #[inline(always)]
-    fn transport<
-        T: ::coadjoint::plumbing::Number,
-        C: ::coadjoint::plumbing::Coefficients<T>,
-    >(c: C, g: &[T; 4], mu: &[T; 3], x: &[T; 3]) -> ([T; 4], [T; 3]) {
+    fn transport<T: plumbing::Number, C: plumbing::Coefficients<T>>(
+        c: C,
+        g: &[T; 4],
+        mu: &[T; 3],
+        x: &[T; 3],
+    ) -> ([T; 4], [T; 3]) {
         let t10 = x[0] * x[0];
         let t11 = x[1].times_plus(x[1], t10);
         let t12 = x[2].times_plus(x[2], t11);
@@ -569,38 +550,26 @@ const _: () = {
         let t15 = t14 * t14;
         let t18 = t12.times_plus(c.of(-0.125), c.of(1.0));
         let t21 = t12
-            .times_plus(c.of(-0.00002170138888888889), c.of(0.0026041666666666665));
+            .times_plus(c.of(-2.170138888888889e-5), c.of(0.0026041666666666665));
         let t22 = t13.times_plus(t21, t18);
         let t25 = t12
-            .times_plus(
-                c.of(-0.0000000002691144455467372),
-                c.of(0.0000000968812003968254),
-            );
+            .times_plus(c.of(-2.691144455467372e-10), c.of(9.68812003968254e-8));
         let t28 = t12
-            .times_plus(
-                c.of(-0.0000000000000007001187498614334),
-                c.of(0.0000000000005096864498991235),
-            );
+            .times_plus(c.of(-7.001187498614334e-16), c.of(5.096864498991235e-13));
         let t29 = t13.times_plus(t28, t25);
         let t30 = t14.times_plus(t29, t22);
-        let t32 = t15.times_plus(c.of(0.0000000000000000007292903644389931), t30);
+        let t32 = t15.times_plus(c.of(7.292903644389931e-19), t30);
         let t35 = t12.times_plus(c.of(-0.020833333333333332), c.of(0.5));
         let t38 = t12
-            .times_plus(c.of(-0.0000015500992063492063), c.of(0.00026041666666666666));
+            .times_plus(c.of(-1.5500992063492063e-6), c.of(0.00026041666666666666));
         let t39 = t13.times_plus(t38, t35);
         let t42 = t12
-            .times_plus(
-                c.of(-0.000000000012232474797578965),
-                c.of(0.000000005382288910934745),
-            );
+            .times_plus(c.of(-1.2232474797578965e-11), c.of(5.382288910934745e-9));
         let t45 = t12
-            .times_plus(
-                c.of(-0.00000000000000002333729166204778),
-                c.of(0.000000000000019603324996120133),
-            );
+            .times_plus(c.of(-2.333729166204778e-17), c.of(1.9603324996120133e-14));
         let t46 = t13.times_plus(t45, t42);
         let t47 = t14.times_plus(t46, t39);
-        let t49 = t15.times_plus(c.of(0.000000000000000000021449716601146855), t47);
+        let t49 = t15.times_plus(c.of(2.1449716601146855e-20), t47);
         let t50 = x[0] * t49;
         let t51 = x[1] * t49;
         let t52 = x[2] * t49;
@@ -664,10 +633,11 @@ const _: () = {
     }
 
     #[inline(always)]
-    fn sound<
-        T: ::coadjoint::plumbing::Number,
-        C: ::coadjoint::plumbing::Coefficients<T>,
-    >(c: C, g: &[T; 4], mu: &[T; 3]) -> T {
+    fn sound<T: plumbing::Number, C: plumbing::Coefficients<T>>(
+        c: C,
+        g: &[T; 4],
+        mu: &[T; 3],
+    ) -> T {
         let t8 = g[0] * g[0];
         let t9 = g[1].times_plus(g[1], t8);
         let t10 = g[2].times_plus(g[2], t9);
@@ -687,7 +657,7 @@ const _: () = {
 
     /// Whether an equation is corrected again: not solved to rounding, and near the first guess.
     #[inline(always)]
-    fn open<T: ::coadjoint::plumbing::Number, C: ::coadjoint::plumbing::Coefficients<T>>(
+    fn open<T: plumbing::Number, C: plumbing::Coefficients<T>>(
         c: C,
         residual_bound: T,
         distance: T,
@@ -702,44 +672,48 @@ const _: () = {
     /// distance from the guess, both relative to the largest coordinate of μ. The state is checked after a block of
     /// steps, and where it is broken it goes back to the start of the block.
     #[inline(always)]
-    fn steps<
-        T: ::coadjoint::plumbing::Number,
-        C: ::coadjoint::plumbing::Coefficients<T>,
-    >(
+    fn steps<T: plumbing::Number, C: plumbing::Coefficients<T>>(
         c: C,
         (mut g, mut mu): ([T; 4], [T; 3]),
         steps: u64,
-    ) -> (::coadjoint::plumbing::Driven<[T; 3], T>, ([T; 4], [T; 3])) {
-        use ::coadjoint::plumbing::{Driven, choose, choose_all, is_one};
+    ) -> (plumbing::Driven<[T; 3], T>, ([T; 4], [T; 3])) {
+        use plumbing::{Driven, choose, choose_all, is_one};
         let mut driven = Driven::none(c.of(0.0));
         let mut live = true;
         let mut x = [c.of(0.0); 3];
         let mut done: u64 = 0;
         while live && done < steps {
             let mut count: u64 = 0;
-            let (g_start, mu_start) = (g, mu);
+            let mut g_start;
+            let mut mu_start;
+            g_start = g;
+            mu_start = mu;
             while live && done < steps && count < 256 {
-                let mut p = [c.of(0.0); 3];
-                let mut k = [c.of(0.0); 2];
+                let mut p;
+                let mut k;
                 let mut residual_bound = c.of(1.0);
                 let mut distance = c.of(0.0);
                 let mut right = c.of(0.0);
                 let mut tried: u64 = 0;
                 (p, k) = guess(c, &mu);
-                let mut lanes = open(c, residual_bound, distance);
-                while tried < 12 && T::any(lanes) {
-                    let (p_next, x_next, residual_bound_next, moved) = correct(
+                let mut lanes1 = open(c, residual_bound, distance);
+                while tried < 12 && T::any(lanes1) {
+                    let mut moved = c.of(0.0);
+                    let mut p_next;
+                    let mut x_next;
+                    let mut residual_bound_next;
+                    (p_next, x_next, residual_bound_next, moved) = correct(
                         c,
                         &p,
                         &mu,
                         &k,
                     );
-                    p = choose_all(lanes, p_next, p);
-                    x = choose_all(lanes, x_next, x);
-                    residual_bound = choose(lanes, residual_bound_next, residual_bound);
-                    distance = choose(lanes, distance + moved, distance);
+                    p = choose_all(lanes1, p_next, p);
+                    x = choose_all(lanes1, x_next, x);
+                    residual_bound = choose(lanes1, residual_bound_next, residual_bound);
+                    distance = choose(lanes1, distance + moved, distance);
                     tried += 1;
-                    lanes = lanes & open(c, residual_bound, distance);
+                    lanes1 = lanes1 & open(c, residual_bound, distance);
                 }
                 right = accept(c, &mu, &x, residual_bound, distance);
                 if !is_one(c, right) {
@@ -759,7 +733,8 @@ const _: () = {
                 if !is_one(c, right) {
                     driven.refused = ::core::option::Option::None;
                     live = false;
-                    (g, mu) = (g_start, mu_start);
+                    g = g_start;
+                    mu = mu_start;
                     done -= count;
                 }
             }
@@ -881,59 +856,46 @@ const _: () = {
         }
     }
 
-    /// All coefficients as data. A base is Σ h^power Σ factor · product, a coefficient `c[i]` a base times an
-    /// integer.
-    static FOLD: ::coadjoint::plumbing::Fold<'static> = ::coadjoint::plumbing::Fold {
+    /// All coefficients as data. A base is Σ h^power Σ factor · product, a coefficient `c[i]` a base times an integer.
+    static FOLD: plumbing::Fold<'static> = plumbing::Fold {
         /// Products of symbols: an earlier one times a symbol; number 0 is 1.
         products: &[],
         /// Factor, and the number of its product.
         terms: &[
-            (-1.4698507307789626, 0), (-0.000010169473507846358, 0), (0.2000261112702988, 0),
-            (-0.0000003429437535988086, 0), (0.0000002128349085783648, 0), (0.2500115959675877, 0),
-            (0.000007439022132372016, 0), (-0.0000023397590260108508, 0),
-            (-0.000006118225955805309, 0), (0.33335405660953354, 0), (-1.4698507307789626, 0),
-            (-0.000010169473507846358, 0), (0.2000261112702988, 0), (-0.0000003429437535988086, 0),
-            (0.0000002128349085783648, 0), (0.2500115959675877, 0), (0.000007439022132372016, 0),
-            (-0.0000023397590260108508, 0), (-0.000006118225955805309, 0), (0.33335405660953354, 0),
-            (0.0000001714718767994043, 0), (-0.000000000012608489749906656, 0),
-            (-0.0000001064174542891824, 0), (-0.00000043391685137416555, 0),
-            (0.00000013647881883241106, 0), (-0.000005084736753923179, 0),
-            (-0.000000000000425194362196712, 0), (-0.049985484697288904, 0),
-            (-0.000000000003932392213409884, 0), (0.00000020396720047905812, 0),
-            (0.0000001064174542891824, 0), (-0.00000012404577091459855, 0),
-            (0.00000009749372177838742, 0), (0.00000010202653651037023, 0), (1.0, 0),
-            (-0.000000000017255966974153558, 0), (0.0000030591129779026547, 0),
-            (-0.0000010451509321128816, 0), (-0.015554152104512277, 0),
-            (-0.0000011698795130054254, 0), (-0.0000000152524627745103, 0),
-            (0.000000054390758224266335, 0), (-0.002779613900345337, 0),
-            (-0.000000000008630774934803758, 0), (-0.0000002404634726173757, 0),
-            (-0.00000027199570582298265, 0), (-0.0000000000071511935243481736, 0),
-            (0.000003719511066186008, 0), (0.0000000000005812595694840788, 0),
-            (-0.0000011698795130054254, 0), (0.00000003428320477886043, 0),
-            (-0.000000021280264919257783, 0), (1.0, 0), (-0.0000000000264595402854516, 0),
-            (-0.0000030591129779026547, 0), (-0.0000011863960903124651, 0),
-            (-0.009997262672377175, 0), (0.000000000015892679086807072, 0),
-            (0.000000024821711883054273, 0), (-0.0000000000062463312574332255, 0),
-            (0.000005084736753923179, 0), (-0.000000000000425194362196712, 0),
-            (0.13332794533923475, 0), (-0.000000000004648196911588946, 0),
-            (0.00000020396720047905812, 0), (-0.0000001064174542891824, 0),
-            (-0.00000028928573390993906, 0), (-0.00000014295722203087817, 0),
-            (0.00000023791230009725298, 0), (0.0000011698795130054254, 0),
-            (-0.000000003816504483073543, 0), (-0.000000011816546175384278, 0),
-            (-0.0018510299186665917, 0), (-0.00000006794279879637497, 0), (1.0, 0),
-            (-0.000000000009242776784008856, 0), (0.000000000005826169860452211, 0),
-            (-0.0000000000009199618330181344, 0), (-0.000003719511066186008, 0),
-            (0.0000000000005812595694840788, 0), (0.0000011698795130054254, 0),
-            (-0.000000022840615214053804, 0), (0.000000014183055817261537, 0),
-            (0.0000030591129779026547, 0), (0.000000847517826218098, 0), (0.008331563544959146, 0),
-            (-0.000000017734046230660207, 0), (-0.0000001714718767994043, 0),
-            (-0.000000000012608489749906656, 0), (0.0000001064174542891824, 0),
-            (-0.00000022729560748398529, 0), (0.00000007149179090958018, 0),
-            (-0.08334246064194586, 0), (0.00000000005165047319895399, 0),
-            (0.0000003397670915242585, 0), (0.00000009749372177838742, 0),
-            (-0.0000030591129779026547, 0), (0.00000014122848261466592, 0),
-            (0.003703258094502788, 0), (-0.000000011816546175384278, 0),
-            (0.00000003249373099009243, 0),
+            (-1.4698507307789626, 0), (-1.0169473507846358e-5, 0), (0.2000261112702988, 0),
+            (-3.429437535988086e-7, 0), (2.128349085783648e-7, 0), (0.2500115959675877, 0),
+            (7.439022132372016e-6, 0), (-2.3397590260108508e-6, 0), (-6.118225955805309e-6, 0),
+            (0.33335405660953354, 0), (-1.4698507307789626, 0), (-1.0169473507846358e-5, 0),
+            (0.2000261112702988, 0), (-3.429437535988086e-7, 0), (2.128349085783648e-7, 0),
+            (0.2500115959675877, 0), (7.439022132372016e-6, 0), (-2.3397590260108508e-6, 0),
+            (-6.118225955805309e-6, 0), (0.33335405660953354, 0), (1.714718767994043e-7, 0),
+            (-1.2608489749906656e-11, 0), (-1.064174542891824e-7, 0), (-4.3391685137416555e-7, 0),
+            (1.3647881883241106e-7, 0), (-5.084736753923179e-6, 0), (-4.25194362196712e-13, 0),
+            (-0.049985484697288904, 0), (-3.932392213409884e-12, 0), (2.0396720047905812e-7, 0),
+            (1.064174542891824e-7, 0), (-1.2404577091459855e-7, 0), (9.749372177838742e-8, 0),
+            (1.0202653651037023e-7, 0), (1.0, 0), (-1.7255966974153558e-11, 0),
+            (3.0591129779026547e-6, 0), (-1.0451509321128816e-6, 0), (-0.015554152104512277, 0),
+            (-1.1698795130054254e-6, 0), (-1.52524627745103e-8, 0), (5.4390758224266335e-8, 0),
+            (-0.002779613900345337, 0), (-8.630774934803758e-12, 0), (-2.404634726173757e-7, 0),
+            (-2.7199570582298265e-7, 0), (-7.1511935243481736e-12, 0), (3.719511066186008e-6, 0),
+            (5.812595694840788e-13, 0), (-1.1698795130054254e-6, 0), (3.428320477886043e-8, 0),
+            (-2.1280264919257783e-8, 0), (1.0, 0), (-2.64595402854516e-11, 0),
+            (-3.0591129779026547e-6, 0), (-1.1863960903124651e-6, 0), (-0.009997262672377175, 0),
+            (1.5892679086807072e-11, 0), (2.4821711883054273e-8, 0), (-6.2463312574332255e-12, 0),
+            (5.084736753923179e-6, 0), (-4.25194362196712e-13, 0), (0.13332794533923475, 0),
+            (-4.648196911588946e-12, 0), (2.0396720047905812e-7, 0), (-1.064174542891824e-7, 0),
+            (-2.8928573390993906e-7, 0), (-1.4295722203087817e-7, 0), (2.3791230009725298e-7, 0),
+            (1.1698795130054254e-6, 0), (-3.816504483073543e-9, 0), (-1.1816546175384278e-8, 0),
+            (-0.0018510299186665917, 0), (-6.794279879637497e-8, 0), (1.0, 0),
+            (-9.242776784008856e-12, 0), (5.826169860452211e-12, 0), (-9.199618330181344e-13, 0),
+            (-3.719511066186008e-6, 0), (5.812595694840788e-13, 0), (1.1698795130054254e-6, 0),
+            (-2.2840615214053804e-8, 0), (1.4183055817261537e-8, 0), (3.0591129779026547e-6, 0),
+            (8.47517826218098e-7, 0), (0.008331563544959146, 0), (-1.7734046230660207e-8, 0),
+            (-1.714718767994043e-7, 0), (-1.2608489749906656e-11, 0), (1.064174542891824e-7, 0),
+            (-2.2729560748398529e-7, 0), (7.149179090958018e-8, 0), (-0.08334246064194586, 0),
+            (5.165047319895399e-11, 0), (3.397670915242585e-7, 0), (9.749372177838742e-8, 0),
+            (-3.0591129779026547e-6, 0), (1.4122848261466592e-7, 0), (0.003703258094502788, 0),
+            (-1.1816546175384278e-8, 0), (3.249373099009243e-8, 0),
         ],
         /// The power of h, and where its terms end.
         parts: &[
@@ -977,13 +939,13 @@ const _: () = {
         bound: &[],
         /// Part and place: the coefficients of the last two terms of the series.
         kept: &[],
-        /// How far the series can be trusted: part, factor of the group, whether it belongs to the last term, degree and
-        /// bound of the gradient.
+        /// How far the series can be trusted: part, factor of the group, whether it belongs to the last term, degree and bound
+        /// of the gradient.
         last: &[],
         radius: ::core::option::Option::Some(80),
     };
 
-    static LAST: ::coadjoint::plumbing::LastTerms = ::coadjoint::plumbing::LastTerms {
+    static LAST: plumbing::LastTerms = plumbing::LastTerms {
         /// The monomials of the last two terms of S, those of the last marked, as (coordinate, exponent) from zero.
         monomials: &[],
         /// The direct factor of the group that each coordinate belongs to.

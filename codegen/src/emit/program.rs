@@ -49,10 +49,12 @@ impl<'a> Rust<'a> {
     /// the compiler's time grows faster than their count; where they are very many, not for lanes either.
     pub(crate) fn apart(&self, call: &str) -> String {
         let called = format!("plumbing::called(|| {call})");
-        match self.operations {
-            ..=LARGE => call.to_owned(),
-            ..=INLINED_IN_LANES => format!("if T::SINGLE {{ {called} }} else {{ {call} }}"),
-            _ => called,
+        if self.operations <= LARGE {
+            call.to_owned()
+        } else if self.operations <= INLINED_IN_LANES {
+            format!("if T::SINGLE {{ {called} }} else {{ {call} }}")
+        } else {
+            called
         }
     }
 

@@ -5,12 +5,11 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use super::function::Body;
 use crate::graph::{Node, Program};
 use crate::kernel::Kernel;
 use crate::schedule::{Kind, Part, Variable};
 
-/// The syntax of a language that is C but for numbers, coefficients and operations.
+/// The syntax of a language. What a dialect does not say itself is as in C.
 ///
 /// Every operation is rounded once; a dialect whose compiler might contract or reorder operations has to forbid it.
 pub trait Dialect {
@@ -34,7 +33,23 @@ pub trait Dialect {
 
     /// An operation on operands as they are written, as many as `node` has. Leaves are never asked for.
     fn operation(&self, node: Node, operands: &[&str]) -> String {
-        self.c().operation(node, operands)
+        let [fma, sqrt, abs, rint, scaled, exponent] = &self.c().functions;
+        match (node, operands) {
+            (Node::Add(..), [a, b]) => format!("{a} + {b}"),
+            (Node::Sub(..), [a, b]) => format!("{a} - {b}"),
+            (Node::Mul(..), [a, b]) => format!("{a} * {b}"),
+            (Node::Div(..), [a, b]) => format!("{a} / {b}"),
+            (Node::TimesPlus(..), [a, b, c]) => format!("{fma}({a}, {b}, {c})"),
+            (Node::Neg(_), [a]) => format!("-{a}"),
+            (Node::Abs(_), [a]) => format!("{abs}({a})"),
+            (Node::Sqrt(_), [a]) => format!("{sqrt}({a})"),
+            (Node::Round(_), [a]) => format!("{rint}({a})"),
+            (Node::Scale(..), [a, k]) => format!("{scaled}({a}, {k})"),
+            (Node::Exponent(_), [a]) => format!("{exponent}({a})"),
+            (Node::Select(..), [a, b, c, d]) => format!("({a} <= {b}) ? {c} : {d}"),
+            // Leaves are written where they are used.
+            _ => String::new(),
+        }
     }
 
     /// A name that is bound.
@@ -60,17 +75,46 @@ pub trait Dialect {
         _size: usize,
         statements: &str,
     ) -> String {
-        self.c().piece(signature, number, statements)
+        let c = self.c();
+        let inputs = Signature { outputs: Vec::new(), ..signature.clone() };
+        let (parameters, _) = c.parameters(&inputs);
+        let mut text = format!(
+            "{} {}_{number}({parameters}, {} {}w)\n{{\n",
+            c.head, signature.name, c.number, c.pointer
+        );
+        // Which of them a piece reads is the compiler's business.
+        for argument in c.arguments(signature) {
+            text.push_str(&format!("    (void){argument};\n"));
+        }
+        text + statements + "}\n\n"
     }
 
     /// The statements that call the pieces of a function.
     fn calls(&self, signature: &Signature<'_>, count: usize, size: usize) -> String {
-        self.c().calls(signature, count, size)
+        let c = self.c();
+        let arguments = c.arguments(signature).collect::<Vec<_>>().join(", ");
+        let mut text = format!("    {} w[{}];\n", c.number, size.max(1));
+        for number in 0..count {
+            text.push_str(&format!("    {}_{number}({arguments});\n", signature.name));
+        }
+        text
     }
 
-    /// The function of a signature.
+    /// The function of a signature. Outputs are written in the order of their numbers.
     fn function(&self, signature: &Signature<'_>, body: &Body) -> String {
-        self.c().function(signature, body)
+        let c = self.c();
+        let (parameters, unused) = c.parameters(signature);
+        let mut text = format!(
+            "{}{} {}({parameters})\n{{\n{unused}{}",
+            body.pieces, c.head, signature.name, body.statements
+        );
+        for (number, value) in body.outputs.iter().enumerate() {
+            if let Some((field, at)) = Signature::find(&signature.outputs, number) {
+                let place = field.place(at, |name| format!("*{name}"));
+                text.push_str(&format!("    {place} = {value};\n"));
+            }
+        }
+        text + "}\n"
     }
 }
 
@@ -141,29 +185,6 @@ impl C {
         (parameters.join(", "), unused)
     }
 
-    fn piece(&self, signature: &Signature<'_>, number: usize, statements: &str) -> String {
-        let inputs = Signature { outputs: Vec::new(), ..signature.clone() };
-        let (parameters, _) = self.parameters(&inputs);
-        let mut text = format!(
-            "{} {}_{number}({parameters}, {} {}w)\n{{\n",
-            self.head, signature.name, self.number, self.pointer
-        );
-        // Which of them a piece reads is the compiler's business.
-        for argument in self.arguments(signature) {
-            text.push_str(&format!("    (void){argument};\n"));
-        }
-        text + statements + "}\n\n"
-    }
-
-    fn calls(&self, signature: &Signature<'_>, count: usize, size: usize) -> String {
-        let arguments = self.arguments(signature).collect::<Vec<_>>().join(", ");
-        let mut text = format!("    {} w[{}];\n", self.number, size.max(1));
-        for number in 0..count {
-            text.push_str(&format!("    {}_{number}({arguments});\n", signature.name));
-        }
-        text
-    }
-
     /// The arguments of the pieces of a function.
     fn arguments<'s>(&self, signature: &'s Signature<'_>) -> impl Iterator<Item = &'s str> {
         let slots = (!self.slots.is_empty()).then_some("c");
@@ -171,56 +192,22 @@ impl C {
         slots.into_iter().chain(inputs).chain(["w"])
     }
 
-    /// Outputs are written in the order of their numbers.
-    fn function(&self, signature: &Signature<'_>, body: &Body) -> String {
-        let (parameters, unused) = self.parameters(signature);
-        let mut text = format!(
-            "{}{} {}({parameters})\n{{\n{unused}{}",
-            body.pieces, self.head, signature.name, body.statements
-        );
-        for (number, value) in body.outputs.iter().enumerate() {
-            if let Some((field, at)) = Signature::find(&signature.outputs, number) {
-                let place = field.place(at, |name| format!("*{name}"));
-                text.push_str(&format!("    {place} = {value};\n"));
-            }
-        }
-        text + "}\n"
-    }
-
     /// A number in hexadecimal, which every compiler reads without rounding.
     pub(super) fn literal(&self, value: f64) -> String {
-        if value.is_nan() {
-            return "NAN".into();
-        }
-        if value.is_infinite() {
-            return if value > 0.0 { "INFINITY".into() } else { "(-INFINITY)".into() };
-        }
-        let text = hexadecimal(value.abs()) + &self.suffix;
-        match value.is_sign_negative() {
-            true => format!("(-{text})"),
-            false => text,
-        }
+        literal(value, |value| hexadecimal(value) + &self.suffix)
     }
+}
 
-    /// An operation on operands as they are written.
-    fn operation(&self, node: Node, operands: &[&str]) -> String {
-        let [fma, sqrt, abs, rint, scaled, exponent] = &self.functions;
-        match (node, operands) {
-            (Node::Add(..), [a, b]) => format!("{a} + {b}"),
-            (Node::Sub(..), [a, b]) => format!("{a} - {b}"),
-            (Node::Mul(..), [a, b]) => format!("{a} * {b}"),
-            (Node::Div(..), [a, b]) => format!("{a} / {b}"),
-            (Node::TimesPlus(..), [a, b, c]) => format!("{fma}({a}, {b}, {c})"),
-            (Node::Neg(_), [a]) => format!("-{a}"),
-            (Node::Abs(_), [a]) => format!("{abs}({a})"),
-            (Node::Sqrt(_), [a]) => format!("{sqrt}({a})"),
-            (Node::Round(_), [a]) => format!("{rint}({a})"),
-            (Node::Scale(..), [a, k]) => format!("{scaled}({a}, {k})"),
-            (Node::Exponent(_), [a]) => format!("{exponent}({a})"),
-            (Node::Select(..), [a, b, c, d]) => format!("({a} <= {b}) ? {c} : {d}"),
-            // Leaves are written where they are used.
-            _ => String::new(),
-        }
+/// A number as C has it, in parentheses where it is negative; `digits` writes one that is finite and not negative.
+pub fn literal(value: f64, digits: impl Fn(f64) -> String) -> String {
+    let text = match value.abs() {
+        size if size.is_nan() => return "NAN".into(),
+        size if size.is_infinite() => "INFINITY".into(),
+        size => digits(size),
+    };
+    match value.is_sign_negative() {
+        true => format!("(-{text})"),
+        false => text,
     }
 }
 
@@ -306,6 +293,17 @@ impl Signature<'_> {
         }
         None
     }
+}
+
+/// The text of a program.
+#[derive(Clone, Debug, Default)]
+pub struct Body {
+    /// Functions that the statements call.
+    pub pieces: String,
+    /// A line for each operation, or the calls of the pieces.
+    pub statements: String,
+    /// For each output the expression that reads it.
+    pub outputs: Vec<String>,
 }
 
 /// The signatures of the programs that the loop of a kernel calls; names of functions begin with `prefix`. An output that

@@ -7,20 +7,9 @@ use alloc::string::String;
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::c::Dialect;
+use super::c::{Body, Dialect};
 use crate::graph::{Node, Program};
 use crate::print::c::Signature;
-
-/// The text of a program.
-#[derive(Clone, Debug, Default)]
-pub struct Body {
-    /// Functions that the statements call.
-    pub pieces: String,
-    /// A line for each operation, or the calls of the pieces.
-    pub statements: String,
-    /// For each output the expression that reads it.
-    pub outputs: Vec<String>,
-}
 
 /// The function of a signature; [`body`] says what `longest` means.
 pub fn function(dialect: &impl Dialect, signature: &Signature<'_>, longest: usize) -> String {

@@ -1,8 +1,10 @@
 //! Programs as text in other languages.
 //!
 //! - [`Signature`] names what a program of a kernel reads and writes; [`signatures`] are those that its loop calls.
-//! - [`Dialect`] is how one language like C writes numbers and operations; [`function`] prints a program in it.
-//! - [`LoopStyle`] is how a language writes the loop of a kernel, which [`steps`] prints.
+//! - [`Dialect`] is how one language writes numbers and operations; [`function`] prints a program in it.
+//! - [`Loop`] is how a language writes the loop of a kernel, which [`statements`] prints; [`LoopStyle`] are its words, with which
+//!   [`steps`] prints it in a dialect of C.
+//! - [`fill`] puts what differs between kernels into a template of fixed text.
 //! - [`native_unit`] is a kernel as a unit of C to be compiled for this machine.
 //! - [`device_unit`] is a kernel as a text in OpenCL C or CUDA C++, a thread a trajectory.
 
@@ -14,9 +16,9 @@ mod steps;
 mod template;
 mod vectors;
 
-pub use c::{C, Dialect, Field, Signature, signatures};
+pub use c::{Body, C, Dialect, Field, Signature, literal, signatures};
 pub use device::{DeviceLanguage, KERNEL_NAME, device_unit};
-pub use function::{Body, body, function};
+pub use function::{body, function};
 pub use native::{ABI, native_unit};
 pub use steps::{Loop, LoopStyle, Name, statements, steps};
 pub use template::{Value, fill};

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use coadjoint_program::Node;
-use coadjoint_program::print::{C, Dialect};
+use coadjoint_program::print::{C, Dialect, literal};
 
 use super::names::Names;
 
@@ -33,16 +33,7 @@ impl Portable {
 
 /// The shortest decimals that are read as this number.
 pub(crate) fn decimal(value: f64) -> String {
-    if value.is_nan() {
-        return "NAN".into();
-    }
-    if value.is_infinite() {
-        return if value > 0.0 { "INFINITY".into() } else { "(-INFINITY)".into() };
-    }
-    match value.is_sign_negative() {
-        true => format!("({value:?})"),
-        false => format!("{value:?}"),
-    }
+    literal(value, |value| format!("{value:?}"))
 }
 
 impl Dialect for Portable {
