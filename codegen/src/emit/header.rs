@@ -69,7 +69,7 @@ pub(crate) fn opening(
     paragraphs(&values)
 }
 
-/// What the library does for a refused step.
+/// The rescue of a refused step by the library.
 const RESCUE: &str = "For other steps the library follows the solution from the identity, or says why there is none.";
 
 /// The paragraphs of the opening of a file, which are lines of a template; a backslash joins a line and the next.
@@ -186,7 +186,7 @@ impl<'a> Method<'a> {
     }
 }
 
-/// What an opening says of a system and a step of it; `quoted` makes a text fit for a comment.
+/// The places of an opening about a system and a step of it; `quoted` makes a text fit for a comment.
 pub(crate) fn system(
     facts: Facts<'_>,
     kicks: Option<&Kicks>,

@@ -6,7 +6,7 @@ use super::program::{float, tokens};
 use crate::expr::{Function, ParameterExpr};
 use crate::problem::Symbol;
 
-/// How a language writes what is more than an infix operator.
+/// The notation of a language for all that is more than an infix operator.
 pub(crate) struct Notation<'a> {
     /// The scalar parameters, in the order of their numbers.
     pub parameters: &'a [String],

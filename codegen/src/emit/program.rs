@@ -21,7 +21,7 @@ const HEAD: &str = "<T: plumbing::Number, C: plumbing::Coefficients<T>>";
 
 /// A text of Rust as tokens.
 pub(crate) fn tokens(text: &str) -> TokenStream {
-    // What is written here are tokens; if not, the compiler shows what is wrong.
+    // The texts written here are tokens; if not, the compiler shows the mistake.
     text.parse().unwrap_or_else(|_| quote!(::core::compile_error!(#text);))
 }
 

@@ -59,7 +59,7 @@ impl Default for LoopStyle {
     }
 }
 
-/// How a language writes the statements of the loop. The function around it has g, μ, `steps` and whatever the word `live`
+/// A language that writes the statements of the loop. The function around it has g, μ, `steps` and whatever the word `live`
 /// reads.
 pub trait Loop {
     /// The words.

@@ -90,7 +90,7 @@ impl Folding {
         self.places.len() - self.times
     }
 
-    /// What folding reads, for the template.
+    /// The data of folding, for the template.
     pub(super) fn values(&self, origin: &Origin, names: &Names) -> Vec<Value> {
         let fold = self.table.lists();
         let (given, own) = (origin.facts().parameters, origin.symbols());
