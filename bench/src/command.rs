@@ -7,7 +7,7 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 
 use crate::systems::{SYSTEMS, System, momenta};
-use crate::timing::{Failure, Way, line, medians};
+use crate::timing::{Contender, Failure, line, medians};
 
 const BODIES: usize = 100_000;
 const FEW: u64 = 8;
@@ -54,9 +54,9 @@ fn way<'a>(
     system: &'a System,
     more: Vec<String>,
     bodies: usize,
-) -> Way<'a> {
+) -> Contender<'a> {
     let name = more.iter().filter(|word| !word.contains(['-', '/'])).cloned().collect::<Vec<_>>();
-    Way::process(format!("{verb}, {}", name.join(" ")), bodies, move |steps| {
+    Contender::process(format!("{verb}, {}", name.join(" ")), bodies, move |steps| {
         let long = seconds(command, verb, system, steps + FEW, &more)?;
         Ok(long.saturating_sub(seconds(command, verb, system, FEW, &more)?))
     })

@@ -7,7 +7,7 @@ use coadjoint::lanes::ensemble::advance_all;
 use coadjoint::{Phase, SE3, SO3, lie_poisson};
 use nalgebra::SVector;
 
-use crate::timing::{Failure, Way, line, medians};
+use crate::timing::{Contender, Failure, line, medians};
 
 #[lie_poisson(group = SO3, truncation = 7)]
 fn rigid_body(mu: [f64; 3]) -> f64 {
@@ -56,7 +56,7 @@ fn quadratic(mu: [f64; 8]) -> f64 {
         + h * h / 10.0
 }
 
-type Made = Result<Vec<Way<'static>>, Failure>;
+type Made = Result<Vec<Contender<'static>>, Failure>;
 
 pub struct System {
     pub name: &'static str,
@@ -100,7 +100,10 @@ macro_rules! system {
                     black_box(by.advance_by(&mut many, steps)?);
                     Ok(())
                 };
-                Ok(vec![Way::new("advance", 1, advance), Way::new("advance_by", 1, advance_by)])
+                Ok(vec![
+                    Contender::new("advance", 1, advance),
+                    Contender::new("advance_by", 1, advance_by),
+                ])
             },
             lanes: |h, momenta| {
                 let step = $step::<f64>::new(h)?;
@@ -113,7 +116,7 @@ macro_rules! system {
                         0 => Ok(()),
                         refused => Err(format!("{refused} trajectories were refused").into()),
                     };
-                Ok(vec![Way::new("attribute, lanes", bodies, advance)])
+                Ok(vec![Contender::new("attribute, lanes", bodies, advance)])
             },
             end: |h, mu| {
                 let mut phase =

@@ -6,7 +6,7 @@ pub type Failure = Box<dyn std::error::Error>;
 
 type Run<'a> = dyn FnMut(u64) -> Result<Duration, Failure> + 'a;
 
-pub struct Way<'a> {
+pub struct Contender<'a> {
     pub name: String,
     /// The number of trajectories that make each step.
     bodies: u64,
@@ -17,7 +17,7 @@ pub struct Way<'a> {
     run: Box<Run<'a>>,
 }
 
-impl<'a> Way<'a> {
+impl<'a> Contender<'a> {
     /// A way that makes this many steps of each of `bodies` trajectories in this process.
     pub fn new(
         name: &str,
@@ -59,8 +59,8 @@ impl<'a> Way<'a> {
 }
 
 /// The median nanoseconds of a step of one trajectory, for each way over the rounds.
-pub fn medians(ways: &mut [Way<'_>], rounds: usize) -> Result<Vec<f64>, Failure> {
-    let counts = ways.iter_mut().map(Way::steps).collect::<Result<Vec<u64>, Failure>>()?;
+pub fn medians(ways: &mut [Contender<'_>], rounds: usize) -> Result<Vec<f64>, Failure> {
+    let counts = ways.iter_mut().map(Contender::steps).collect::<Result<Vec<u64>, Failure>>()?;
     let mut samples = vec![Vec::with_capacity(rounds); ways.len()];
     for _ in 0..rounds {
         for ((way, &count), samples) in ways.iter_mut().zip(&counts).zip(&mut samples) {
@@ -72,9 +72,9 @@ pub fn medians(ways: &mut [Way<'_>], rounds: usize) -> Result<Vec<f64>, Failure>
 }
 
 /// A line of a table: the nanoseconds of each way, and in brackets the ratio to the first.
-pub fn line(name: &str, ways: &[Way<'_>], medians: &[f64]) -> String {
+pub fn line(name: &str, ways: &[Contender<'_>], medians: &[f64]) -> String {
     let first = medians.first().copied().unwrap_or(f64::NAN);
-    let cell = |(way, median): (&Way<'_>, &f64)| {
+    let cell = |(way, median): (&Contender<'_>, &f64)| {
         format!(" {} {} ({:.2}) |", way.name, figure(*median), median / first)
     };
     let cells: String = ways.iter().zip(medians).map(cell).collect();

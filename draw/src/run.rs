@@ -12,7 +12,7 @@ const FLOOR: i32 = -17;
 
 /// A run, recorded at some times.
 #[derive(Clone, Debug, Default)]
-pub struct Run {
+pub struct Recording {
     /// The method, such as `K = 7, exp`.
     pub label: String,
     /// The times of the records.
@@ -41,7 +41,7 @@ pub struct Picture {
     /// The unit of time.
     pub time_unit: Option<String>,
     /// The runs; the momentum is that of the first.
-    pub runs: Vec<Run>,
+    pub runs: Vec<Recording>,
 }
 
 /// The picture as the text of an SVG file.
@@ -102,7 +102,7 @@ const MOST_PANELS: usize = 3;
 /// The coordinates of the momentum over the time of `across`, a panel for each unit among them. Where
 /// they turn round too often to be told apart, only the beginning is shown, which a note then says.
 pub fn motion_panels(
-    run: &Run,
+    run: &Recording,
     named: bool,
     across: (f64, f64),
     time_unit: Option<&str>,
@@ -143,7 +143,7 @@ struct Time<'a> {
 }
 
 fn motion_panel(
-    run: &Run,
+    run: &Recording,
     named: bool,
     &Time { across, unit: time_unit, part, columns }: &Time<'_>,
     shown: &[&Series],
@@ -254,7 +254,7 @@ const NOTE: &str = "Below: largest differences from the start in successive stre
      start, on logarithmic axes. Zero and everything below 1e-17 is drawn at 1e-17.";
 
 /// A panel for each quantity that one of the runs conserves, with a curve for each run that does.
-pub fn drift_panels(runs: &[Run], across: (f64, f64), time_unit: Option<&str>) -> Vec<Panel> {
+pub fn drift_panels(runs: &[Recording], across: (f64, f64), time_unit: Option<&str>) -> Vec<Panel> {
     let mut names: Vec<&str> = Vec::new();
     for drift in runs.iter().flat_map(|run| &run.drifts) {
         if !names.contains(&drift.name.as_str()) {
@@ -264,8 +264,13 @@ pub fn drift_panels(runs: &[Run], across: (f64, f64), time_unit: Option<&str>) -
     names.into_iter().map(|name| drift_panel(name, runs, across, time_unit)).collect()
 }
 
-fn drift_panel(name: &str, runs: &[Run], across: (f64, f64), time_unit: Option<&str>) -> Panel {
-    let of = |run: &'_ Run| run.drifts.iter().position(|drift| drift.name == name);
+fn drift_panel(
+    name: &str,
+    runs: &[Recording],
+    across: (f64, f64),
+    time_unit: Option<&str>,
+) -> Panel {
+    let of = |run: &'_ Recording| run.drifts.iter().position(|drift| drift.name == name);
     let values = runs.iter().filter_map(|run| Some(&run.drifts[of(run)?].values)).flatten();
     let y = Axis::floored(values, (FLOOR, LOWEST_TOP), 7);
     let mut curves = Vec::new();

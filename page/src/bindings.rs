@@ -8,8 +8,8 @@ use crate::fields::Fields;
 use crate::file::Mistake;
 use crate::formula;
 use crate::orbit::{Curve, Orbit};
-use crate::run::Run;
-use crate::system::{Factor, START, System};
+use crate::run::Animation;
+use crate::system::{Component, START, System};
 
 /// The systems to choose from, as JSON: `[{id, title, family, about, fields}]`.
 #[wasm_bindgen]
@@ -35,7 +35,7 @@ fn json(value: &impl Serialize) -> String {
 #[derive(Debug)]
 pub struct Session {
     system: System,
-    run: Run,
+    run: Animation,
     orbit: Option<Orbit>,
 }
 
@@ -55,7 +55,7 @@ struct About<'a> {
     terms: Vec<(usize, usize)>,
     comoving: bool,
     casimirs: Vec<String>,
-    factors: &'a [Factor],
+    factors: &'a [Component],
     /// Triples of coordinates that stay on a sphere.
     spheres: Vec<[usize; 3]>,
     /// The second derivatives of H in the first three coordinates, and all first ones.
@@ -75,7 +75,7 @@ impl Session {
             json(&[Mistake::of_all(format!("the state is not readable: {error}"), None)])
         })?;
         let system = System::new(&fields).map_err(|mistakes| json(&mistakes))?;
-        let run = Run::new(&system, &system.momentum);
+        let run = Animation::new(&system, &system.momentum);
         Ok(Self { system, run, orbit: None })
     }
 
@@ -133,7 +133,7 @@ impl Session {
     /// The run anew, from this momentum.
     pub fn restart(&mut self, momentum: &[f64]) {
         if momentum.len() == self.system.dim() {
-            self.run = Run::new(&self.system, momentum);
+            self.run = Animation::new(&self.system, momentum);
         }
     }
 
@@ -253,7 +253,7 @@ impl Session {
 }
 
 /// Triples of coordinates that stay on a sphere: of rotations, and the translations' of motions.
-fn spheres(factors: &[Factor]) -> Vec<[usize; 3]> {
+fn spheres(factors: &[Component]) -> Vec<[usize; 3]> {
     use crate::system::Kind;
     let triple = |start: usize| [start, start + 1, start + 2];
     factors

@@ -41,14 +41,14 @@ impl Mistake {
 #[derive(Clone, Debug, Default)]
 pub struct File {
     pub text: String,
-    pieces: Vec<Piece>,
+    pieces: Vec<Chunk>,
     /// Mistakes in fields that could not even be written as a file.
     pub unwritten: Vec<Mistake>,
 }
 
 /// Bytes of a field that stand in the text as they are.
 #[derive(Clone, Debug)]
-struct Piece {
+struct Chunk {
     text: Range<usize>,
     field: &'static str,
     offset: usize,
@@ -127,7 +127,7 @@ impl File {
         let field = piece.field;
         let mut within = self.pieces.iter().filter(|other| other.field == field);
         let last = within.rfind(|other| other.text.start <= end).unwrap_or(piece);
-        let inside = |piece: &Piece, at: usize| {
+        let inside = |piece: &Chunk, at: usize| {
             at.clamp(piece.text.start, piece.text.end) - piece.text.start + piece.offset
         };
         let from = inside(piece, start);
@@ -137,7 +137,7 @@ impl File {
     fn verbatim(&mut self, field: &'static str, offset: usize, content: &str) {
         let start = self.text.len();
         self.text.push_str(content);
-        self.pieces.push(Piece { text: start..self.text.len(), field, offset });
+        self.pieces.push(Chunk { text: start..self.text.len(), field, offset });
     }
 
     /// A text in quotes that leave it as it is.

@@ -21,7 +21,7 @@ struct State {
 
 /// A run from the identity.
 #[derive(Debug)]
-pub struct Run {
+pub struct Animation {
     h: f64,
     /// The rival's steps within one of ours.
     pub substeps: usize,
@@ -46,7 +46,7 @@ pub struct Refusal {
     pub usable: Option<f64>,
 }
 
-impl Run {
+impl Animation {
     /// A run from the identity with this momentum.
     pub fn new(system: &System, momentum: &[f64]) -> Self {
         let size: usize = system.factors.iter().map(|factor| factor.size).sum();

@@ -33,7 +33,7 @@ pub enum Kind {
 }
 
 #[derive(Clone, Debug, serde::Serialize)]
-pub struct Factor {
+pub struct Component {
     /// Rotations, vectors or other.
     pub kind: Kind,
     /// The index of its first coordinate, and the number of coordinates.
@@ -61,7 +61,7 @@ pub struct System {
     pub casimirs: Vec<Polynomial>,
     /// The conserved quantities, as numbers.
     pub invariants: Invariants,
-    pub factors: Vec<Factor>,
+    pub factors: Vec<Component>,
     /// Runge and Kutta's method of order four for the same equations.
     pub rival: Rival,
     pub units: Units,
@@ -182,7 +182,7 @@ impl System {
 }
 
 /// The factors of a group as the programs of its steps have them.
-fn factors(algebra: &LieAlgebra) -> Vec<Factor> {
+fn factors(algebra: &LieAlgebra) -> Vec<Component> {
     let (mut coordinate, mut row) = (0, 0);
     let factor = |factor: LieAlgebra| {
         let is = |name: &str| {
@@ -196,7 +196,7 @@ fn factors(algebra: &LieAlgebra) -> Vec<Factor> {
             () if is("SE2") => Kind::Plane,
             () => Kind::Matrix,
         };
-        let found = Factor { kind, coordinate, dim, row, size };
+        let found = Component { kind, coordinate, dim, row, size };
         (coordinate, row) = (coordinate + dim, row + size);
         found
     };

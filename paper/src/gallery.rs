@@ -6,7 +6,7 @@ use std::path::Path;
 use coadjoint_codegen::smooth::Facts;
 use coadjoint_codegen::system::{Options, Parameters};
 use coadjoint_draw::curves::range;
-use coadjoint_draw::run::{Picture, Run, Series, drift_panels, motion_panels};
+use coadjoint_draw::run::{Picture, Recording, Series, drift_panels, motion_panels};
 use coadjoint_draw::{Panel, escaped};
 use coadjoint_run::simulate::{self, Drift, Moment, Schedule, Setup, Sink};
 use coadjoint_run::{Accuracy, Derived, meet_tolerance, read_varying};
@@ -80,7 +80,7 @@ pub fn picture(file: &Path) -> Fallible<Picture> {
     ];
     // Frame and splitting, after truncation and chart or method and nodes.
     settings.extend(label.split(", ").skip(2).map(str::to_owned));
-    let run = Run {
+    let run = Recording {
         label,
         times: looks.iter().map(|look| look.0).collect(),
         momentum: coordinates.iter().enumerate().map(series).collect(),
@@ -118,14 +118,14 @@ pub fn exhibit(picture: &Picture) -> String {
 }
 
 /// All drifts of a run in one panel, as if each were of a run of its own.
-fn together(run: &Run, across: (f64, f64), unit: Option<&str>) -> Option<Panel> {
-    let alone = |drift: &Series| Run {
+fn together(run: &Recording, across: (f64, f64), unit: Option<&str>) -> Option<Panel> {
+    let alone = |drift: &Series| Recording {
         label: drift.name.split(',').next().unwrap_or_default().to_owned(),
         times: run.times.clone(),
         drifts: vec![Series { name: String::new(), ..drift.clone() }],
-        ..Run::default()
+        ..Recording::default()
     };
-    let runs: Vec<Run> = run.drifts.iter().map(alone).collect();
+    let runs: Vec<Recording> = run.drifts.iter().map(alone).collect();
     let panel = drift_panels(&runs, across, unit).into_iter().next()?;
     Some(Panel { heading: "Relative drifts".to_owned(), ..panel }.with_legend())
 }

@@ -9,7 +9,7 @@ use crate::outcome::{Curve, Report};
 /// Panels with the same axes, of columns of one curve over its first column.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Group {
+pub struct Panels {
     curve: String,
     draw: Draw,
     /// The number of first records that are drawn.
@@ -72,7 +72,7 @@ impl Lay {
 /// Errors below this are rounding.
 const ROUNDING: f64 = 1e-16;
 
-impl Group {
+impl Panels {
     /// Its panels; lines of columns that are not there are left out.
     pub fn draw(&self, report: &Report) -> Vec<Panel> {
         let curve = report.curve(&self.curve);

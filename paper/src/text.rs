@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use serde::Deserialize;
 
 use crate::outcome::{Judgement, Report, brief, shown};
-use crate::plot::Group;
+use crate::plot::Panels;
 
 /// A figure or a table in words. In `settings` and `out` numbers are filled in: see [`fill`].
 #[derive(Debug, Default, Deserialize)]
@@ -24,7 +24,7 @@ pub struct Figure {
     /// Which of the experiment's tables are shown, from and to; all if not given.
     pub tables: Option<[usize; 2]>,
     pub judged: Vec<Judged>,
-    pub group: Vec<Group>,
+    pub group: Vec<Panels>,
 }
 
 /// A number that judges: its meaning and its bounds.

@@ -18,7 +18,7 @@ use crate::system::Core;
 /// A run, and the parameters that its derivatives are taken in.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
-pub struct Run {
+pub struct Request {
     core: Py<Core>,
     truncation: Option<usize>,
     comoving: bool,
@@ -57,14 +57,14 @@ fn derived(
 /// Does something with the derivatives of a run.
 fn with<T: Send + 'static>(
     py: Python<'_>,
-    run: Run,
+    run: Request,
     job: impl FnOnce(&Derivatives<'_>) -> Result<T, RunError> + Send + 'static,
 ) -> PyResult<T> {
     let backend = backend_of(py, &run.backend)?;
     let core = run.core.get().here();
     let failures = core.failures.clone();
     let result = work(py, None, move |_| {
-        let Run { truncation, comoving, parameters, step, steps, t0: start, .. } = run;
+        let Request { truncation, comoving, parameters, step, steps, t0: start, .. } = run;
         let given = core.run();
         let momentum = run.momentum.or_else(|| given.momentum.clone());
         let group_element = run.group_element.or_else(|| given.group_element.clone());
@@ -88,7 +88,7 @@ fn matrix(array: &PyReadonlyArray2<'_, f64>) -> DMatrix<f64> {
 #[pyfunction]
 pub fn forward<'py>(
     py: Python<'py>,
-    run: Run,
+    run: Request,
     tangents: PyReadonlyArray2<'py, f64>,
     parameters: PyReadonlyArray2<'py, f64>,
     at: Vec<u64>,
@@ -104,7 +104,7 @@ pub fn forward<'py>(
 #[pyfunction]
 pub fn backward<'py>(
     py: Python<'py>,
-    run: Run,
+    run: Request,
     cotangents: PyReadonlyArray2<'py, f64>,
     at: Vec<u64>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
@@ -119,6 +119,6 @@ pub fn backward<'py>(
 
 /// The largest Lyapunov exponent, without the first steps.
 #[pyfunction]
-pub fn largest_exponent(py: Python<'_>, run: Run, transient: u64) -> PyResult<f64> {
+pub fn largest_exponent(py: Python<'_>, run: Request, transient: u64) -> PyResult<f64> {
     with(py, run, move |run| run.largest_exponent(transient))
 }

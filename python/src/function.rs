@@ -16,7 +16,7 @@ const LATER: [f64; 3] = [0.3, 1.0, 7.0];
 const SAME: f64 = 1e-5;
 
 /// An energy and its gradient, functions of the time and the momentum.
-pub struct Functions {
+pub struct Callables {
     energy: Py<PyAny>,
     gradient: Py<PyAny>,
     /// True once the gradient was found to be the energy's, at its first call.
@@ -64,7 +64,7 @@ pub fn input(name: String, function: Py<PyAny>, failures: Arc<Failures>) -> Sign
     })
 }
 
-impl Functions {
+impl Callables {
     /// The function of a system, of these two.
     pub fn given(energy: Py<PyAny>, gradient: Py<PyAny>, failures: Arc<Failures>) -> Given {
         Given(Arc::new(Self { energy, gradient, checked: AtomicBool::new(false), failures }))
@@ -148,7 +148,7 @@ impl Functions {
     }
 }
 
-impl Function for Functions {
+impl Function for Callables {
     fn value(&self, time: f64, mu: &[f64]) -> f64 {
         self.call(false, time, mu).first().copied().unwrap_or(f64::NAN)
     }

@@ -29,7 +29,7 @@ use crate::control::{Control, work};
 use crate::emit::emitted;
 use crate::error::{raised, raised_by, refused};
 use crate::event::Watched;
-use crate::function::{Failures, Functions as Called, input};
+use crate::function::{Failures, Callables, input};
 use crate::outcome::result_of;
 use crate::record::{Keeper, Table};
 use crate::stepper::Stepper;
@@ -205,7 +205,7 @@ impl Core {
         let energy = functions.map(|(energy, gradient)| {
             let name = energy.getattr(py, "__name__").and_then(|name| name.extract::<String>(py));
             let name = name.unwrap_or_else(|_| "energy".to_owned());
-            (name, Called::given(energy, gradient, failures.clone()))
+            (name, Callables::given(energy, gradient, failures.clone()))
         });
         let inputs = inputs.into_iter();
         let inputs = inputs.map(|(name, function)| input(name, function, failures.clone()));

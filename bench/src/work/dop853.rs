@@ -49,12 +49,12 @@ fn run(problem: &Problem, tolerance: f64) -> Result<State, Failure> {
             return Ok(State { force: [y[3], y[4], y[5]], ..whole });
         }
         Kind::TopOnFirst(w) => {
-            integrate(Moving(a, Gravity::<0>(w)), whole, problem.end, tolerance)?
+            integrate(Translating(a, Gravity::<0>(w)), whole, problem.end, tolerance)?
         }
         Kind::TopOnSecond(w) => {
-            integrate(Moving(a, Gravity::<1>(w)), whole, problem.end, tolerance)?
+            integrate(Translating(a, Gravity::<1>(w)), whole, problem.end, tolerance)?
         }
-        Kind::Fluid(b) => integrate(Moving(a, Mass(b)), whole, problem.end, tolerance)?,
+        Kind::Fluid(b) => integrate(Translating(a, Mass(b)), whole, problem.end, tolerance)?,
     };
     Ok(State {
         force: [y[7], y[8], y[9]],
@@ -167,9 +167,9 @@ impl Translation for Mass {
 }
 
 /// Adds Γ × V to the torque, Γ̇ = Γ × Ω and ẋ = R V; the components are (Π, q, Γ, x).
-struct Moving<T>(Vector, T);
+struct Translating<T>(Vector, T);
 
-impl<T: Translation> System<f64, SVector<f64, 13>> for Moving<T> {
+impl<T: Translation> System<f64, SVector<f64, 13>> for Translating<T> {
     fn system(&self, _: f64, y: &SVector<f64, 13>, dy: &mut SVector<f64, 13>) {
         let w = [y[0] * self.0[0], y[1] * self.0[1], y[2] * self.0[2]];
         let (q, force) = ([y[3], y[4], y[5], y[6]], [y[7], y[8], y[9]]);

@@ -22,7 +22,7 @@ const ROUGH: usize = 6;
 const CHEAPEST: usize = 4;
 
 /// A setting with a rough time.
-pub struct Candidate {
+pub struct Setting {
     pub method: usize,
     pub setting: f64,
     pub error: f64,
@@ -33,7 +33,7 @@ pub struct Candidate {
 /// For each method its settings that are cheapest at some error, timed together.
 pub fn measure(problem: &Problem, methods: &[Method], quick: bool) -> Vec<Measurement> {
     let longest = Duration::from_millis(if quick { 40 } else { 120 });
-    let candidates: Vec<Candidate> = methods
+    let candidates: Vec<Setting> = methods
         .iter()
         .enumerate()
         .flat_map(|(at, method)| worth_timing(try_settings(problem, method, at, longest)))
@@ -60,13 +60,8 @@ pub fn measure(problem: &Problem, methods: &[Method], quick: bool) -> Vec<Measur
 }
 
 /// Runs each setting as often as a rough time needs, from coarse to fine until finer brings nothing.
-fn try_settings(
-    problem: &Problem,
-    method: &Method,
-    at: usize,
-    longest: Duration,
-) -> Vec<Candidate> {
-    let mut tried: Vec<Candidate> = Vec::new();
+fn try_settings(problem: &Problem, method: &Method, at: usize, longest: Duration) -> Vec<Setting> {
+    let mut tried: Vec<Setting> = Vec::new();
     let (mut best, mut since, mut count) = (f64::INFINITY, 0, 0);
     for &setting in &method.settings {
         if method.order.is_some() {
@@ -86,7 +81,7 @@ fn try_settings(
             let _ = black_box(method.run(problem, setting).is_ok());
             rough = rough.min(begun.elapsed());
         }
-        tried.push(Candidate { method: at, setting, error, rough });
+        tried.push(Setting { method: at, setting, error, rough });
         if error < 0.8 * best {
             (best, since) = (error, 0);
         } else if error < 1e-6 {
@@ -100,7 +95,7 @@ fn try_settings(
 }
 
 /// The cheapest settings at or below each error, two to a decade, without repetition.
-pub fn worth_timing(mut tried: Vec<Candidate>) -> Vec<Candidate> {
+pub fn worth_timing(mut tried: Vec<Setting>) -> Vec<Setting> {
     tried.sort_by_key(|candidate| candidate.rough);
     let mut wanted = vec![false; tried.len()];
     for target in (6..=27).map(|k| 10f64.powf(-f64::from(k) / 2.0)) {

@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use super::method::{Method, equal_steps};
 use super::problem::{self, FILE, Figures, Kind, Problem, State};
-use super::sweep::{Candidate, worth_timing};
+use super::sweep::{Setting, worth_timing};
 use super::{exact, methods};
 
 fn named(name: &str) -> Problem {
@@ -156,7 +156,7 @@ fn published_errors_of_the_discrete_moser_veselov_algorithm() {
 fn only_settings_that_are_cheapest_somewhere_are_timed() {
     let candidate = |(error, micros): (f64, u64)| {
         let rough = Duration::from_micros(micros);
-        Candidate { method: 0, setting: 1.0, error, rough }
+        Setting { method: 0, setting: 1.0, error, rough }
     };
     let tried = [
         (1e-4, 10),

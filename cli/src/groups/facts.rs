@@ -1,4 +1,4 @@
-//! Facts about a group, computed from its algebra.
+//! Description about a group, computed from its algebra.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ const MONOMIALS: u128 = 1000;
 pub(crate) const LARGEST: usize = 24;
 
 /// A group of the catalogue, or a product.
-pub(crate) struct Facts {
+pub(crate) struct Description {
     /// Its algebra.
     pub algebra: LieAlgebra,
     /// A description in a few words.
@@ -33,8 +33,8 @@ pub(crate) struct Facts {
     pub casimirs: Vec<Polynomial>,
 }
 
-impl Facts {
-    /// Looks a group up; Casimirs are looked for by [`Facts::with_casimirs`].
+impl Description {
+    /// Looks a group up; Casimirs are looked for by [`Description::with_casimirs`].
     pub(crate) fn new(name: &str) -> Result<Self, CliError> {
         let algebra = catalogue::lookup(name).map_err(|error| refused(&error))?;
         let factors = algebra.factors();

@@ -11,20 +11,22 @@ use serde_json::{Value, json};
 use crate::arguments::GroupOptions;
 use crate::error::CliError;
 use crate::named::Format;
-use facts::Facts;
+use facts::Description;
 
 /// Prints the list of groups, or one group.
 pub(crate) fn run(options: &GroupOptions) -> Result<(), CliError> {
     let Some(name) = &options.name else {
-        let all: Vec<Facts> =
-            catalogue::names().iter().map(|name| Facts::new(name)).collect::<Result<_, _>>()?;
+        let all: Vec<Description> = catalogue::names()
+            .iter()
+            .map(|name| Description::new(name))
+            .collect::<Result<_, _>>()?;
         match options.format {
             Format::Json => outln!("{:#}", list(&all)),
             Format::Text => out!("{}", text::list(&all)),
         }
         return Ok(());
     };
-    let facts = Facts::new(name)?.with_casimirs(options.degree)?;
+    let facts = Description::new(name)?.with_casimirs(options.degree)?;
     match options.format {
         Format::Json => outln!("{:#}", group(&facts)),
         Format::Text => out!("{}", text::group(&facts)),
@@ -33,7 +35,7 @@ pub(crate) fn run(options: &GroupOptions) -> Result<(), CliError> {
 }
 
 /// The list of groups.
-fn list(all: &[Facts]) -> Value {
+fn list(all: &[Description]) -> Value {
     all.iter()
         .map(|facts| {
             json!({
@@ -47,7 +49,7 @@ fn list(all: &[Facts]) -> Value {
 }
 
 /// Everything about one group. Indices count from 1, numbers are exact texts.
-fn group(facts: &Facts) -> Value {
+fn group(facts: &Description) -> Value {
     let algebra = &facts.algebra;
     let dim = algebra.dim();
     let constant = |c: &StructureConstant| json!({ "i": c.i + 1, "j": c.j + 1, "k": c.k + 1, "value": c.value.to_string() });
@@ -79,7 +81,7 @@ fn group(facts: &Facts) -> Value {
     })
 }
 
-fn charts(facts: &Facts) -> Vec<Value> {
+fn charts(facts: &Description) -> Vec<Value> {
     let mut charts = vec![json!({ "name": "exp", "domain": facts.exp_domain() })];
     if let Ok(domain) = facts.cayley_domain() {
         charts.push(json!({ "name": "cayley", "domain": domain }));

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::facts::{Facts, LARGEST};
+use super::facts::{Description, LARGEST};
 
 /// Texts are not wider than this.
 const WIDTH: usize = 100;
@@ -31,7 +31,7 @@ A group of your own is the table [algebra] in place of `group`: a `basis` of squ
 ";
 
 /// One line for each group.
-pub(crate) fn list(all: &[Facts]) -> String {
+pub(crate) fn list(all: &[Description]) -> String {
     let mut out = String::new();
     let _ = writeln!(out, "{:<12} {:>9}  {:<11} group and basis", "name", "dimension", "charts");
     for facts in all {
@@ -50,7 +50,7 @@ pub(crate) fn list(all: &[Facts]) -> String {
 }
 
 /// Everything about one group.
-pub(crate) fn group(facts: &Facts) -> String {
+pub(crate) fn group(facts: &Description) -> String {
     let mut out = String::new();
     let algebra = &facts.algebra;
     let what = facts.summary.as_ref().map(|summary| format!(": {summary}")).unwrap_or_default();
@@ -74,7 +74,7 @@ pub(crate) fn group(facts: &Facts) -> String {
     out
 }
 
-fn basis(out: &mut String, facts: &Facts) {
+fn basis(out: &mut String, facts: &Description) {
     let Some(size) = facts.size() else {
         out.push_str("\nknown by its brackets alone, without matrices\n");
         return;
@@ -95,7 +95,7 @@ fn basis(out: &mut String, facts: &Facts) {
     out.push('\n');
 }
 
-fn brackets(out: &mut String, facts: &Facts) {
+fn brackets(out: &mut String, facts: &Description) {
     let found = facts.brackets();
     if found.is_empty() {
         out.push_str("brackets: all zero\n");
@@ -116,7 +116,7 @@ fn columns(out: &mut String, texts: &[String]) {
     }
 }
 
-fn ad_star(out: &mut String, facts: &Facts) {
+fn ad_star(out: &mut String, facts: &Description) {
     out.push_str(
         "\nsign of ad*: <ad*_ξ μ, η> = <μ, [ξ, η]>, so (ad*_ξ μ)_j is the sum of ξ_i c_ij^l μ_l over i and l,\n\
          where [e_i, e_j] is the sum of c_ij^l e_l. The motion is dμ/dt = ad*_ξ μ with ξ = ∂H/∂μ.\n",
@@ -131,7 +131,7 @@ fn ad_star(out: &mut String, facts: &Facts) {
     }
 }
 
-fn casimirs(out: &mut String, facts: &Facts) {
+fn casimirs(out: &mut String, facts: &Description) {
     let (count, degree) = (facts.casimirs.len(), facts.degree);
     if count == 0 {
         let _ = writeln!(out, "\nCasimirs: none that is a polynomial of degree up to {degree}");
@@ -146,7 +146,7 @@ fn casimirs(out: &mut String, facts: &Facts) {
     }
 }
 
-fn charts(out: &mut String, facts: &Facts) {
+fn charts(out: &mut String, facts: &Description) {
     out.push_str("\ncharts of a step x, near the identity\n");
     let _ = writeln!(out, "  exp     {}", facts.exp_domain());
     let _ = match facts.cayley_domain() {

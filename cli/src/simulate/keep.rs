@@ -11,7 +11,7 @@ use super::interrupt::Guard;
 use super::records::{Checkpoint, Records};
 use super::samples::{Sample, Samples};
 use super::settings::{Header, Settings};
-use super::target::{Target, paths};
+use super::target::{Destination, paths};
 use crate::error::CliError;
 use crate::note::{self, Identity};
 use crate::progress;
@@ -90,7 +90,7 @@ pub(crate) fn keep(
             let error = failure.unwrap_or_else(|| error.into());
             if let Some(records) = records {
                 records.stop(&error.to_string());
-                let part = target.map(Target::part);
+                let part = target.map(Destination::part);
                 if let Some(part) = part.filter(|part| part.is_file()) {
                     errln!("the records up to there are in {}", part.display());
                 }
@@ -117,7 +117,7 @@ impl Keeper<'_> {
         self.known = begun.known;
         let settings = self.settings;
         // First of all: what is read below is then not another run's.
-        let output = settings.out.as_ref().map(Target::open).transpose()?.flatten();
+        let output = settings.out.as_ref().map(Destination::open).transpose()?.flatten();
         let header = self.header.clone().with_scales(begun.known, begun.scales);
         let path = settings.checkpoint.as_ref().map(|(path, _)| path.as_path());
         let found = match path {

@@ -22,7 +22,7 @@ use crate::source::{Accuracy, Source};
 use crate::{load, progress};
 use keep::{Trajectory, keep};
 use settings::{Header, Settings, every};
-use target::{Place, Target, paths};
+use target::{Destination, Place, paths};
 
 /// Runs every truncation asked for.
 pub(crate) fn run(options: &SimulateOptions) -> Result<(), CliError> {
@@ -87,7 +87,7 @@ fn read(options: &SimulateOptions) -> Result<Read, CliError> {
 fn runs(
     options: &SimulateOptions,
     Read { systems, hash }: Read,
-    out: Option<&Target>,
+    out: Option<&Destination>,
 ) -> Result<(Vec<Trajectory>, Units), CliError> {
     let path = &options.input.source(None).file;
     let outs = outs(out, &systems)?;
@@ -134,7 +134,7 @@ pub(crate) fn derived(path: &Path, system: System) -> Result<Derived, CliError> 
 fn follow(
     path: &Path,
     options: &SimulateOptions,
-    out: Option<Target>,
+    out: Option<Destination>,
 ) -> Result<Trajectory, CliError> {
     if options.start.is_empty() {
         return Err(unsaid("start"));
@@ -189,12 +189,15 @@ pub(crate) fn schedule(
 }
 
 /// The targets of the records of each system. Several truncations go to a file each; the names are announced.
-fn outs(out: Option<&Target>, systems: &[System]) -> Result<Vec<Option<Target>>, CliError> {
+fn outs(
+    out: Option<&Destination>,
+    systems: &[System],
+) -> Result<Vec<Option<Destination>>, CliError> {
     let (Some(out), true) = (out, systems.len() > 1) else {
         return Ok(vec![out.cloned(); systems.len()]);
     };
     let numbered = systems.iter().map(|system| out.numbered(system.problem.facts().truncation));
-    let targets: Vec<Target> = numbered.collect::<Result<_, _>>()?;
+    let targets: Vec<Destination> = numbered.collect::<Result<_, _>>()?;
     let names: Vec<String> = targets.iter().map(|t| t.path.display().to_string()).collect();
     errln!("--out: a file for each truncation, {}", names.join(", "));
     Ok(targets.into_iter().map(Some).collect())

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use coadjoint_codegen::file;
 use coadjoint_codegen::system::Units;
-use coadjoint_draw::run::{Picture, Run, Series, render};
+use coadjoint_draw::run::{Picture, Recording, Series, render};
 use serde_json::Value;
 
 use super::keep::Trajectory;
@@ -66,7 +66,7 @@ pub(crate) fn brief(value: f64) -> String {
     }
 }
 
-fn curves(run: &Trajectory, units: &Units) -> Run {
+fn curves(run: &Trajectory, units: &Units) -> Recording {
     let momentum = |(i, name): (usize, &String)| Series {
         name: name.clone(),
         unit: units.coordinate(i).map(str::to_owned),
@@ -95,7 +95,7 @@ fn curves(run: &Trajectory, units: &Units) -> Run {
     if casimirs {
         drifts.push(drift("Casimirs", 1));
     }
-    Run {
+    Recording {
         label: run.label.clone(),
         times: run.samples.iter().map(|sample| sample.time).collect(),
         momentum: run.coordinates.iter().enumerate().map(momentum).collect(),

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use super::samples::Samples;
 use super::settings::Header;
-use super::target::{Place, Target, paths};
+use super::target::{Destination, Place, paths};
 use crate::error::{CliError, unwritten};
 use crate::form::Form;
 use crate::note::Identity;
@@ -42,7 +42,7 @@ pub(crate) struct Checkpoint {
 
 /// A file, a device or the standard output that takes records.
 pub(crate) struct Records {
-    target: Target,
+    target: Destination,
     header: Header,
     names: Vec<String>,
     /// `None` for the standard output, and for a file that an earlier run has completed.
@@ -63,7 +63,7 @@ impl Records {
     /// Begins anew, or goes on where a checkpoint was made: what came after it is cut off, and nothing is added to a file
     /// that an earlier run has completed. `output` is the file that the target has opened.
     pub(crate) fn open(
-        target: &Target,
+        target: &Destination,
         output: Option<Output>,
         header: Header,
         names: Vec<String>,
@@ -215,7 +215,7 @@ impl Records {
         if self.target.form != Form::Csv && self.output.is_some() {
             self.describe(true)?;
         }
-        let Self { target: Target { form, path, inputs, .. }, output, names, .. } = &mut self;
+        let Self { target: Destination { form, path, inputs, .. }, output, names, .. } = &mut self;
         let Some(output) = output else { return Ok(()) };
         form.publish(output, path, names, &paths(inputs)).map_err(unwritten(path))
     }

@@ -15,7 +15,7 @@ use coadjoint_run::simulate::{Event, Scales, Schedule, Setup, Times};
 use coadjoint_run::{Accuracy, Derived, RunError, System, inputs_hash, read_varying};
 use serde_json::{Map, Value, json};
 
-use super::target::{Place, Target, paths};
+use super::target::{Destination, Place, paths};
 use crate::arguments::SimulateOptions;
 use crate::error::{CliError, unwritten};
 use crate::note::Identity;
@@ -31,7 +31,7 @@ pub(crate) struct Settings<'a> {
     pub inputs: Vec<PathBuf>,
     pub setup: Setup,
     /// The target of records.
-    pub out: Option<Target>,
+    pub out: Option<Destination>,
     /// True if a picture is requested.
     pub sampled: bool,
     /// The file of checkpoints, and the time between two.
@@ -42,7 +42,7 @@ impl<'a> Settings<'a> {
     pub(crate) fn new(
         options: &SimulateOptions,
         (file, hash): (&'a Path, &'a str),
-        out: Option<Target>,
+        out: Option<Destination>,
         setup: Setup,
     ) -> Result<Self, CliError> {
         let what = "--checkpoint-interval must be a number of seconds, 0 or more";
@@ -139,11 +139,11 @@ pub(crate) fn every(steps: usize) -> Result<u64, CliError> {
 pub(crate) fn check_names(
     options: &SimulateOptions,
     inputs: &[PathBuf],
-) -> Result<Option<Target>, CliError> {
+) -> Result<Option<Destination>, CliError> {
     let refuse = |what: String| Err(CliError::Option(what));
     let mut used = inputs.to_vec();
-    let out = options.out.as_deref().map(|out| Target::new(out, &used)).transpose()?;
-    used.extend(out.iter().flat_map(Target::names));
+    let out = options.out.as_deref().map(|out| Destination::new(out, &used)).transpose()?;
+    used.extend(out.iter().flat_map(Destination::names));
     for path in options.plot.iter().chain(&options.checkpoint) {
         file::check(path, &paths(&used)).map_err(unwritten(path))?;
         used.push(path.clone());

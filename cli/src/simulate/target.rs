@@ -20,7 +20,7 @@ pub(crate) enum Place {
 
 /// The target of records.
 #[derive(Clone, Debug)]
-pub(crate) struct Target {
+pub(crate) struct Destination {
     /// The name given.
     pub path: PathBuf,
     pub form: Form,
@@ -29,7 +29,7 @@ pub(crate) struct Target {
     pub inputs: Vec<PathBuf>,
 }
 
-impl Target {
+impl Destination {
     /// The target of `--out`: refused where the name has no known ending, its folder is not there, or it is an input.
     pub(crate) fn new(path: &Path, inputs: &[PathBuf]) -> Result<Self, CliError> {
         let refuse = |what: &str| CliError::Option(format!("--out {}: {what}", path.display()));

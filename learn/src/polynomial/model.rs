@@ -118,9 +118,9 @@ impl Basis {
     }
 
     /// T_k, T_k′, T_k″ at `u`: three rows of degree + 1 values per coordinate.
-    fn tables(&self, u: impl Iterator<Item = f64>) -> Tables {
+    fn tables(&self, u: impl Iterator<Item = f64>) -> Chebyshev {
         let width = self.degree + 1;
-        let mut tables = Tables { width, entries: Vec::with_capacity(3 * width * self.dim) };
+        let mut tables = Chebyshev { width, entries: Vec::with_capacity(3 * width * self.dim) };
         for coordinate in u {
             tables.push(coordinate);
         }
@@ -142,12 +142,12 @@ fn compositions(left: usize, from: usize, current: &mut Vec<u8>, all: &mut Vec<u
 }
 
 /// Chebyshev polynomials and their first two derivatives at one point.
-struct Tables {
+struct Chebyshev {
     width: usize,
     entries: Vec<f64>,
 }
 
-impl Tables {
+impl Chebyshev {
     fn push(&mut self, u: f64) {
         let start = self.entries.len();
         let width = self.width;
@@ -277,7 +277,7 @@ impl PolynomialModel {
         }
     }
 
-    fn tables(&self, p: &[f64]) -> Tables {
+    fn tables(&self, p: &[f64]) -> Chebyshev {
         self.basis.tables(p.iter().enumerate().map(|(i, &v)| self.scaling.normalise(i, v)))
     }
 }

@@ -8,7 +8,7 @@ use coadjoint_codegen::system::{Options, read_either};
 use coadjoint_page::fields::Fields;
 use coadjoint_page::file::File;
 use coadjoint_page::gallery::gallery;
-use coadjoint_page::run::Run;
+use coadjoint_page::run::Animation;
 use coadjoint_page::system::System;
 
 /// Lists of bonds, which a page's fields do not hold, potentials, torques, damping, 192 dimensions, and steps of more than 60 000
@@ -69,7 +69,7 @@ fn every_system_of_the_gallery_runs_and_keeps_momentum_and_casimirs() {
     for entry in gallery() {
         let system = System::new(&entry.fields)
             .unwrap_or_else(|mistakes| panic!("{}: {mistakes:?}", entry.id));
-        let mut run = Run::new(&system, &system.momentum);
+        let mut run = Animation::new(&system, &system.momentum);
         let copied = read_either(&system.file, Options::default(), &[]).unwrap();
         assert_eq!(
             (copied.run.momentum, copied.run.step),

@@ -5,7 +5,7 @@ use coadjoint_codegen::poly::Numeric;
 use coadjoint_page::fields::Fields;
 use coadjoint_page::gallery::gallery;
 use coadjoint_page::orbit::Orbit;
-use coadjoint_page::run::{Reason, Refusal, Run};
+use coadjoint_page::run::{Animation, Reason, Refusal};
 use coadjoint_page::system::System;
 
 fn fields(id: &str) -> Fields {
@@ -18,7 +18,7 @@ const MOMENTUM: [f64; 3] = [2.01070712626444, -0.3680827891997475, -1.0351675771
 #[test]
 fn a_run_has_the_bits_of_the_command() {
     let system = System::new(&fields("rigid-body")).unwrap();
-    let mut run = Run::new(&system, &system.momentum);
+    let mut run = Animation::new(&system, &system.momentum);
     assert_eq!(run.advance(&system, 1000), 1000);
     assert_eq!(run.momentum(), MOMENTUM);
     let [[_, momentum, casimirs], [rival, ..]] = run.history.most;
@@ -36,7 +36,7 @@ fn drifts_are_those_that_the_command_reports() {
         [(body, 400, 1.2377828154956593e-7), (fields("lagrange-top"), 1000, 6.515955383543245e-11)]
     {
         let system = System::new(&fields).unwrap();
-        let mut run = Run::new(&system, &system.momentum);
+        let mut run = Animation::new(&system, &system.momentum);
         assert_eq!(run.advance(&system, steps), steps);
         let [[energy, momentum, casimirs], _] = run.history.most;
         assert!((energy / expected - 1.0).abs() < 1e-4, "{energy:e}");
@@ -50,14 +50,14 @@ fn a_refused_step_says_why_and_what_would_do() {
     for (step, reason) in [("1.9", Reason::BeyondChart), ("40", Reason::BeyondSeries)] {
         fields.step = step.into();
         let system = System::new(&fields).unwrap();
-        let mut run = Run::new(&system, &system.momentum);
+        let mut run = Animation::new(&system, &system.momentum);
         let made = run.advance(&system, 1000);
         let refusal = run.refusal.clone().unwrap_or_else(|| panic!("h = {step}: {made} steps"));
         assert_eq!(refusal.reason, reason, "h = {step}");
         // The state is as it was, and the shorter step can be made.
         fields.step = refusal.usable.unwrap().to_string();
         let shorter = System::new(&fields).unwrap();
-        assert_eq!(Run::new(&shorter, run.momentum()).advance(&shorter, 1), 1);
+        assert_eq!(Animation::new(&shorter, run.momentum()).advance(&shorter, 1), 1);
     }
 }
 
@@ -65,12 +65,12 @@ fn a_refused_step_says_why_and_what_would_do() {
 fn roots_and_hamiltonians_that_move_in_time_are_run() {
     // With E = H the relativistic body is the rigid one whose time goes slower by the factor E.
     let system = System::new(&fields("relativistic-body")).unwrap();
-    let mut run = Run::new(&system, &system.momentum);
+    let mut run = Animation::new(&system, &system.momentum);
     let slower = system.h / run.energy(&system);
     let mut rigid = fields("rigid-body");
     rigid.step = slower.to_string();
     let rigid = System::new(&rigid).unwrap();
-    let mut beside = Run::new(&rigid, &rigid.momentum);
+    let mut beside = Animation::new(&rigid, &rigid.momentum);
     assert_eq!((run.advance(&system, 500), beside.advance(&rigid, 500)), (500, 500));
     for (a, b) in run.momentum().iter().zip(beside.momentum()) {
         assert!((a - b).abs() < 1e-9, "{a} {b}");
@@ -78,7 +78,7 @@ fn roots_and_hamiltonians_that_move_in_time_are_run() {
     assert!(run.history.most[0].into_iter().all(|drift| drift < 1e-12));
     // Rosen and Zener's pulse: see the file.
     let system = System::new(&fields("driven-qubit")).unwrap();
-    let mut run = Run::new(&system, &system.momentum);
+    let mut run = Animation::new(&system, &system.momentum);
     assert_eq!(run.advance(&system, 1200), 1200);
     let half = std::f64::consts::FRAC_PI_2;
     let over = ((half * 0.8).sin() / (half * 0.2).cosh()).powi(2);
@@ -93,7 +93,7 @@ fn a_step_out_of_the_domain_is_refused_with_the_expression() {
     fields.hamiltonian = "z + x^(3/2)".into();
     (fields.parameters, fields.momentum) = (String::new(), "0.5 -1 1".into());
     let system = System::new(&fields).unwrap();
-    let mut run = Run::new(&system, &system.momentum);
+    let mut run = Animation::new(&system, &system.momentum);
     let made = run.advance(&system, 1000);
     assert!((1..1000).contains(&made), "{made}");
     let Refusal { reason, .. } = run.refusal.unwrap();
@@ -105,7 +105,7 @@ fn a_step_out_of_the_domain_is_refused_with_the_expression() {
     fields.hamiltonian = "exp(x^2/2) + y^2".into();
     fields.step = "3".into();
     let system = System::new(&fields).unwrap();
-    let mut run = Run::new(&system, &system.momentum);
+    let mut run = Animation::new(&system, &system.momentum);
     run.advance(&system, 100);
     let Refusal { reason, usable } = run.refusal.unwrap();
     assert!(matches!(reason, Reason::NotResolved | Reason::NotSolved), "{reason:?}");
@@ -169,7 +169,7 @@ fn level_curves_are_on_the_orbit_and_on_their_level() {
 #[test]
 fn histories_stay_short_and_forget_no_largest_drift() {
     let system = System::new(&fields("wing-nut")).unwrap();
-    let mut run = Run::new(&system, &system.momentum);
+    let mut run = Animation::new(&system, &system.momentum);
     run.advance(&system, 5000);
     let samples = &run.history.samples;
     assert!(samples.len() <= 721, "{}", samples.len());

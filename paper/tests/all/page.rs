@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
-use coadjoint_draw::run::{Picture, Run, Series};
+use coadjoint_draw::run::{Picture, Recording, Series};
 use coadjoint_paper::experiment::{EXPERIMENTS, run};
 use coadjoint_paper::outcome::{Options, Report};
 use coadjoint_paper::page::{page, sections};
@@ -35,7 +35,7 @@ fn gallery() -> Vec<Picture> {
     };
     let picture = |name: &str, momentum: Vec<Series>, drift: f64| {
         let drifts = vec![series("energy", &|t| 1e-9 * t), series("spatial momentum", &|_| drift)];
-        let run = Run { label: "K = 7, exp".into(), times: times.clone(), momentum, drifts };
+        let run = Recording { label: "K = 7, exp".into(), times: times.clone(), momentum, drifts };
         let settings = vec!["group <SO3>".into(), "K = 7".into()];
         Picture { name: name.into(), settings, time_unit: Some("s".into()), runs: vec![run] }
     };

@@ -125,14 +125,14 @@ fn tried(
 }
 
 /// The steps of a trial and those back, and their programs, where there are any.
-struct Steps<'a> {
+struct Roundtrip<'a> {
     system: &'a Derived,
     there: Motion<'a>,
     back: Motion<'a>,
     compiled: Option<Arc<Compiled>>,
 }
 
-impl<'a> Steps<'a> {
+impl<'a> Roundtrip<'a> {
     fn new(system: &'a Derived, &Trial { start, step: h, .. }: &Trial) -> Result<Self, RunError> {
         let compiled = system.compiled(h, Backend::Auto, STEPS, Trajectories::One)?;
         let steps = |start, step| {
@@ -179,8 +179,8 @@ fn laws_of_steps(
     course: &Course,
 ) -> Result<(Vec<Law>, Option<f64>), RunError> {
     let (&Trial { start, step: h, .. }, group) = (trial, &*system.group.exponential);
-    let steps = Steps::new(system, trial)?;
-    let Steps { there: forward, back: backward, .. } = &steps;
+    let steps = Roundtrip::new(system, trial)?;
+    let Roundtrip { there: forward, back: backward, .. } = &steps;
     let (there, back) = (|state: &mut _| one(forward, state), |state: &mut _| one(backward, state));
     // With damping a potential is a part of these steps, which then have no law of [`LAWS`] to keep; back in time there may be
     // none where the run has one.
@@ -249,8 +249,8 @@ fn kicked(
     course: &Course,
 ) -> Result<Vec<Law>, RunError> {
     let (&Trial { start, step: h, .. }, group) = (trial, &*system.group.exponential);
-    let steps = Steps::new(system, trial)?;
-    let Steps { there, back, .. } = &steps;
+    let steps = Roundtrip::new(system, trial)?;
+    let Roundtrip { there, back, .. } = &steps;
     let states = course.states(trial, (group, true), |point| {
         one(there, &mut point.clone())?;
         one(back, &mut point.clone())

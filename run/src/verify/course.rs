@@ -45,7 +45,7 @@ impl From<Stop> for Trouble {
 }
 
 /// A motion that is judged.
-pub(crate) struct Course {
+pub(crate) struct Judged {
     motion: Motion,
     /// Rows of the group's matrices.
     size: usize,
@@ -64,7 +64,7 @@ struct Twins {
     turned: f64,
 }
 
-impl Course {
+impl Judged {
     /// From this momentum, over `steps` steps, in a group whose matrices have `size` rows.
     pub(crate) fn new(mu: &[f64], steps: u64, size: usize) -> Self {
         let twins = (steps > PROVEN).then(|| Twins::new(mu));

@@ -10,7 +10,7 @@ use coadjoint_codegen::problem::Parameter;
 use coadjoint_codegen::smooth::Hamiltonian;
 use coadjoint_learn::table::Table;
 
-use super::course::{Course, Trouble};
+use super::course::{Judged, Trouble};
 use super::found::Found;
 use super::said::Said;
 use super::states::{Columns, Invariants, Measured, State, next, refused};
@@ -208,7 +208,7 @@ impl<'a> Follower<'a> {
         if !before.numbers().chain(after.numbers()).all(f64::is_finite) {
             return found.blame(format!("{place}: a number is not finite"));
         }
-        let mut course = Course::new(&before.momentum, steps, self.size);
+        let mut course = Judged::new(&before.momentum, steps, self.size);
         let grid = Grid { start: then, ..self.grid };
         let last = grid.time(steps);
         for (then, size, count) in [(then, grid.step, steps), (last, rest, u64::from(rest != 0.0))]
@@ -256,7 +256,7 @@ impl<'a> Follower<'a> {
         &self,
         place: &str,
         (before, after): (&Measured, &Measured),
-        (course, steps): (&Course, u64),
+        (course, steps): (&Judged, u64),
         found: &mut Found,
     ) {
         // Nothing is measured if the motion stretches by more than numbers can resolve.

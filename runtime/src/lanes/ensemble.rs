@@ -39,14 +39,14 @@ where
 {
     let blocks = states.par_chunks_mut(BLOCK).enumerate();
     let failures = blocks.map(|(block, states)| {
-        let run = Run { step, states, first: block * BLOCK, steps };
+        let run = Dispatched { step, states, first: block * BLOCK, steps };
         Arch::new().dispatch(run)
     });
     failures.collect::<Vec<_>>().concat()
 }
 
 /// Steps of some trajectories, as something pulp can compile for several instruction sets.
-struct Run<'a, S: Lanes> {
+struct Dispatched<'a, S: Lanes> {
     step: &'a S,
     states: &'a mut [Phase<S::Group>],
     /// The index of the first in the ensemble.
@@ -54,7 +54,7 @@ struct Run<'a, S: Lanes> {
     steps: u64,
 }
 
-impl<S: Lanes> WithSimd for Run<'_, S> {
+impl<S: Lanes> WithSimd for Dispatched<'_, S> {
     type Output = Vec<Failure>;
 
     #[inline(always)]

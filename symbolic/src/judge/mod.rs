@@ -76,12 +76,12 @@ const UNITS: i64 = 32;
 #[derive(Clone, Debug)]
 pub struct Judge {
     geometry: Geometry,
-    law: Law,
+    law: Definition,
 }
 
 /// The equation of the steps.
 #[derive(Clone, Debug)]
-enum Law {
+enum Definition {
     /// By a series, and the motion of a comoving frame, which follows each step.
     Series(Series, Vec<Series>),
     Collocation(Box<Collocation>),
@@ -98,7 +98,7 @@ impl Judge {
 
     fn in_units(geometry: Geometry, series: &GeneratingSeries) -> Result<Self, JudgeError> {
         let orders = (1..=series.truncation()).map(|k| (k as u32, series.order(k)));
-        let law = Law::Series(Series::new(&geometry, orders), Vec::new());
+        let law = Definition::Series(Series::new(&geometry, orders), Vec::new());
         Ok(Self { geometry, law })
     }
 
@@ -123,7 +123,7 @@ impl Judge {
         let mut geometry = Geometry::new(algebra, chart)?;
         geometry.units = problem.units();
         let mut judge = Self::in_units(geometry, &series)?;
-        if let Law::Series(_, frame) = &mut judge.law {
+        if let Definition::Series(_, frame) = &mut judge.law {
             let parts = problem.comoving.iter().flat_map(Frame::parts);
             frame.extend(parts.map(|part| Series::new(&judge.geometry, [(1, part)])));
         }
@@ -140,7 +140,7 @@ impl Judge {
         let nodes = smooth.nodes();
         let degree = if nodes == 1 { 1 } else { 2 * nodes - 2 };
         let collocation = Collocation::new(Energy::new(smooth)?, nodes, degree);
-        let law = Law::Collocation(Box::new(collocation.ok_or(JudgeError::OutOfRange)?));
+        let law = Definition::Collocation(Box::new(collocation.ok_or(JudgeError::OutOfRange)?));
         Ok(Self { geometry, law })
     }
 
@@ -205,7 +205,7 @@ impl Setting<'_> {
         }
         let exponent = if largest == 0.0 { 0 } else { exponent_of(largest) + scale };
         let (unit, equation) = match &judge.law {
-            Law::Series(series, frame) => {
+            Definition::Series(series, frame) => {
                 // Not so small that coefficients underflow in it.
                 let unit = ((exponent + UNITS / 2).div_euclid(UNITS) * UNITS).max(-960);
                 let place = self.scaled.iter().position(|scaled| scaled.scale == unit);
@@ -221,7 +221,7 @@ impl Setting<'_> {
                 }
                 (unit, Equation::Series(folded))
             }
-            Law::Collocation(collocation) => {
+            Definition::Collocation(collocation) => {
                 let (symbols, step, scale) = (&self.symbols[..], self.step, exponent);
                 let middle = self.time + DoubleDouble::from(0.5 * step);
                 let stage = Stage { collocation, symbols, step, middle, scale };

@@ -65,8 +65,8 @@ impl LieAlgebra {
     }
 
     /// The first index of each factor.
-    fn blocks(&self) -> Vec<Block> {
-        let mut blocks: Vec<Block> = Vec::new();
+    fn blocks(&self) -> Vec<Stretch> {
+        let mut blocks: Vec<Stretch> = Vec::new();
         // The last element, and the last row, that what came before has.
         for ideal in self.ideals() {
             let (first, last) = (ideal[0], ideal[ideal.len() - 1]);
@@ -76,7 +76,7 @@ impl LieAlgebra {
             };
             let rows: Vec<usize> = ideal.iter().flat_map(rows).collect();
             let none = self.basis().is_none();
-            let mut block = Block {
+            let mut block = Stretch {
                 element: first,
                 last_element: last,
                 row: rows.iter().copied().min().unwrap_or(if none { first } else { 0 }),
@@ -102,7 +102,7 @@ impl LieAlgebra {
 }
 
 /// Consecutive basis elements, and the rows of their matrices.
-struct Block {
+struct Stretch {
     element: usize,
     last_element: usize,
     row: usize,

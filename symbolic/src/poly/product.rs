@@ -90,14 +90,14 @@ fn run<K: Key>(
 }
 
 /// The arithmetic of one kind of integer.
-pub(super) trait Number: Sized {
+pub(super) trait Numerator: Sized {
     fn times(&self, other: &Self) -> Self;
     fn add_product(&mut self, left: &Self, right: &Self);
     fn vanishes(&self) -> bool;
     fn nothing() -> Self;
 }
 
-impl Number for i128 {
+impl Numerator for i128 {
     // The plan bounds every sum, so wrapping operations never wrap.
     #[inline(always)]
     fn times(&self, other: &Self) -> Self {
@@ -117,7 +117,7 @@ impl Number for i128 {
     }
 }
 
-impl Number for BigInt {
+impl Numerator for BigInt {
     fn times(&self, other: &Self) -> Self {
         self * other
     }
@@ -134,7 +134,7 @@ impl Number for BigInt {
 
 /// The nonzero terms of Σ factor · left · right, sorted. Loops count by hand and index slices
 /// because iterators are function calls in an unoptimised build.
-pub(super) fn accumulate<K: Key, N: Number>(
+pub(super) fn accumulate<K: Key, N: Numerator>(
     keys: &[(&[K], &[K])],
     numbers: &[(N, &[N], &[N])],
     limit: usize,
@@ -172,7 +172,7 @@ pub(super) fn accumulate<K: Key, N: Number>(
 }
 
 /// Drops zeros and sorts keys descending.
-fn sort<K: Key, N: Number>(keys: Vec<K>, sums: Vec<N>) -> (Vec<K>, Vec<N>) {
+fn sort<K: Key, N: Numerator>(keys: Vec<K>, sums: Vec<N>) -> (Vec<K>, Vec<N>) {
     let mut terms: Vec<(K, N)> = Vec::with_capacity(keys.len());
     for (key, sum) in keys.into_iter().zip(sums) {
         if !sum.vanishes() {

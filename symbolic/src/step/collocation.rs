@@ -98,7 +98,7 @@ pub(super) fn operations(smooth: &Smooth) -> usize {
 /// torque, a radius that is not read, with kicks the length of one, and, where the system moves, for each of the [`times`] the
 /// time and the signals then. Without kicks the last part of the group is the memory of its steps.
 pub(super) fn kernel(smooth: &Smooth, group: &Product) -> Result<Kernel, StepError> {
-    let step = Collocation::new(smooth, group);
+    let step = Assembly::new(smooth, group);
     let rates = step.rates();
     let programs = Programs {
         guess: step.guess(),
@@ -123,7 +123,7 @@ pub(super) fn kernel(smooth: &Smooth, group: &Product) -> Result<Kernel, StepErr
     kicked(kernel, smooth.kicks.as_ref(), group, radius_at(smooth) + 1)
 }
 
-struct Collocation<'a> {
+struct Assembly<'a> {
     smooth: &'a Smooth,
     group: &'a Product,
     /// The dimension, and the numbers of a group element without the memory.
@@ -192,7 +192,7 @@ fn share(graph: &Graph, part: Id, whole: Id) -> Id {
     graph.select(part, zero, zero, graph.div(part, whole))
 }
 
-impl<'a> Collocation<'a> {
+impl<'a> Assembly<'a> {
     fn new(smooth: &'a Smooth, group: &'a Product) -> Self {
         let n = group.dim();
         let graph = Graph::new();

@@ -8,7 +8,7 @@ use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::poly::Polynomial;
 
 use super::family::Energy::{Body, Squares, Tensor, Top};
-use super::family::{Family, Made, Maker, Recipe};
+use super::family::{Family, Instance, Maker, Recipe};
 use super::random::Random;
 use super::runtime::{
     Cayley, Exponential, Heisenberg, MatrixFree, Power, Runner, SE2, SE3, SO3, SU2, SU3, Terms,
@@ -17,23 +17,28 @@ use super::runtime::{
 use super::{collocation, generated, kernels, steep};
 use crate::bridge::matrix_group;
 
-fn table(algebra: &LieAlgebra, terms: Terms, _: f64, _: &mut Random) -> Option<Made> {
+fn table(algebra: &LieAlgebra, terms: Terms, _: f64, _: &mut Random) -> Option<Instance> {
     let group = matrix_group(algebra).expect("a group");
-    Some(Made::series(Runner::new(polynomial(group, Exponential, terms))))
+    Some(Instance::series(Runner::new(polynomial(group, Exponential, terms))))
 }
 
-fn table_cayley(algebra: &LieAlgebra, terms: Terms, _: f64, _: &mut Random) -> Option<Made> {
+fn table_cayley(algebra: &LieAlgebra, terms: Terms, _: f64, _: &mut Random) -> Option<Instance> {
     let group = matrix_group(algebra).expect("a group").into_cayley().expect("a Cayley map");
-    Some(Made::series(Runner::new(polynomial(group, Cayley, terms))))
+    Some(Instance::series(Runner::new(polynomial(group, Cayley, terms))))
 }
 
-fn fixed_point(_: &LieAlgebra, terms: Terms, _: f64, _: &mut Random) -> Option<Made> {
+fn fixed_point(_: &LieAlgebra, terms: Terms, _: f64, _: &mut Random) -> Option<Instance> {
     let steps = MatrixFree(polynomial(SO3::<f64>::new(), Exponential, terms));
-    Some(Made::series(Runner::new(steps)))
+    Some(Instance::series(Runner::new(steps)))
 }
 
 /// An S that is no truncated series: one with every coefficient changed at random by the same share at most.
-fn any_function(algebra: &LieAlgebra, terms: Terms, h: f64, random: &mut Random) -> Option<Made> {
+fn any_function(
+    algebra: &LieAlgebra,
+    terms: Terms,
+    h: f64,
+    random: &mut Random,
+) -> Option<Instance> {
     let share = 10_f64.powf(random.between(-9.0, -0.5));
     let change = |(_, c, monomial)| (c * (1.0 + share * random.between(-1.0, 1.0)), monomial);
     let terms: Vec<_> = terms.into_iter().map(change).collect();
@@ -47,13 +52,13 @@ fn any_function(algebra: &LieAlgebra, terms: Terms, h: f64, random: &mut Random)
     let series = derive(algebra, Chart::Exponential, &energy, 1, TermLimit::default()).ok()?;
     let judge = Some(Judge::new(algebra, &series).ok()?);
     let steps = PolynomialFunction::new(SO3::<f64>::new(), Exponential, terms).ok()?;
-    Some(Made { steps: Box::new(Runner::new(steps)), judge })
+    Some(Instance { steps: Box::new(Runner::new(steps)), judge })
 }
 
 /// The steps of a group that the compiler knows.
 macro_rules! known {
     ($group:expr, $chart:expr) => {
-        |_, terms, _, _| Some(Made::series(Runner::new(polynomial($group, $chart, terms))))
+        |_, terms, _, _| Some(Instance::series(Runner::new(polynomial($group, $chart, terms))))
     };
 }
 

@@ -31,16 +31,16 @@ pub struct System {
 }
 
 /// Makes steps of this size; `None` where there are none.
-pub type Make = Box<dyn Fn(f64, &mut Random) -> Option<Made>>;
+pub type Make = Box<dyn Fn(f64, &mut Random) -> Option<Instance>>;
 
 /// Steps, and a judge of their own where S is not the model's series.
-pub struct Made {
+pub struct Instance {
     pub steps: Box<dyn Steps>,
     /// The judge, the step size counted in it.
     pub judge: Option<Judge>,
 }
 
-impl Made {
+impl Instance {
     /// Steps of the model's series.
     pub fn series(steps: impl Steps + 'static) -> Self {
         Self { steps: Box::new(steps), judge: None }
@@ -48,7 +48,7 @@ impl Made {
 }
 
 /// Makes steps from the algebra, the terms of S, and the step size that these have been folded for.
-pub type Maker = fn(&LieAlgebra, Terms, f64, &mut Random) -> Option<Made>;
+pub type Maker = fn(&LieAlgebra, Terms, f64, &mut Random) -> Option<Instance>;
 
 pub struct Family {
     pub name: String,

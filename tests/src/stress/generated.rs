@@ -6,7 +6,7 @@ use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::parse::rust;
 use coadjoint_codegen::poly::Polynomial;
 
-use super::family::{Family, Made, Model, System, inertias};
+use super::family::{Family, Instance, Model, System, inertias};
 use super::random::Random;
 use super::runtime::{MatrixFree, Runner};
 
@@ -42,21 +42,21 @@ system!(
 );
 
 /// Makes steps from their size and the moments of inertia.
-type Make = fn(f64, [f64; 3]) -> Option<Made>;
+type Make = fn(f64, [f64; 3]) -> Option<Instance>;
 
-fn in_lanes(h: f64, inertia: [f64; 3]) -> Option<Made> {
+fn in_lanes(h: f64, inertia: [f64; 3]) -> Option<Instance> {
     let steps = fixed::System::<f64>::new(h, inertia).ok()?;
-    Some(Made::series(Runner::new(steps).in_lanes()))
+    Some(Instance::series(Runner::new(steps).in_lanes()))
 }
 
-fn by_fixed_point(h: f64, inertia: [f64; 3]) -> Option<Made> {
+fn by_fixed_point(h: f64, inertia: [f64; 3]) -> Option<Instance> {
     let steps = fixed::System::<f64>::new(h, inertia).ok()?;
-    Some(Made::series(Runner::new(MatrixFree(steps))))
+    Some(Instance::series(Runner::new(MatrixFree(steps))))
 }
 
-fn in_a_comoving_frame(h: f64, inertia: [f64; 3]) -> Option<Made> {
+fn in_a_comoving_frame(h: f64, inertia: [f64; 3]) -> Option<Instance> {
     let steps = comoving::System::<f64>::new(h, inertia).ok()?;
-    Some(Made::series(Runner::new(steps).in_lanes()))
+    Some(Instance::series(Runner::new(steps).in_lanes()))
 }
 
 /// Bodies of any size that obey the triangle inequality, with ratios to 10. Where `must`, steps with h|μ|/I < 1.5 must be

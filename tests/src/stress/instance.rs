@@ -2,7 +2,7 @@
 
 use coadjoint_codegen::judge::{Branch, Inside, Motion, Point, RightSolution, Setting, Stop};
 
-use super::family::{Family, Made, System};
+use super::family::{Family, Instance, System};
 use super::random::Random;
 use super::runtime::{Outcome, Steps, Way};
 use super::verdict::{Tally, Wrong};
@@ -71,7 +71,7 @@ pub fn run(family: &Family, seed: u64, tally: &mut Tally) {
 }
 
 /// A step size, by way of the size that momenta are to have, and the steps of it.
-fn setting(family: &Family, system: &System, random: &mut Random) -> Option<(f64, Made)> {
+fn setting(family: &Family, system: &System, random: &mut Random) -> Option<(f64, Instance)> {
     for _ in 0..20 {
         let decades = if random.one_in(2) { family.decades.min(2.0) } else { family.decades };
         let size = 10_f64.powf(random.between(-decades, decades));

@@ -12,7 +12,7 @@ use coadjoint_codegen::system::Options;
 use coadjoint_program::WIDTH;
 use nalgebra::DVector;
 
-use super::family::{Family, Made, Model, System};
+use super::family::{Family, Instance, Model, System};
 use super::random::Random;
 use super::runtime::{Outcome, State, Steps, Way};
 use crate::backends::{AnyStepper, Backend, matrix_of, numbers_of};
@@ -149,7 +149,7 @@ fn model(system: (&str, &str, &str, &str, usize), backend: Backend) -> Model {
         let steps = move |h: f64, _: &mut Random| {
             let slots = subject.step.fold(h, &[]).ok()?;
             let (stepper, subject) = (subject.stepper()?, Arc::clone(&subject));
-            Some(Made::series(Runner { subject, stepper, slots }))
+            Some(Instance::series(Runner { subject, stepper, slots }))
         };
         System {
             text: text.clone(),

@@ -19,7 +19,7 @@ const FARTHEST: f64 = 0.2;
 
 /// A function of one variable.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Shape {
+enum Profile {
     Pole,
     Tan,
     Root,
@@ -32,7 +32,7 @@ enum Shape {
 /// `height`·f(u), u = `width`·(Σ `slope`ᵢ μᵢ − `offset`)
 #[derive(Clone, Debug)]
 struct Term {
-    shape: Shape,
+    shape: Profile,
     height: f64,
     width: f64,
     slope: Vec<f64>,
@@ -47,12 +47,12 @@ impl Term {
     /// f and f′.
     fn of(&self, u: f64) -> [f64; 2] {
         match self.shape {
-            Shape::Pole => [1.0 / u, -1.0 / (u * u)],
-            Shape::Tan => [u.tan(), 1.0 + u.tan() * u.tan()],
-            Shape::Root => [u.sqrt(), 0.5 / u.sqrt()],
-            Shape::Sin => [u.sin(), u.cos()],
-            Shape::Tanh => [u.tanh(), 1.0 - u.tanh() * u.tanh()],
-            Shape::ExpTanh => {
+            Profile::Pole => [1.0 / u, -1.0 / (u * u)],
+            Profile::Tan => [u.tan(), 1.0 + u.tan() * u.tan()],
+            Profile::Root => [u.sqrt(), 0.5 / u.sqrt()],
+            Profile::Sin => [u.sin(), u.cos()],
+            Profile::Tanh => [u.tanh(), 1.0 - u.tanh() * u.tanh()],
+            Profile::ExpTanh => {
                 let (t, w) = (u.tanh(), 4.0);
                 let e = (w * t).exp();
                 [e, w * e * (1.0 - t * t)]
@@ -69,12 +69,12 @@ impl Term {
         };
         let bounded = |u: f64| u.clamp(-9.0, 9.0);
         match self.shape {
-            Shape::Pole | Shape::Root => ratio(a, b),
-            Shape::Tan => ratio(a.cos(), b.cos()).max((a - b).powi(2)),
-            Shape::Sin => (a - b).powi(2),
-            Shape::Tanh => (bounded(a) - bounded(b)).powi(2),
+            Profile::Pole | Profile::Root => ratio(a, b),
+            Profile::Tan => ratio(a.cos(), b.cos()).max((a - b).powi(2)),
+            Profile::Sin => (a - b).powi(2),
+            Profile::Tanh => (bounded(a) - bounded(b)).powi(2),
             // Of exp, too.
-            Shape::ExpTanh => {
+            Profile::ExpTanh => {
                 let inner = 16.0 * (a.tanh() - b.tanh()).powi(2);
                 inner.max((bounded(a) - bounded(b)).powi(2))
             }
@@ -85,9 +85,9 @@ impl Term {
     fn side<V: Coordinates<f64>>(&self, m: &V) -> f64 {
         let u = self.argument(m);
         match self.shape {
-            Shape::Pole | Shape::Root => u.signum(),
-            Shape::Tan => (u / core::f64::consts::PI + 0.5).floor(),
-            Shape::Sin | Shape::Tanh | Shape::ExpTanh => 0.0,
+            Profile::Pole | Profile::Root => u.signum(),
+            Profile::Tan => (u / core::f64::consts::PI + 0.5).floor(),
+            Profile::Sin | Profile::Tanh | Profile::ExpTanh => 0.0,
         }
     }
 }
@@ -208,12 +208,12 @@ fn draw<G: LieGroup<Scalar = f64>>(
     for _ in 0..count {
         let slope = (0..n).map(|_| random.between(-2.0, 2.0)).collect();
         let shape = match (edges, random.below(3)) {
-            (true, 0) => Shape::Pole,
-            (true, 1) => Shape::Tan,
-            (true, _) => Shape::Root,
-            (false, 0) => Shape::Sin,
-            (false, 1) => Shape::Tanh,
-            (false, _) => Shape::ExpTanh,
+            (true, 0) => Profile::Pole,
+            (true, 1) => Profile::Tan,
+            (true, _) => Profile::Root,
+            (false, 0) => Profile::Sin,
+            (false, 1) => Profile::Tanh,
+            (false, _) => Profile::ExpTanh,
         };
         let height =
             10_f64.powf(random.between(-3.0, 0.0)) * if random.one_in(2) { -1.0 } else { 1.0 };
@@ -237,11 +237,11 @@ fn draw<G: LieGroup<Scalar = f64>>(
         let (now, away) = (along(&mu), along(&rate) * h * random.between(0.02, 3.0));
         term.offset = now + away;
         match term.shape {
-            Shape::Tan => {
+            Profile::Tan => {
                 term.width = random.between(0.3, 3.0);
                 term.offset -= away.signum() * core::f64::consts::FRAC_PI_2 / term.width;
             }
-            Shape::Root if away > 0.0 => {
+            Profile::Root if away > 0.0 => {
                 term.slope.iter_mut().for_each(|slope| *slope = -*slope);
                 term.offset = -term.offset;
             }

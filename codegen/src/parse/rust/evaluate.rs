@@ -19,7 +19,7 @@ pub(super) const DEEPEST_CALL: usize = 24;
 
 /// Reasons for which an expression has no value.
 #[derive(Debug)]
-pub(super) enum Flow {
+pub(super) enum NoValue {
     Return(Value),
     /// An operand was wrong, which has been reported.
     Wrong,
@@ -71,19 +71,19 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Counts an operation.
-    pub(super) fn tick(&mut self, span: Span) -> Result<(), Flow> {
+    pub(super) fn tick(&mut self, span: Span) -> Result<(), NoValue> {
         self.operations += 1;
         if self.operations <= MOST_OPERATIONS {
             return Ok(());
         }
         self.wrong(span, Mistake::LongLoop(MOST_OPERATIONS));
-        Err(Flow::Stop)
+        Err(NoValue::Stop)
     }
 
     /// The Hamiltonian the body of a function computes, and where.
     pub(super) fn body(&mut self, block: &Block) -> Option<(ExprId, Span)> {
         let value = match self.block(block) {
-            Ok(value) | Err(Flow::Return(value)) => value,
+            Ok(value) | Err(NoValue::Return(value)) => value,
             Err(_) => return None,
         };
         let result = block.stmts.last().map_or(Span::of(block), Span::of);
@@ -119,7 +119,7 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    pub(super) fn expression(&mut self, expression: &Expr) -> Result<Value, Flow> {
+    pub(super) fn expression(&mut self, expression: &Expr) -> Result<Value, NoValue> {
         let span = || Span::of(expression);
         match expression {
             Expr::Lit(literal) => Ok(self.literal(&literal.lit)),
@@ -141,7 +141,7 @@ impl<'a> Evaluator<'a> {
             Expr::Tuple(tuple) if tuple.elems.is_empty() => Ok(Value::Unit),
             Expr::Array(syn::ExprArray { elems, .. })
             | Expr::Tuple(syn::ExprTuple { elems, .. }) => {
-                let values: Result<Vec<Value>, Flow> =
+                let values: Result<Vec<Value>, NoValue> =
                     elems.iter().map(|entry| self.expression(entry)).collect();
                 Ok(Value::list(values?))
             }
@@ -164,7 +164,7 @@ impl<'a> Evaluator<'a> {
                 let base = self.expression(&index.expr)?;
                 match self.index(&index.index) {
                     Ok(index) => Ok(self.entry(&base, &index, span())),
-                    Err(Flow::Wrong) => Ok(Value::Wrong),
+                    Err(NoValue::Wrong) => Ok(Value::Wrong),
                     Err(flow) => Err(flow),
                 }
             }
@@ -185,7 +185,7 @@ impl<'a> Evaluator<'a> {
             Expr::While(while_loop) => self.while_loop(while_loop),
             Expr::Return(end) => {
                 let value = end.expr.as_ref().map_or(Ok(Value::Unit), |e| self.expression(e))?;
-                Err(Flow::Return(value))
+                Err(NoValue::Return(value))
             }
             Expr::MethodCall(call) => self.method_call(call),
             Expr::Call(call) => self.call(call),
@@ -265,14 +265,14 @@ impl Scopes {
 
 impl Evaluator<'_> {
     /// Runs a block in a scope of its own.
-    pub(super) fn block(&mut self, block: &Block) -> Result<Value, Flow> {
+    pub(super) fn block(&mut self, block: &Block) -> Result<Value, NoValue> {
         self.scopes.enter();
         let value = self.statements(block);
         self.scopes.leave();
         value
     }
 
-    fn statements(&mut self, block: &Block) -> Result<Value, Flow> {
+    fn statements(&mut self, block: &Block) -> Result<Value, NoValue> {
         // Items are visible in the whole block, before their line too.
         for statement in &block.stmts {
             if let Stmt::Item(item) = statement {
@@ -310,7 +310,7 @@ impl Evaluator<'_> {
         Ok(last)
     }
 
-    fn item(&mut self, item: &Item) -> Result<(), Flow> {
+    fn item(&mut self, item: &Item) -> Result<(), NoValue> {
         let (name, value) = match item {
             Item::Const(constant) => (&constant.ident, self.expression(&constant.expr)?),
             Item::Fn(function) => (&function.sig.ident, self.function_item(function)),
@@ -326,7 +326,7 @@ impl Evaluator<'_> {
     }
 
     /// `if`, where the condition is known.
-    pub(super) fn branch(&mut self, branch: &syn::ExprIf) -> Result<Value, Flow> {
+    pub(super) fn branch(&mut self, branch: &syn::ExprIf) -> Result<Value, NoValue> {
         match (self.condition(&branch.cond)?, &branch.else_branch) {
             (Some(true), _) => self.block(&branch.then_branch),
             (Some(false), Some((_, otherwise))) => self.expression(otherwise),
@@ -336,7 +336,7 @@ impl Evaluator<'_> {
     }
 
     /// A condition that does not depend on the momentum or the parameters.
-    pub(super) fn condition(&mut self, condition: &Expr) -> Result<Option<bool>, Flow> {
+    pub(super) fn condition(&mut self, condition: &Expr) -> Result<Option<bool>, NoValue> {
         let span = Span::of(condition);
         Ok(match self.expression(condition)? {
             Value::Bool(truth) => Some(truth),
@@ -416,10 +416,10 @@ impl Evaluator<'_> {
     }
 
     /// Gives `value` to the place that `expression` names.
-    pub(super) fn assign(&mut self, expression: &Expr, value: Value) -> Result<(), Flow> {
+    pub(super) fn assign(&mut self, expression: &Expr, value: Value) -> Result<(), NoValue> {
         let span = Span::of(expression);
         let (name, path) = match self.place(expression) {
-            Err(Flow::Wrong) => return Ok(()),
+            Err(NoValue::Wrong) => return Ok(()),
             Err(flow) => return Err(flow),
             Ok(Some(place)) => place,
             Ok(None) => {
@@ -446,7 +446,7 @@ impl Evaluator<'_> {
     }
 
     /// The variable of which an expression names an entry, and the indices that lead to it; `None` for other expressions.
-    fn place(&mut self, expression: &Expr) -> Result<Option<Place>, Flow> {
+    fn place(&mut self, expression: &Expr) -> Result<Option<Place>, NoValue> {
         match expression {
             Expr::Path(path) => {
                 let name = path.path.get_ident().map(ToString::to_string);
@@ -471,14 +471,15 @@ impl Evaluator<'_> {
     }
 
     /// `i` or `(i, j)`, known.
-    pub(super) fn index(&mut self, expression: &Expr) -> Result<Vec<usize>, Flow> {
+    pub(super) fn index(&mut self, expression: &Expr) -> Result<Vec<usize>, NoValue> {
         let parts = match self.expression(expression)? {
             Value::List(parts) => parts.to_vec(),
             single => vec![single],
         };
         let mut index = Vec::new();
         for part in parts {
-            let known = self.integer(&part, "an index", Span::of(expression)).ok_or(Flow::Wrong)?;
+            let known =
+                self.integer(&part, "an index", Span::of(expression)).ok_or(NoValue::Wrong)?;
             index.push(usize::try_from(known).unwrap_or(usize::MAX));
         }
         Ok(index)
@@ -556,11 +557,11 @@ impl Evaluator<'_> {
         function: &Rc<Callable>,
         arguments: Vec<Value>,
         span: Span,
-    ) -> Result<Value, Flow> {
+    ) -> Result<Value, NoValue> {
         self.tick(span)?;
         if self.calls >= DEEPEST_CALL {
             self.unsupported(span, "functions call each other too deeply", "unroll the recursion");
-            return Err(Flow::Stop);
+            return Err(NoValue::Stop);
         }
         let outside = std::mem::replace(&mut self.scopes, function.scopes.clone());
         self.calls += 1;
@@ -572,7 +573,7 @@ impl Evaluator<'_> {
         self.calls -= 1;
         self.scopes = outside;
         match value {
-            Err(Flow::Return(value)) => Ok(value),
+            Err(NoValue::Return(value)) => Ok(value),
             other => other,
         }
     }
@@ -606,7 +607,7 @@ impl Evaluator<'_> {
         self.unsupported(span, &message, "write its value, or pass it as a parameter")
     }
 
-    pub(super) fn call(&mut self, call: &ExprCall) -> Result<Value, Flow> {
+    pub(super) fn call(&mut self, call: &ExprCall) -> Result<Value, NoValue> {
         let span = Span::of(call);
         let mut arguments = Vec::new();
         for argument in &call.args {

@@ -8,7 +8,7 @@ use syn::{BinOp, Expr, ExprBinary, ExprMethodCall, ExprRange, RangeLimits, Type}
 use crate::diagnostic::{Mistake, Span, nearest};
 use crate::expr::{ExprId, Function, Node};
 use crate::number::{Rational, integer};
-use crate::parse::rust::evaluate::{Callable, Evaluator, Flow};
+use crate::parse::rust::evaluate::{Callable, Evaluator, NoValue};
 use crate::parse::rust::signature::sizes;
 
 /// A value of the function's world. Copies of lists and matrices share their entries.
@@ -134,7 +134,7 @@ type Combine = fn(ExprId, ExprId) -> Node;
 
 impl Evaluator<'_> {
     /// A binary operation or a compound assignment.
-    pub(super) fn binary(&mut self, binary: &ExprBinary) -> Result<Value, Flow> {
+    pub(super) fn binary(&mut self, binary: &ExprBinary) -> Result<Value, NoValue> {
         // a + b + c + … nests to the left; a loop keeps long sums off the stack.
         let mut chain = vec![binary];
         while let Some(Expr::Binary(left)) = chain.last().map(|b| &*b.left) {
@@ -330,7 +330,7 @@ fn is_assignment(op: &BinOp) -> bool {
 
 impl Evaluator<'_> {
     /// A range whose ends are known.
-    pub(super) fn range(&mut self, range: &ExprRange) -> Result<Value, Flow> {
+    pub(super) fn range(&mut self, range: &ExprRange) -> Result<Value, NoValue> {
         let span = Span::of(range);
         let mut bound = |bound: &Option<Box<Expr>>| {
             let Some(bound) = bound else {
@@ -353,7 +353,7 @@ impl Evaluator<'_> {
         Ok(Value::list(list))
     }
 
-    pub(super) fn for_loop(&mut self, for_loop: &syn::ExprForLoop) -> Result<Value, Flow> {
+    pub(super) fn for_loop(&mut self, for_loop: &syn::ExprForLoop) -> Result<Value, NoValue> {
         let span = Span::of(&for_loop.expr);
         let list = self.expression(&for_loop.expr)?;
         let Some(items) = list.iterated() else {
@@ -377,7 +377,7 @@ impl Evaluator<'_> {
     }
 
     /// `while condition { … }`, as long as the condition is known.
-    pub(super) fn while_loop(&mut self, while_loop: &syn::ExprWhile) -> Result<Value, Flow> {
+    pub(super) fn while_loop(&mut self, while_loop: &syn::ExprWhile) -> Result<Value, NoValue> {
         loop {
             self.tick(Span::of(&while_loop.cond))?;
             match self.condition(&while_loop.cond)? {
@@ -395,7 +395,7 @@ impl Evaluator<'_> {
         items: &[Value],
         call: &syn::ExprMethodCall,
         arguments: &[Value],
-    ) -> Result<Option<Value>, Flow> {
+    ) -> Result<Option<Value>, NoValue> {
         let span = Span::of(call);
         let pair = |(a, b): (Value, &Value)| Value::list([a, b.clone()]);
         let list = match (call.method.to_string().as_str(), arguments) {
@@ -436,15 +436,15 @@ impl Evaluator<'_> {
         items: &[Value],
         function: &Rc<Callable>,
         span: Span,
-    ) -> Result<Vec<Value>, Flow> {
+    ) -> Result<Vec<Value>, NoValue> {
         items.iter().map(|item| self.apply(function, vec![item.clone()], span)).collect()
     }
 }
 
 /// Lets a loop go on after a mistake in its body.
-fn goes_on(flow: Result<Value, Flow>) -> Result<(), Flow> {
+fn goes_on(flow: Result<Value, NoValue>) -> Result<(), NoValue> {
     match flow {
-        Ok(_) | Err(Flow::Wrong) => Ok(()),
+        Ok(_) | Err(NoValue::Wrong) => Ok(()),
         Err(flow) => Err(flow),
     }
 }
@@ -453,11 +453,11 @@ const KNOWN: &str = "powi, powf, mul_add, sqrt, sin, cos, tan, atan, tanh, exp, 
     component_mul, component_div, fixed_rows, sum, len, iter, map, zip, enumerate, rev, fold";
 
 impl Evaluator<'_> {
-    pub(super) fn method_call(&mut self, call: &ExprMethodCall) -> Result<Value, Flow> {
+    pub(super) fn method_call(&mut self, call: &ExprMethodCall) -> Result<Value, NoValue> {
         let span = Span::of(call);
         self.tick(span)?;
         let receiver = self.expression(&call.receiver)?;
-        let arguments: Result<Vec<Value>, Flow> =
+        let arguments: Result<Vec<Value>, NoValue> =
             call.args.iter().map(|argument| self.expression(argument)).collect();
         let arguments = arguments?;
         if matches!(receiver, Value::Wrong) {
