@@ -6,7 +6,7 @@ use coadjoint_codegen::diagnostic::read_text;
 use coadjoint_codegen::system::{Options, Parameters};
 use coadjoint_codegen::tolerance::Choice;
 use coadjoint_learn::GroupChoice;
-use coadjoint_run::{Accuracy, System, meet_tolerance as meet, read_group, read_varying};
+use coadjoint_run::{Accuracy, Derived, System, meet_tolerance as meet, read_group, read_varying};
 
 use crate::error::{CliError, unread};
 use crate::source::Source;
@@ -47,15 +47,15 @@ pub(crate) fn source(source: &Source, parameters: Parameters) -> Result<System, 
 }
 
 /// Picks truncation, step and frame where a tolerance is asked for, on the command line or in the file,
-/// and says so on the error stream; what was picked.
+/// and says so on the error stream; what was picked, and the system with its method.
 pub(crate) fn meet_tolerance(
     path: &Path,
     system: &mut System,
     asked: &Accuracy,
-) -> Result<Option<Choice>, CliError> {
-    let choice = meet(path, system, asked)?;
-    choice.iter().for_each(|choice| errln!("{choice}"));
-    Ok(choice)
+) -> Result<Option<(Choice, Derived)>, CliError> {
+    let met = meet(path, system, asked)?;
+    met.iter().for_each(|(choice, _)| errln!("{choice}"));
+    Ok(met)
 }
 
 /// Reads the system of a command that has no run of its own, with the truncation and the step that the file's tolerance asks
@@ -87,11 +87,8 @@ pub(crate) fn settled(
         Some(_) => None,
         None => {
             let asked = Accuracy { truncation: given.truncation, ..*asked };
-            meet(&given.file, &mut system, &asked)?
+            meet_tolerance(&given.file, &mut system, &asked)?.map(|(choice, _)| choice)
         }
     };
-    if let Some(choice) = &choice {
-        errln!("{choice}");
-    }
     Ok((system, choice))
 }

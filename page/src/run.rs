@@ -183,7 +183,7 @@ impl Animation {
     fn drift(&self, system: &System, mu: &[f64], spatial: &[f64]) -> [f64; 3] {
         let seen = Seen { spatial, matrix: &[], momentum: mu };
         let conserved = system.invariants.conserved(self.time(), &[seen]);
-        let [momentum, casimirs, energy] = self.start.drift(&conserved[0]).numbers();
+        let [momentum, casimirs, energy] = self.start.drift(&conserved).numbers();
         [energy, momentum, casimirs]
     }
 

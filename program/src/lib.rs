@@ -44,6 +44,8 @@ pub mod quoting;
 #[cfg(feature = "programs")]
 pub mod schedule;
 pub mod splitting;
+#[cfg(feature = "programs")]
+pub mod states;
 
 #[cfg(feature = "programs")]
 pub use derivative::Argument;

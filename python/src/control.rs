@@ -9,6 +9,8 @@ use coadjoint_codegen::cancel;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
+use crate::worker;
+
 /// Signals are looked at this often.
 const LOOK: Duration = Duration::from_millis(20);
 /// Work that is asked to stop is waited for this long; what has not come back by then ends unheard.
@@ -53,16 +55,16 @@ pub fn work<T: Send + 'static>(
         ready: Condvar::new(),
     });
     let theirs = shared.clone();
-    std::thread::Builder::new()
-        .name("coadjoint".to_owned())
-        .stack_size(16 << 20)
-        .spawn(move || {
-            let cancelled = theirs.control.stop.clone();
-            let work = || cancel::scope(cancelled, || job(&theirs.control));
-            let result = catch_unwind(AssertUnwindSafe(work));
-            *theirs.result.lock().unwrap_or_else(PoisonError::into_inner) = Some(result);
-            theirs.ready.notify_all();
-        })
+    let beside = move |rest: &dyn Fn()| {
+        let cancelled = theirs.control.stop.clone();
+        let work = || cancel::scope(cancelled, || job(&theirs.control));
+        let result = catch_unwind(AssertUnwindSafe(work));
+        // The next call may come as soon as this one has its result.
+        rest();
+        *theirs.result.lock().unwrap_or_else(PoisonError::into_inner) = Some(result);
+        theirs.ready.notify_all();
+    };
+    worker::start(Box::new(beside))
         .map_err(|error| PyRuntimeError::new_err(format!("no thread can be started: {error}")))?;
     let wait = |time: Duration| {
         let guard = shared.result.lock().unwrap_or_else(PoisonError::into_inner);

@@ -15,6 +15,7 @@ mod outcome;
 mod record;
 mod stepper;
 mod system;
+mod worker;
 
 use pyo3::prelude::*;
 

@@ -1,5 +1,6 @@
 //! Systems, and what can be done with them.
 
+use std::collections::VecDeque;
 use std::path::Path;
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -40,6 +41,7 @@ const MOST_BYTES: f64 = 8e9;
 const MANY: f64 = 1e9;
 
 /// A system that is known as text; never changed.
+#[derive(Clone)]
 #[pyclass(frozen, module = "coadjoint._core", name = "Core")]
 pub struct Core {
     name: String,
@@ -51,8 +53,8 @@ pub struct Core {
     pub(crate) failures: Arc<Failures>,
     /// The integrators derived so far.
     derived: Cache,
-    /// The last choice for a tolerance, for calls that ask for the same.
-    chosen: Arc<Mutex<Option<Chosen>>>,
+    /// The latest choices for tolerances, for calls that ask for the same.
+    chosen: Arc<Mutex<VecDeque<Chosen>>>,
     /// The system derived last for derivatives, which are often asked for one after the other.
     pub(crate) differentiated: Arc<Mutex<Option<(Purpose, Arc<Derived>)>>>,
 }
@@ -60,10 +62,16 @@ pub struct Core {
 /// The parameters of an ensemble that vary, and the state along whose motion a tolerance is met where the text has none.
 type Ensemble = (Vec<String>, Option<Vec<f64>>);
 
-/// A request, and the choice made for it.
-type Chosen = (Accuracy, Option<Ensemble>, System, Option<Choice>);
+/// A request for an accuracy: what is asked for, the momentum at the start, and the ensemble, if it is one.
+type Request = (Accuracy, Option<Vec<f64>>, Option<Ensemble>);
 
-/// The purpose of a derivation: a truncation, a frame, and, for ensembles, the parameters that vary.
+/// A request, and the choice made for it.
+type Chosen = (Request, System, Option<Choice>);
+
+/// Choices that are kept.
+const CHOICES: usize = 16;
+
+/// The purpose of a derivation: a truncation, the frame of a series or collocation, and, for ensembles, the parameters that vary.
 pub(crate) type Purpose = (usize, &'static str, Option<Vec<String>>);
 
 /// Systems that have been derived.
@@ -77,35 +85,41 @@ fn derive(
     ensemble: Option<Vec<String>>,
     control: &Control,
 ) -> Result<Arc<Derived>, RunError> {
-    let frame = system.problem.polynomial().map_or("fixed", Problem::frame_name);
-    let key = (system.problem.facts().truncation, frame, ensemble);
-    let known = |list: &Vec<(Purpose, Arc<Derived>)>| {
-        list.iter().find(|(other, _)| *other == key).map(|(_, derived)| derived.clone())
-    };
-    if let Some(found) = known(&cache.lock().unwrap_or_else(PoisonError::into_inner)) {
+    let key = purpose(&system, ensemble);
+    if let Some(found) = known(&cache.lock().unwrap_or_else(PoisonError::into_inner), &key) {
         return Ok(found);
     }
     let system = if key.2.is_some() { ensemble::in_lanes(system)? } else { system };
     control.deriving.store(true, Ordering::Relaxed);
     let made = Derived::of_file(Path::new(name), system).map(Arc::new);
     control.deriving.store(false, Ordering::Relaxed);
-    let made = made?;
+    Ok(keep(cache, key, made?))
+}
+
+/// The purpose of a system with its truncation and frame.
+fn purpose(system: &System, ensemble: Option<Vec<String>>) -> Purpose {
+    let frame = system.problem.polynomial().map_or("collocation", Problem::frame_name);
+    (system.problem.facts().truncation, frame, ensemble)
+}
+
+fn known(list: &[(Purpose, Arc<Derived>)], key: &Purpose) -> Option<Arc<Derived>> {
+    list.iter().find(|(other, _)| other == key).map(|(_, derived)| derived.clone())
+}
+
+/// Keeps a system, unless there is one for this purpose; that which is kept.
+fn keep(cache: &Cache, key: Purpose, made: Arc<Derived>) -> Arc<Derived> {
     let mut list = cache.lock().unwrap_or_else(PoisonError::into_inner);
-    if known(&list).is_none() {
+    known(&list, &key).unwrap_or_else(|| {
         list.push((key, made.clone()));
-    }
-    Ok(made)
+        made
+    })
 }
 
 impl Core {
-    /// A copy for another thread: the same text, with nothing derived yet. Earlier failures of functions are forgotten.
+    /// A copy for another thread. Earlier failures of functions are forgotten.
     pub(crate) fn here(&self) -> Self {
         drop(self.failures.take());
-        let (name, text, system) = (self.name.clone(), self.text.clone(), self.system.clone());
-        let (given, failures) = (self.given.clone(), self.failures.clone());
-        let (derived, chosen, differentiated) =
-            (Cache::default(), self.chosen.clone(), self.differentiated.clone());
-        Self { name, text, system, given, failures, derived, chosen, differentiated }
+        self.clone()
     }
 
     /// A system that is known as text elsewhere.
@@ -136,13 +150,13 @@ impl Core {
         accuracy: &Accuracy,
         ensemble: Option<Ensemble>,
     ) -> Result<(System, Option<Choice>), RunError> {
-        let mut chosen = self.chosen.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((known, of, system, choice)) = &*chosen
-            && (known, of) == (accuracy, &ensemble)
-        {
+        let request = (*accuracy, self.system.run.momentum.clone(), ensemble);
+        let chosen = || self.chosen.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, system, choice)) = chosen().iter().find(|(known, ..)| *known == request) {
             return Ok((system.clone(), choice.clone()));
         }
-        let mut system = match &ensemble {
+        let (.., ensemble) = &request;
+        let mut system = match ensemble {
             Some((varied, _)) if !varied.is_empty() => self.again(Options::default(), varied)?,
             _ => self.system.clone(),
         };
@@ -151,8 +165,16 @@ impl Core {
         if let Some(truncation) = accuracy.truncation {
             system.problem.set_truncation(truncation);
         }
-        let choice = meet_tolerance(Path::new(&self.name), &mut system, accuracy)?;
-        *chosen = Some((*accuracy, ensemble, system.clone(), choice.clone()));
+        let met = meet_tolerance(Path::new(&self.name), &mut system, accuracy)?;
+        let choice = met.map(|(choice, derived)| {
+            if ensemble.is_none() {
+                keep(&self.derived, purpose(&system, None), Arc::new(derived));
+            }
+            choice
+        });
+        let mut chosen = chosen();
+        chosen.truncate(CHOICES - 1);
+        chosen.push_front((request, system.clone(), choice.clone()));
         Ok((system, choice))
     }
 
@@ -307,23 +329,15 @@ impl Core {
         if every == Some(0) {
             return Err(refused(py, "every counts steps from 1; try every=1".to_owned()));
         }
-        let system = System {
-            run: coadjoint_codegen::system::Run {
-                momentum: Some(momentum.clone()),
-                ..given.clone()
-            },
-            ..self.system.clone()
-        };
-        let size = self.shape().matrix_size;
+                let size = self.shape().matrix_size;
         let own = given.events.iter().cloned().map(Event::of);
         let events: Vec<Event> = own
             .chain(events.into_iter().map(|event| event.event(size, self.failures.clone())))
             .collect();
         let looked_for = events.len();
         let looks = looks.or(given.looks.map(|looks| looks as u32)).unwrap_or(1);
-        let here = Self { system, ..self.here() };
-        // Derived integrators stay for the next run.
-        let cache = self.derived.clone();
+        let mut here = self.here();
+        here.system.run.momentum = Some(momentum.clone());
         let result = work(py, progress.as_ref(), move |control| {
             let (system, choice) = here.accurate(&accuracy, None)?;
             let schedule = Schedule::new(Path::new(&here.name), &accuracy, &system.run)?;
@@ -349,7 +363,7 @@ impl Core {
                 )));
             }
             let truncation = system.problem.facts().truncation;
-            let derived = derive(&cache, &here.name, system, None, control)?;
+            let derived = derive(&here.derived, &here.name, system, None, control)?;
             control.total.store(schedule.steps, Ordering::Relaxed);
             let mut keeper = Keeper { table: Table::default(), control };
             let outcome = run(&derived, &setup, &mut keeper)?;
@@ -393,11 +407,12 @@ impl Core {
         }
         let at = at.map(|at| at.as_array().to_vec());
         let here = self.here();
-        let cache = self.derived.clone();
         let result = work(py, progress.as_ref(), move |control| {
             let path = Path::new(&here.name);
+            let shape = here.shape();
+            let dim = shape.dim.min(width);
             let layout = Found::of(
-                here.shape(),
+                shape,
                 &Known::default(),
                 &[],
                 width.saturating_sub(parameters.len()),
@@ -405,8 +420,7 @@ impl Core {
             let layout = Layout { parameters, ..layout.layout };
             let varied = layout.varied();
             // The largest one is in the fastest motion.
-            let momenta =
-                values.chunks(width.max(1)).map(|row| &row[..here.shape().dim.min(width)]);
+            let momenta = values.chunks(width.max(1)).map(|row| &row[..dim]);
             let size = |momentum: &&[f64]| momentum.iter().map(|mu| mu * mu).sum::<f64>();
             let finite = momenta.filter(|momentum| size(momentum).is_finite());
             let fastest = finite.max_by(|a, b| size(a).total_cmp(&size(b)));
@@ -427,9 +441,9 @@ impl Core {
                 )));
             }
             let truncation = system.problem.facts().truncation;
-            let frame = system.problem.polynomial().map_or("fixed", Problem::frame_name);
+            let frame = system.problem.polynomial().map_or("collocation", Problem::frame_name);
             let momentum = system.run.momentum.clone();
-            let derived = derive(&cache, &here.name, system, Some(varied), control)?;
+            let derived = derive(&here.derived, &here.name, system, Some(varied), control)?;
             let lanes = (count as f64 / coadjoint_program::WIDTH as f64).max(1.0);
             let how = How { backend, work: schedule.steps as f64 * lanes, device: None };
             derived.reaches(&schedule)?;
@@ -577,14 +591,14 @@ impl Core {
     /// Steps of this size, ready to be made.
     fn stepper(&self, py: Python<'_>, step: Option<f64>, backend: &str) -> PyResult<Stepper> {
         let backend = backend_of(py, backend)?;
-        let (here, cache) = (self.here(), self.derived.clone());
+        let here = self.here();
         let dimension = self.system.problem.facts().algebra.dim();
         let made = work(py, None, move |control| {
             let (system, _) = here.accurate(&Accuracy { step, ..Accuracy::default() }, None)?;
             let step = step
                 .or(system.run.step)
                 .ok_or_else(|| RunError::Option("--step is missing: give --step 0.1".to_owned()))?;
-            let derived = derive(&cache, &here.name, system, None, control)?;
+            let derived = derive(&here.derived, &here.name, system, None, control)?;
             // It is the default, and there is no such code for collocation.
             let by_default = backend == Backend::Jit && derived.series().is_none();
             let backend = if by_default { Backend::Auto } else { backend };
@@ -636,12 +650,12 @@ impl Core {
         points: usize,
         seed: u64,
     ) -> PyResult<(Vec<(String, String, f64, f64, Option<bool>)>, Option<String>)> {
-        let (here, cache) = (self.here(), self.derived.clone());
+        let here = self.here();
         let made = work(py, None, move |control| {
             let asked = Accuracy { step, t0, ..Accuracy::default() };
             let (system, _) = here.accurate(&asked, None)?;
             let trial = check::Trial::new(&asked, &system.run, points, seed)?;
-            let derived = derive(&cache, &here.name, system, None, control)?;
+            let derived = derive(&here.derived, &here.name, system, None, control)?;
             let (laws, steep) = check::check(&derived, &trial)?;
             let law = |law: check::Law| {
                 let holds = match law.verdict {

@@ -7,7 +7,6 @@ use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::in_other_frame;
 use coadjoint_codegen::problem::Problem;
 use coadjoint_codegen::smooth::Hamiltonian;
-use coadjoint_codegen::system::Run;
 use coadjoint_codegen::tolerance::{self, Choice, Region, Target};
 use coadjoint_program::Trajectories;
 
@@ -32,7 +31,7 @@ pub fn meet_tolerance(
     path: &Path,
     system: &mut System,
     asked: &Accuracy,
-) -> Result<Option<Choice>, RunError> {
+) -> Result<Option<(Choice, Derived)>, RunError> {
     let System { problem, potential, damping, run, .. } = &mut *system;
     if let Hamiltonian::Polynomial(problem, _) = problem
         && let Some(other) =
@@ -83,9 +82,10 @@ pub fn meet_tolerance(
         None => nodes(&target, system.problem.facts().algebra.dim()).map_err(RunError::of(path))?,
     };
     system.problem.set_truncation(choice.truncation);
-    let choice = verified(path, system, asked.start(&system.run), &target, choice)?;
-    system.run = Run { step: Some(choice.step), ..system.run.clone() };
-    Ok(Some(choice))
+    let derived = Derived::of_file(path, system.clone())?;
+    let choice = verified(&derived, asked.start(&system.run), &target, choice)?;
+    system.run.step = Some(choice.step);
+    Ok(Some((choice, derived)))
 }
 
 /// The choice for a polynomial: of the frames that the system leaves the choice of, the one in which steps are cheaper.
@@ -145,15 +145,14 @@ fn nodes(target: &Target, dim: usize) -> Result<Choice, tolerance::ToleranceErro
 /// The choice after runs with it: where the error estimated over the whole run is above the tolerance, or a step is refused on
 /// the way, with a smaller step.
 fn verified(
-    path: &Path,
-    system: &System,
+    derived: &Derived,
     t0: f64,
     target: &Target,
     choice: Choice,
 ) -> Result<Choice, RunError> {
-    let derived = Derived::of_file(path, system.clone())?;
-    let trial = Trial::new(&derived, t0, target);
-    let (step, error) = trial.step(&choice, target.tolerance).ok_or_else(|| unmet(path, target))?;
+    let trial = Trial::new(derived, t0, target);
+    let found = trial.step(&choice, target.tolerance);
+    let (step, error) = found.ok_or_else(|| unmet(&derived.file, target))?;
     let shorter = step / choice.step;
     let next_term = choice.next_term.map(|term| term * shorter.powi(choice.truncation as i32 + 1));
     Ok(Choice { step, error, next_term, operations: choice.operations / shorter, ..choice })

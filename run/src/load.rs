@@ -1,7 +1,7 @@
 //! From the text of a system to what steps are made of.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use coadjoint::StepError;
 use coadjoint_codegen::hamilton_jacobi::{DeriveError, TermLimit};
@@ -20,7 +20,7 @@ use crate::engine::{Charted, Compiled, Kept, Motion, group_of};
 use crate::error::RunError;
 use crate::grid::Grid;
 use crate::inputs;
-use crate::simulate::Schedule;
+use crate::simulate::{Block, Schedule};
 
 /// A system as its file has it, its Hamiltonian a polynomial or another smooth function.
 pub type System = system::System<Hamiltonian>;
@@ -131,6 +131,8 @@ pub struct Derived {
     pub(crate) damping: Option<Vec<f64>>,
     /// The conserved quantities.
     pub(crate) invariants: Invariants,
+    /// The blocks of the group's matrices, once a run asked for them.
+    pub(crate) blocks: OnceLock<Vec<Block>>,
     /// The reason for which the series of a polynomial gave way to collocation, where it did.
     gave_way: Option<DeriveError>,
 }
@@ -166,8 +168,9 @@ impl Derived {
         }
         let chart = origin.series().map_or(lie::Chart::Exponential, |series| series.problem.chart);
         let group = Charted::new(file, group, chart)?;
-        let (file, kept) = (file.to_owned(), Kept::default());
-        Ok(Self { file, origin, group, kept, damping, invariants, gave_way })
+        let (kept, blocks) = Default::default();
+        let file = file.to_owned();
+        Ok(Self { file, origin, group, kept, damping, invariants, blocks, gave_way })
     }
 
     /// The inputs u(t).
@@ -212,6 +215,7 @@ impl Derived {
             damping: None,
             file: self.file.clone(),
             invariants: Invariants::of(self.facts().algebra),
+            blocks: OnceLock::new(),
             gave_way: None,
         })
     }

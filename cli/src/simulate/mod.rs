@@ -98,9 +98,9 @@ fn runs(
         let phase = progress::phase("choosing the step");
         let fixed = (!options.truncation.is_empty()).then_some(truncation);
         let asked = options.accuracy.of_run(fixed, options.t0, options.time);
-        let choice = load::meet_tolerance(path, &mut system, &asked)?;
+        let met = load::meet_tolerance(path, &mut system, &asked)?;
         drop(phase);
-        let tolerance = choice.map(|choice| choice.tolerance);
+        let tolerance = met.as_ref().map(|(choice, _)| choice.tolerance);
         let setup = Setup { tolerance, ..settings::setup(options, path, &asked, &system.run)? };
         let settings = Settings::new(options, (path, &hash), out, setup)?;
         let setup = &settings.setup;
@@ -108,7 +108,10 @@ fn runs(
         if let Some(line) = announcement.filter(|_| runs.is_empty()) {
             errln!("{line}");
         }
-        let system = derived(path, system)?;
+        let system = match met {
+            Some((_, derived)) => derived,
+            None => derived(path, system)?,
+        };
         let header = Header::new(&settings, &system);
         let coordinates = system.facts().coordinates;
         let label = system.label();

@@ -77,7 +77,7 @@ impl Course {
             system.kicks().map(|kicks| Torque::new(&kicks.kick, group, &system.facts().defaults()));
         let torque = torque.transpose().map_err(RunError::unmade)?;
         let mut state = simulate::start(&system.file, space, trial.element.as_deref(), about)?;
-        let observed = space.observe(&[&state]);
+        let observed = space.observe(&[state.parts()]);
         let start = system.invariants.start(trial.start, observed.seen(0, &state.mu));
         let known = !start.momenta().is_empty();
         for n in 0..=count {
@@ -91,8 +91,9 @@ impl Course {
             if n == count || motion.advance(&mut state, n, 1).is_err() {
                 break;
             }
-            let (_, conserved) = space.conserved(&system.invariants, grid.time(n + 1), &[&state]);
-            let measured = conserved.first().map(|[now, beside]| start.measured(now, beside));
+            let (invariants, time) = (&system.invariants, grid.time(n + 1));
+            let (_, conserved) = space.conserved(invariants, time, &[state.parts()]);
+            let measured = conserved.each().next().map(|[now, beside]| start.measured(now, beside));
             let measured = measured.and_then(|drift| drift.spatial_momentum).filter(|_| known);
             if let Some(now) = measured {
                 let largest = course.drift.map_or(now, |(drift, _)| maximum(drift, now));

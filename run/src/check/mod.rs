@@ -213,7 +213,7 @@ fn laws_of_steps(
             let matrix = entries_of(group, &state.group_element);
             let seen = Seen { spatial: &[], matrix: &matrix, momentum: state.momentum.as_slice() };
             let conserved = system.invariants.conserved(time, &[seen]);
-            system.invariants.energy_of(&conserved[0])
+            system.invariants.energy_of(&conserved)
         };
         if points.first().and_then(|point| energy(start, point)).is_some() {
             let mut rise = f64::NEG_INFINITY;

@@ -160,6 +160,10 @@ impl<'a, const M: usize> Method<'a> for Collocated<'a, M> {
         }
     }
 
+    fn may_be_undefined(&self) -> bool {
+        true
+    }
+
     fn defined(&self, time: f64, mu: &[f64]) -> Result<(), StepError> {
         let energy = &self.energy.0;
         // A function of the user's says by its value alone that there is none.

@@ -73,6 +73,13 @@ pub(crate) struct Numbers {
     pub mu: Vec<f64>,
 }
 
+impl Numbers {
+    /// g and μ.
+    pub(crate) fn parts(&self) -> [&[f64]; 2] {
+        [&self.g, &self.mu]
+    }
+}
+
 /// The compiled programs of one integrator, for later runs: programs do not depend on the size of a step.
 #[derive(Default)]
 pub(crate) struct Kept {
@@ -319,9 +326,8 @@ impl Compiled {
     }
 
     /// The spatial momentum Ad\*_g μ and the matrix of g of each state, one after the other.
-    pub(super) fn observe(&self, states: &[&Numbers]) -> Vec<f64> {
-        let states = states.iter().map(|state| [&state.g[..], &state.mu[..]]);
-        self.programs.observation.of(&states.collect::<Vec<_>>())
+    pub(super) fn observe(&self, states: &[[&[f64]; 2]]) -> Vec<f64> {
+        self.programs.observation.of(states)
     }
 
     /// Makes `steps` steps after the first ones, which began at the time `start`. A step that the programs refuse is made by `rescue`,

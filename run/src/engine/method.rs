@@ -65,6 +65,11 @@ pub(super) trait Method<'a>: Send + Sync {
         None
     }
 
+    /// True if there are momenta at which the Hamiltonian is not defined.
+    fn may_be_undefined(&self) -> bool {
+        false
+    }
+
     /// Checks that the Hamiltonian is defined.
     ///
     /// # Errors

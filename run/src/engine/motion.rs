@@ -295,6 +295,11 @@ impl<'a> Motion<'a> {
         self.kicked.as_ref().map_or(Ok(()), |own| own.torque.defined(&self.space, state, time))
     }
 
+    /// True if there are states in which something is not [`defined`](Motion::defined).
+    pub(crate) fn may_be_undefined(&self) -> bool {
+        self.kicked.is_some() || self.method.may_be_undefined()
+    }
+
     /// The programs that move many states side by side, where there are any.
     pub(crate) fn lanes(&self) -> Option<&Compiled> {
         self.space.compiled.as_deref().filter(|_| self.damped.is_none())

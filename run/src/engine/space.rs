@@ -105,6 +105,22 @@ impl Observed {
     }
 }
 
+/// What is conserved of some states, and of the states beside them, whose numbers are [nudged](nudge).
+pub(crate) struct Conserved {
+    numbers: Vec<f64>,
+    /// Numbers of one state.
+    count: usize,
+    states: usize,
+}
+
+impl Conserved {
+    /// Of each state, and of the one beside it.
+    pub(crate) fn each(&self) -> impl Iterator<Item = [&[f64]; 2]> {
+        let of = |at: usize| &self.numbers[at * self.count..][..self.count];
+        (0..self.states).map(move |at| [of(at), of(self.states + at)])
+    }
+}
+
 /// The unit matrix with this number of rows, row by row.
 pub(crate) fn identity(size: usize) -> Vec<f64> {
     (0..size * size).map(|at| if at / size == at % size { 1.0 } else { 0.0 }).collect()
@@ -167,11 +183,11 @@ impl Space {
         self.state(&phase).g
     }
 
-    /// These states, of one group, as laws are stated for them.
-    pub(crate) fn observe(&self, states: &[&Numbers]) -> Observed {
-        let of = |state: &&Numbers| {
-            let spatial = self.phase(state).spatial_momentum(&*self.group);
-            [spatial.as_slice(), &state.g].concat()
+    /// These states (g, μ), of one group, as laws are stated for them.
+    pub(crate) fn observe(&self, states: &[[&[f64]; 2]]) -> Observed {
+        let of = |[g, mu]: &[&[f64]; 2]| {
+            let phase = phase_of(&self.group, &self.matrix(g), mu);
+            [phase.spatial_momentum(&*self.group).as_slice(), g].concat()
         };
         let numbers = match &self.compiled {
             Some(compiled) => compiled.observe(states),
@@ -181,29 +197,37 @@ impl Space {
         Observed { numbers, lengths: [dim, dim + self.size().pow(2)] }
     }
 
-    /// These states, of this time, as [`observe`](Space::observe) has them; and of each what is conserved there and of the state
-    /// beside it, whose numbers are [nudged](nudge).
+    /// These states (g, μ), of this time, as [`observe`](Space::observe) has them; and what is conserved there.
     pub(crate) fn conserved(
         &self,
         invariants: &Invariants,
         time: f64,
-        states: &[&Numbers],
-    ) -> (Observed, Vec<[Vec<f64>; 2]>) {
-        let mut beside: Vec<Numbers> = states.iter().copied().cloned().collect();
-        for state in &mut beside {
-            nudge(&mut state.g);
-            nudge(&mut state.mu);
+        states: &[[&[f64]; 2]],
+    ) -> (Observed, Conserved) {
+        let mut beside: Vec<f64> = Vec::new();
+        for state in states {
+            for part in state {
+                let first = beside.len();
+                beside.extend_from_slice(part);
+                nudge(&mut beside[first..]);
+            }
         }
-        let all: Vec<&Numbers> = states.iter().copied().chain(&beside).collect();
+        let mut rest = &beside[..];
+        let mut next = |part: &[f64]| {
+            let (own, after) = rest.split_at(part.len());
+            rest = after;
+            own
+        };
+        let beside = states.iter().map(|state| state.map(&mut next));
+        let all: Vec<[&[f64]; 2]> = states.iter().copied().chain(beside).collect();
         let observed = self.observe(&all);
-        let seen = all.iter().enumerate().map(|(at, state)| observed.seen(at, &state.mu));
-        let mut conserved = invariants.conserved(time, &seen.collect::<Vec<_>>());
-        let beside = conserved.split_off(states.len());
-        (observed, conserved.into_iter().zip(beside).map(|(now, beside)| [now, beside]).collect())
+        let seen = all.iter().enumerate().map(|(at, [_, mu])| observed.seen(at, mu));
+        let numbers = invariants.conserved(time, &seen.collect::<Vec<_>>());
+        (observed, Conserved { numbers, count: invariants.count(), states: states.len() })
     }
 
     /// Ad\*_g μ.
     pub(crate) fn spatial_momentum(&self, state: &Numbers) -> Vec<f64> {
-        self.observe(&[state]).spatial(0).to_vec()
+        self.observe(&[state.parts()]).spatial(0).to_vec()
     }
 }

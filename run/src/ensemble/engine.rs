@@ -1,16 +1,18 @@
 //! Rows of states in memory, and what advances them: by the programs where there are any, eight side by side, or one by one.
 
+use std::borrow::Cow;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use coadjoint_codegen::problem::{Parameter, Solver};
 use coadjoint_codegen::step::{self, Invariants};
 use coadjoint_native::cards::{Card, Device};
+use coadjoint_program::states::{States, into_lane, of_lane};
 use coadjoint_program::{Precision, Trajectories, WIDTH};
 use rayon::prelude::*;
 
 use super::layout::{Attitude, Layout, Shape};
-use super::march::{March, STRETCH, Way};
+use super::march::{March, Way};
 use crate::backend::Backend;
 use crate::engine::{Compiled, Motion, Numbers, STEEP, card, identity};
 use crate::error::RunError;
@@ -112,7 +114,7 @@ impl Course {
     }
 
     /// From step to step, with the stop that is there.
-    fn legs(&self) -> impl Iterator<Item = (u64, u64, Option<Stop>)> {
+    pub(super) fn legs(&self) -> impl Iterator<Item = (u64, u64, Option<Stop>)> {
         let ends = self.stops.iter().map(|stop| stop.step);
         let starts = std::iter::once(0).chain(ends.clone());
         let stops = self.stops.iter().copied().map(Some).chain([None]);
@@ -266,82 +268,101 @@ impl<'a> Engine<'a> {
         rows: &mut Rows,
         watch: &Watch<'_>,
     ) -> Result<Drift, RunError> {
-        let (width, state) = (layout.width(), layout.state());
+        let width = layout.width();
         if self.card.is_some() && !course.stops.is_empty() {
             let what = "--device: devices make states at the end alone; leave out --at or --device";
             return Err(RunError::Option(what.to_owned()));
         }
-        let read: Vec<_> =
-            rows.values.par_chunks(width).map(|row| self.read(layout, row)).collect();
-        let known: Vec<u64> = rows.rejected.iter().map(|r| r.row).collect();
-        let (mut places, mut before) = (Vec::new(), Vec::new());
-        for ((place, state), row) in read.into_iter().enumerate().zip(rows.first..) {
-            match state {
-                _ if known.binary_search(&row).is_ok() => {}
-                Ok(state) => {
-                    places.push(place);
-                    before.push(state);
+        let count = rows.values.len() / width;
+        let mut states = States::new(self.identity.len(), layout.shape.dim, count);
+        let mut ways = vec![Way::default(); count];
+        let length = states.length();
+        let given = || rows.values.par_chunks(WIDTH * width);
+        let blocks = states.blocks_mut().par_chunks_mut(length).zip(ways.par_chunks_mut(WIDTH));
+        blocks.zip(given()).for_each(|((block, ways), rows)| {
+            for (lane, (way, row)) in ways.iter_mut().zip(rows.chunks(width)).enumerate() {
+                match self.read(layout, row) {
+                    Ok((g, mu)) => into_lane(block, lane, g.iter().chain(mu).copied()),
+                    Err(reason) => way.stopped = Some((0, reason)),
                 }
-                Err(reason) => rows.rejected.push(Rejected { row, step: 0, reason }),
             }
+        });
+        let known: Vec<usize> =
+            rows.rejected.iter().map(|r| (r.row - rows.first) as usize).collect();
+        for &place in &known {
+            ways[place].stopped = Some((0, String::new()));
         }
-        let ways = if layout.parameters.is_empty() && self.system.alike() {
-            self.march(before.clone(), course, watch)?
+        let before = states.clone();
+        if layout.parameters.is_empty() && self.system.alike() {
+            self.march(&mut ways, &mut states, course, watch)?;
         } else {
-            let own = places.iter().map(|place| &rows.values[place * width..][state..width]);
-            let own: Vec<&[f64]> = own.collect();
-            self.march_varied(layout, before.clone(), &own, course, watch)
-        };
+            self.march_varied(layout, (&mut ways, &mut states), &rows.values, course, watch);
+        }
         if watch.stop.load(Ordering::Relaxed) {
             return Err(RunError::Halted { time: self.grid.start, step: 0 });
         }
-        // Every state kept of a row has the row's parameters.
         let long = course.kept() * width;
-        let mut values = vec![f64::NAN; rows.values.len() * course.kept()];
-        for (row, given) in values.chunks_mut(long).zip(rows.values.chunks(width)) {
-            row.chunks_mut(width).for_each(|one| one[state..].copy_from_slice(&given[state..]));
-        }
-        rows.values = values;
-        // The states kept, and the drift, or the step that was not made and why.
-        let drifts = before.par_chunks(WIDTH).zip(ways.par_chunks(WIDTH));
-        let drifts: Vec<Drift> =
-            drifts.flat_map_iter(|(before, ways)| self.drifts(before, ways)).collect();
-        let end = |(drift, way): (&Drift, &Way)| {
-            let kept: Vec<_> = way.kept.iter().map(|kept| self.row(layout, kept)).collect();
-            let bad = kept.iter().zip(&course.stops).find_map(|(kept, stop)| {
-                Some((stop.step, format!("{} on the way", kept.as_ref().err()?)))
-            });
-            let stopped = bad.or_else(|| way.stopped.clone());
-            let end = self.row(layout, &way.state);
-            let end = end.map_err(|what| (course.steps, format!("{what} at the end")));
-            let ended = stopped.map_or(end, Err);
-            let drift = ended.as_ref().map(|_| *drift).map_err(Clone::clone);
-            let kept = if course.stops.is_empty() {
-                vec![ended.ok()]
-            } else {
-                kept.into_iter().map(Result::ok).collect()
-            };
-            (kept, drift)
-        };
-        let ends: Vec<_> = drifts.par_iter().zip(&ways).map(end).collect();
-        let ratio = ways.iter().map(|way| way.ratio).fold(0.0, maximum);
-        let ratio = if ratio <= STEEP { 0.0 } else { ratio };
-        let rescued = ways.iter().map(|way| way.rescued).sum();
-        let mut largest = Drift { ratio, rescued, ..Drift::default() };
-        for (place, (kept, drift)) in places.into_iter().zip(ends) {
-            for (one, kept) in rows.values[place * long..].chunks_mut(width).zip(kept) {
-                kept.iter().for_each(|kept| one[..state].copy_from_slice(kept));
-            }
-            match drift {
-                Ok(drift) => largest = largest.max(drift),
-                Err((step, reason)) => {
-                    let row = rows.first + place as u64;
-                    rows.rejected.push(Rejected { row, step, reason });
+        let mut values = vec![f64::NAN; count * long];
+        let blocks = before.blocks().par_chunks(length).zip(states.blocks().par_chunks(length));
+        let ends = values.par_chunks_mut(WIDTH * long).zip(given());
+        let found = blocks.zip(ways.par_chunks_mut(WIDTH)).zip(ends);
+        let largest = found.map(|((blocks, ways), (values, given))| {
+            let mut largest = Drift::default();
+            let rows = values.chunks_mut(long).zip(given.chunks(width)).enumerate();
+            for ((lane, (kept, given)), drift) in rows.zip(self.drifts(blocks, ways.len())) {
+                let way = &mut ways[lane];
+                match self.write(layout, course, (way, of_lane(blocks.1, lane)), given, kept) {
+                    Ok(()) => largest = largest.max(drift),
+                    Err(stopped) => way.stopped = Some(stopped),
                 }
+            }
+            largest
+        });
+        let mut largest = largest.reduce(Drift::default, Drift::max);
+        rows.values = values;
+        let ratio = ways.iter().map(|way| way.ratio).fold(0.0, maximum);
+        largest.ratio = if ratio <= STEEP { 0.0 } else { ratio };
+        largest.rescued = ways.iter().map(|way| way.rescued).sum();
+        for (place, way) in ways.into_iter().enumerate() {
+            if let Some((step, reason)) = way.stopped
+                && known.binary_search(&place).is_err()
+            {
+                rows.rejected.push(Rejected { row: rows.first + place as u64, step, reason });
             }
         }
         rows.rejected.sort_by_key(|r| r.row);
         Ok(largest)
+    }
+
+    /// Writes the states kept of a row, each with the row's parameters; NaN for those that were not reached.
+    ///
+    /// # Errors
+    /// The step that was not made, and the reason.
+    fn write(
+        &self,
+        layout: &Layout,
+        course: &Course,
+        (way, end): (&mut Way, impl Iterator<Item = f64>),
+        given: &[f64],
+        values: &mut [f64],
+    ) -> Result<(), (u64, String)> {
+        let (width, state) = (layout.width(), layout.state());
+        values.chunks_mut(width).for_each(|one| one[state..].copy_from_slice(&given[state..]));
+        let mut bad = None;
+        for ((kept, stop), one) in way.kept.iter().zip(&course.stops).zip(values.chunks_mut(width))
+        {
+            let numbers = kept.g.iter().chain(&kept.mu).copied();
+            if let Err(what) = self.row(layout, numbers, &mut one[..state]) {
+                bad.get_or_insert((stop.step, format!("{what} on the way")));
+            }
+        }
+        if let Some(stopped) = bad.or_else(|| way.stopped.take()) {
+            return Err(stopped);
+        }
+        let mut last = vec![0.0; if course.stops.is_empty() { 0 } else { state }];
+        let last = if last.is_empty() { &mut values[..state] } else { &mut last[..] };
+        let written = self.row(layout, end, last);
+        written.map_err(|what| (course.steps, format!("{what} at the end")))
     }
 
     /// Advances all rows, piece by piece; the values of [`Engine::advance`]. The watch is told the steps of all rows together.
@@ -375,21 +396,32 @@ impl<'a> Engine<'a> {
         Ok((kept, rejected, drift))
     }
 
-    /// The columns of a state, without parameters.
+    /// Writes the numbers of a state into the columns of a row without parameters; leaves them NaN where one is not finite.
     ///
     /// # Errors
     /// The name of a number that is not finite.
-    fn row(&self, layout: &Layout, state: &Numbers) -> Result<Vec<f64>, String> {
-        let mut row = vec![0.0; layout.state()];
-        let (mu, attitude) = row.split_at_mut(state.mu.len());
-        mu.copy_from_slice(&state.mu);
-        if layout.attitude == Attitude::Quaternion && state.g.len() == attitude.len() {
-            attitude.copy_from_slice(&state.g);
-        } else if !attitude.is_empty() {
-            layout.write_attitude(&self.motion.space().matrix(&state.g), attitude);
+    fn row(
+        &self,
+        layout: &Layout,
+        mut numbers: impl Iterator<Item = f64>,
+        row: &mut [f64],
+    ) -> Result<(), String> {
+        let (mu, attitude) = row.split_at_mut(layout.shape.dim);
+        let element = self.identity.len();
+        if layout.attitude == Attitude::Quaternion && element == attitude.len() {
+            attitude.iter_mut().zip(&mut numbers).for_each(|(place, own)| *place = own);
+        } else if attitude.is_empty() {
+            numbers.by_ref().take(element).for_each(drop);
+        } else {
+            let g: Vec<f64> = numbers.by_ref().take(element).collect();
+            layout.write_attitude(&self.motion.space().matrix(&g), attitude);
         }
-        check(layout, &row)?;
-        Ok(row)
+        mu.iter_mut().zip(numbers).for_each(|(place, own)| *place = own);
+        let checked = check(layout, row);
+        if checked.is_err() {
+            row.fill(f64::NAN);
+        }
+        checked
     }
 
     /// The place of each parameter among the columns of those that vary, where it does.
@@ -413,7 +445,8 @@ impl<'a> Engine<'a> {
     ) -> Vec<Result<f64, String>> {
         let places = self.places(layout);
         let estimate = |row: &&[f64]| {
-            let start = self.read(layout, row)?;
+            let (g, mu) = self.read(layout, row)?;
+            let start = Numbers { g: g.into_owned(), mu: mu.to_vec() };
             let parameters = self.parameters(&places, &row[layout.state()..]);
             let compiled = self.compiled.as_ref();
             let maker = Maker { system: self.system, parameters: &parameters, compiled };
@@ -424,12 +457,16 @@ impl<'a> Engine<'a> {
     }
 
     /// The state of a row, or what is wrong with it.
-    fn read(&self, layout: &Layout, row: &[f64]) -> Result<Numbers, String> {
+    fn read<'r>(
+        &'r self,
+        layout: &Layout,
+        row: &'r [f64],
+    ) -> Result<(Cow<'r, [f64]>, &'r [f64]), String> {
         check(layout, row)?;
         let (mu, attitude) = row[..layout.state()].split_at(layout.shape.dim);
         let space = self.motion.space();
         let g = match layout.attitude {
-            Attitude::None => self.identity.clone(),
+            Attitude::None => return Ok((Cow::Borrowed(&self.identity), mu)),
             // Rotations are put on the group; programs have them as quaternions.
             _ if layout.shape.quaternions => {
                 let rotation = layout.read_rotation(attitude)?;
@@ -445,83 +482,102 @@ impl<'a> Engine<'a> {
                 space.numbers(&space.nearest(attitude).map_err(off)?)
             }
         };
-        Ok(Numbers { g, mu: mu.to_vec() })
+        Ok((Cow::Owned(g), mu))
     }
 
-    /// The drifts of rows, from their states before and after.
-    fn drifts(&self, before: &[Numbers], ways: &[Way]) -> Vec<Drift> {
+    /// The drifts of the first rows of a block, from their states before and after.
+    fn drifts(&self, (before, after): (&[f64], &[f64]), rows: usize) -> Vec<Drift> {
         let (invariants, space) = (&self.invariants, self.motion.space());
         // Energies alone depend on the time, and are not measured.
-        let time = self.grid.start;
-        let after: Vec<&Numbers> = ways.iter().map(|way| &way.state).collect();
-        let (_, after) = space.conserved(invariants, time, &after);
-        let starts = space.observe(&before.iter().collect::<Vec<_>>());
+        let (time, element) = (self.grid.start, self.identity.len());
+        let lanes = |block: &[f64]| -> Vec<f64> {
+            (0..rows).flat_map(|lane| of_lane(block, lane)).collect()
+        };
+        let (before, after) = (lanes(before), lanes(after));
+        let before = parts(&before, element, rows);
+        let (_, conserved) = space.conserved(invariants, time, &parts(&after, element, rows));
+        let seen = space.observe(&before);
+        let seen: Vec<_> =
+            before.iter().enumerate().map(|(row, [_, mu])| seen.seen(row, mu)).collect();
         let known = invariants.directions.as_ref().is_none_or(|known| !known.is_empty());
-        let drift = |(row, [now, beside]): (usize, &[Vec<f64>; 2])| {
-            let start = invariants.start(time, starts.seen(row, &before[row].mu));
+        let drift = |(start, [now, beside]): (step::Start, [&[f64]; 2])| {
             let conserved = start.measured(now, beside);
             let hidden = known && conserved.spatial_momentum.is_none()
                 || invariants.casimirs > 0 && conserved.casimirs.is_none();
             Drift { conserved, unmeasured: hidden.into(), ..Drift::default() }
         };
-        after.iter().enumerate().map(drift).collect()
+        invariants.starts(time, &seen).zip(conserved.each()).map(drift).collect()
     }
 
     /// Makes the steps of all states.
     fn march(
         &self,
-        states: Vec<Numbers>,
+        ways: &mut [Way],
+        states: &mut States,
         course: &Course,
         watch: &Watch<'_>,
-    ) -> Result<Vec<Way>, RunError> {
+    ) -> Result<(), RunError> {
         let march = March { motion: &self.motion, stop: watch.stop };
-        let mut ways: Vec<Way> = states.into_iter().map(Way::from).collect();
-        ways.par_chunks_mut(WIDTH).for_each(|ways| march.look(ways));
+        let length = states.length();
+        let blocks = states.blocks().par_chunks(length).zip(ways.par_chunks_mut(WIDTH));
+        blocks.for_each(|(block, ways)| march.look(ways, block));
         match &self.card {
             None => {
                 for (first, end, stop) in course.legs() {
-                    march.march(&mut ways, first, end, watch.made);
+                    march.march(ways, states, first, end, watch.made);
                     let Some(stop) = stop else { continue };
-                    ways.par_iter_mut().for_each(|way| march.keep(way, stop));
+                    march.each(ways, states, |way, state| march.keep(way, &state(), stop));
                 }
             }
             Some(card) => {
                 // A thread that panicked has left a whole card: its rows are its own.
                 let mut card = card.lock().unwrap_or_else(PoisonError::into_inner);
-                let redone = march.march_on(&mut card, &mut ways, course.steps, watch.made);
+                let redone = march.march_on(&mut card, ways, states, course.steps, watch.made);
                 self.redone.fetch_add(redone.map_err(RunError::Device)?, Ordering::Relaxed);
             }
         }
-        ways.par_iter_mut().for_each(|way| march.end(way, course.steps));
-        Ok(ways)
+        if self.motion.may_be_undefined() {
+            march.each(ways, states, |way, state| march.end(way, &state(), course.steps));
+        }
+        Ok(())
     }
 
     /// Makes the steps of all states, each with the values of its own of the parameters that vary.
     fn march_varied(
         &self,
         layout: &Layout,
-        states: Vec<Numbers>,
-        own: &[&[f64]],
+        (ways, states): (&mut [Way], &mut States),
+        values: &[f64],
         course: &Course,
         watch: &Watch<'_>,
-    ) -> Vec<Way> {
+    ) {
         let places = self.places(layout);
         let (compiled, stop) = (self.compiled.as_ref(), watch.stop);
         let motion = || self.system.steps(self.grid, compiled).ok();
-        let advance = |motion: &mut Option<Motion<'_>>, (ways, own): (&mut [Way], &[&[f64]])| {
+        let (width, state, length) = (layout.width(), layout.state(), states.length());
+        let advance = |motion: &mut Option<Motion<'_>>, ((ways, block), rows): Piece<'_>| {
             let Some(motion) = motion else { return };
-            let parameters = own.iter().map(|own| self.parameters(&places, own));
-            let parameters: Vec<Vec<f64>> = parameters.collect();
+            let own = || rows.chunks(width).map(|row| &row[state..]);
+            let parameters: Vec<Vec<f64>> =
+                own().map(|own| self.parameters(&places, own)).collect();
             let folded = compiled.map(|own| own.fold_rows(self.grid.step, &parameters));
             let mut folded = folded.unwrap_or_default().into_iter();
-            for ((way, own), parameters) in ways.iter_mut().zip(own).zip(&parameters) {
-                match folded.next().transpose() {
+            let lanes = ways.iter_mut().zip(own()).zip(&parameters).enumerate();
+            for (lane, ((way, own), parameters)) in lanes {
+                let folded = folded.next().transpose();
+                if way.stopped.is_some() {
+                    continue;
+                }
+                match folded {
                     Ok(folded) => {
                         motion.vary(parameters, folded);
-                        follow(motion, way, course, stop);
+                        let march = March { motion, stop };
+                        let mut state = march.state(block, lane);
+                        march.follow(way, &mut state, course);
+                        March::put(block, lane, &state);
                     }
                     Err(error) => {
-                        let values = layout.parameters.iter().zip(*own);
+                        let values = layout.parameters.iter().zip(own);
                         let values: Vec<String> =
                             values.map(|(name, x)| format!("{name} = {}", shortest(*x))).collect();
                         let why = format!("with {}: {error}", values.join(", "));
@@ -530,38 +586,27 @@ impl<'a> Engine<'a> {
                 }
             }
         };
-        let mut ways: Vec<Way> = states.into_iter().map(Way::from).collect();
         let (count, mut made) = (ways.len() as u64, 0);
-        for (ways, own) in ways.chunks_mut(ROWS).zip(own.chunks(ROWS)) {
+        let blocks = states.blocks_mut().chunks_mut(ROWS / WIDTH * length);
+        for ((ways, blocks), values) in
+            ways.chunks_mut(ROWS).zip(blocks).zip(values.chunks(ROWS * width))
+        {
             made += ways.len() as u64;
-            let pieces = ways.par_chunks_mut(WIDTH).zip(own.par_chunks(WIDTH));
+            let pieces = ways.par_chunks_mut(WIDTH).zip(blocks.par_chunks_mut(length));
+            let pieces = pieces.zip(values.par_chunks(WIDTH * width));
             pieces.for_each_init(motion, advance);
             // As many steps as all rows had made if they had gone together.
             (watch.made)(course.steps * made / count);
         }
-        ways
     }
 }
 
-/// Makes the steps of a row alone.
-fn follow(motion: &Motion<'_>, way: &mut Way, course: &Course, stop: &AtomicBool) {
-    let march = March { motion, stop };
-    march.look(std::slice::from_mut(way));
-    for (first, end, at) in course.legs() {
-        let mut done = first;
-        while done < end && way.stopped.is_none() && !stop.load(Ordering::Relaxed) {
-            let next = end.min(done + STRETCH);
-            march.alone(way, done, next);
-            march.look(std::slice::from_mut(way));
-            done = next;
-        }
-        if let Some(at) = at {
-            march.keep(way, at);
-        }
-    }
-    if !stop.load(Ordering::Relaxed) {
-        march.end(way, course.steps);
-    }
+/// Some rows: what is known of each, their states, and their values.
+type Piece<'a> = ((&'a mut [Way], &'a mut [f64]), &'a [f64]);
+
+/// Each g and μ of this many states, one after the other.
+fn parts(states: &[f64], element: usize, rows: usize) -> Vec<[&[f64]; 2]> {
+    states.chunks_exact(states.len() / rows).map(|state| state.split_at(element).into()).collect()
 }
 
 /// Rows with parameters of their own that are followed to their ends before the next.

@@ -35,6 +35,8 @@ pub struct Block {
     pub range: Range<usize>,
     /// The kind of its entries.
     pub kind: Kind,
+    /// The leading rows and columns that are an orthogonal or unitary matrix; 0 if none are.
+    pub orthogonal: usize,
 }
 
 impl Block {
@@ -52,18 +54,21 @@ pub(crate) fn blocks(algebra: &LieAlgebra, size: usize) -> Vec<Block> {
     let mut end = 0;
     for (i, factor) in factors.iter().enumerate() {
         let rows = factor.matrix_size();
-        let kind = match found.last() {
-            Some(last) if factors[i - 1] == *factor => last.kind,
-            _ => kind(factor),
-        };
-        found.push(Block { range: end..end + rows, kind });
+        let range = end..end + rows;
+        found.push(match found.last() {
+            Some(last) if factors[i - 1] == *factor => Block { range, ..*last },
+            _ => {
+                let kind = kind(factor);
+                Block { range, kind, orthogonal: orthogonal(kind, factor) }
+            }
+        });
         end += rows;
     }
     if end == size {
         return found;
     }
     let kind = if algebra.basis().is_some() { Kind::Real } else { Kind::Adjoint };
-    vec![Block { range: 0..size, kind }]
+    vec![Block { range: 0..size, kind, orthogonal: 0 }]
 }
 
 fn kind(factor: &LieAlgebra) -> Kind {
@@ -85,25 +90,24 @@ fn kind(factor: &LieAlgebra) -> Kind {
 
 /// The largest entry of RᵀR − 1, where R is what in these blocks of a group element is orthogonal or unitary; none where
 /// nothing is.
-pub(crate) fn off_group(algebra: &LieAlgebra, blocks: &[Block], entries: &[f64]) -> Option<f64> {
-    let factors = algebra.factors();
-    let off = |((place, block), own): ((usize, &Block), &[f64])| {
-        let rows = block.range.len();
-        let kept = match block.kind {
-            Kind::PlaneMotion | Kind::Motion => rows - 1,
-            _ if blocks.len() == factors.len() && orthogonal(&factors[place]) => rows,
-            _ => return None,
-        };
+pub(crate) fn off_group(blocks: &[Block], entries: &[f64]) -> Option<f64> {
+    let off = |(block, own): (&Block, &[f64])| {
+        let kept = block.orthogonal;
         let turn = matrix(block, own).view((0, 0), (kept, kept)).into_owned();
-        Some((turn.tr_mul(&turn) - DMatrix::identity(kept, kept)).amax())
+        (kept > 0).then(|| (turn.tr_mul(&turn) - DMatrix::identity(kept, kept)).amax())
     };
-    let places = (0..).zip(blocks).zip(split(blocks, entries).map(|(_, own)| own));
-    places.filter_map(off).reduce(maximum)
+    split(blocks, entries).filter_map(off).reduce(maximum)
 }
 
-/// True if the elements of a factor's group are orthogonal matrices.
-fn orthogonal(factor: &LieAlgebra) -> bool {
-    factor.basis().is_some_and(|basis| basis.iter().all(RationalMatrix::is_antisymmetric))
+/// The leading rows and columns of elements of a factor's group that are an orthogonal or unitary matrix.
+fn orthogonal(kind: Kind, factor: &LieAlgebra) -> usize {
+    let rows = factor.matrix_size();
+    let all = |basis: &[RationalMatrix]| basis.iter().all(RationalMatrix::is_antisymmetric);
+    match kind {
+        Kind::PlaneMotion | Kind::Motion => rows - 1,
+        _ if factor.basis().is_some_and(all) => rows,
+        _ => 0,
+    }
 }
 
 /// The block's entries, which lie row by row in a slice.

@@ -4,7 +4,7 @@ use coadjoint_codegen::lie::LieAlgebra;
 pub use coadjoint_codegen::step::{Drift, Scales};
 use coadjoint_codegen::step::{Invariants, Start, rounding};
 
-use super::blocks::{Block, blocks, off_group};
+use super::blocks::{Block, off_group};
 use super::event::Crossing;
 use super::orbit::Orbit;
 use super::sink::Begun;
@@ -77,8 +77,8 @@ pub(crate) struct Watched<'a> {
     pub coordinates: &'a [String],
     /// The conserved quantities.
     pub invariants: &'a Invariants,
-    /// True if attitudes are known; maps learned from momenta alone have none.
-    pub attitude: bool,
+    /// The blocks of the group's matrices; none of maps learned from momenta alone, whose attitudes are not known.
+    pub blocks: &'a [Block],
     /// The effect of damping on the energy, if there is any damping.
     pub damped: Option<&'static str>,
 }
@@ -88,7 +88,7 @@ impl Watched<'_> {
     fn unknown(&self) -> [Option<&'static str>; 3] {
         let Invariants { directions, casimirs, energy, no_energy, potential, .. } = self.invariants;
         let spatial = match directions.as_deref() {
-            _ if !self.attitude => Some("not known: the data leave the attitude open"),
+            _ if self.blocks.is_empty() => Some("not known: the data leave the attitude open"),
             Some([]) if *potential => Some("not conserved: the potential breaks the symmetry"),
             Some([]) => Some("not conserved: a torque acts"),
             _ => None,
@@ -104,7 +104,6 @@ impl Watched<'_> {
 /// Watches a run.
 pub(crate) struct Recorder<'a> {
     watched: Watched<'a>,
-    blocks: Vec<Block>,
     /// The places of the entries of the blocks in the whole matrix, row by row.
     places: Vec<usize>,
     start: Start,
@@ -116,19 +115,19 @@ pub(crate) struct Recorder<'a> {
 impl<'a> Recorder<'a> {
     /// Measures drifts against a state of this time, which is the start.
     pub(crate) fn new(watched: Watched<'a>, time: f64, space: &Space, start: &Numbers) -> Self {
-        let observed = space.observe(&[start]);
+        let observed = space.observe(&[start.parts()]);
         let start = watched.invariants.start(time, observed.seen(0, &start.mu));
         let size = space.size();
-        let blocks = if watched.attitude { blocks(watched.algebra, size) } else { Vec::new() };
-        let places = blocks.iter().flat_map(Block::places).map(|(i, j)| i * size + j).collect();
+        let places =
+            watched.blocks.iter().flat_map(Block::places).map(|(i, j)| i * size + j).collect();
         let (unknown, tally) = (watched.unknown(), Tally::default());
-        Self { watched, blocks, places, start, unknown, tally }
+        Self { watched, places, start, unknown, tally }
     }
 
     /// The orbit of the start, where all of the spatial momentum is conserved and known.
     pub(super) fn orbit(&self) -> Option<Orbit> {
-        let Watched { algebra, invariants, .. } = self.watched;
-        let known = invariants.directions.is_none() && !self.blocks.is_empty();
+        let Watched { algebra, invariants, blocks, .. } = self.watched;
+        let known = invariants.directions.is_none() && !blocks.is_empty();
         known.then(|| Orbit::new(algebra, self.start.momenta().to_vec()))
     }
 
@@ -136,7 +135,7 @@ impl<'a> Recorder<'a> {
     pub(crate) fn begun(&self) -> Begun<'_> {
         Begun {
             coordinates: self.watched.coordinates,
-            blocks: &self.blocks,
+            blocks: self.watched.blocks,
             known: self.unknown.map(|why| why.is_none()),
             energy: self.watched.invariants.energy,
             scales: &self.start.scales,
@@ -205,10 +204,10 @@ impl<'a> Recorder<'a> {
         let invariants = self.watched.invariants;
         // An energy that is conserved does not depend on the time.
         let time = states.first().map_or(f64::NAN, |(time, _)| *time);
-        let states: Vec<&Numbers> = states[..count].iter().map(|(_, state)| *state).collect();
+        let states: Vec<_> = states[..count].iter().map(|(_, state)| state.parts()).collect();
         let (observed, conserved) = space.conserved(invariants, time, &states);
         let mut measured = Vec::with_capacity(count);
-        for (at, [now, beside]) in conserved.iter().enumerate() {
+        for (at, [now, beside]) in conserved.each().enumerate() {
             let energy = invariants.energy_of(now);
             if let Err(what) = finite("the energy", energy.unwrap_or(0.0)) {
                 wrong = Some(what);
@@ -247,7 +246,7 @@ impl<'a> Recorder<'a> {
         measured: &Measured,
     ) -> Outcome {
         let Tally { drift, unmeasured, solver, steep } = self.tally;
-        let invariants = self.watched.invariants;
+        let Watched { invariants, blocks, .. } = self.watched;
         let Measured { moment, observed } = measured;
         let element = self.entries(observed.matrix(0));
         let energy = invariants.energy_of(self.start.conserved());
@@ -257,7 +256,7 @@ impl<'a> Recorder<'a> {
             backend: None,
             warnings: steep.map(Warning::Steep).into_iter().collect(),
             momentum: state.mu.clone(),
-            off_group: off_group(self.watched.algebra, &self.blocks, &element),
+            off_group: off_group(blocks, &element),
             element,
             energy: energy.zip(moment.energy).map(|(start, end)| [start, end]),
             drift,
@@ -265,11 +264,11 @@ impl<'a> Recorder<'a> {
             unknown: self.unknown,
             casimirs: invariants.casimirs,
             potential: invariants.potential,
-            momenta: if self.watched.attitude { invariants.momenta() } else { 0 },
+            momenta: if blocks.is_empty() { 0 } else { invariants.momenta() },
             scales: self.start.scales,
             events: Vec::new(),
             solver,
-            blocks: self.blocks,
+            blocks: blocks.to_vec(),
             estimated_error: Err(Unknown::OFF),
         }
     }

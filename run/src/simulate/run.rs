@@ -10,6 +10,7 @@ use coadjoint_codegen::step::Invariants;
 use coadjoint_learn::{LearnError, ModelFile};
 use coadjoint_program::Trajectories;
 
+use super::blocks::blocks;
 use super::estimate::{Made, Maker};
 use super::march::Subject;
 use super::milestone::part;
@@ -19,7 +20,7 @@ use super::sink::Sink;
 use super::slow::slow;
 use super::tally::Warning;
 use super::unknown::Unknown;
-use crate::engine::{Charted, Compiled, Motion, Numbers, group_of};
+use crate::engine::{Charted, Compiled, Motion, Numbers, Space, group_of};
 use crate::error::RunError;
 use crate::grid::Grid;
 use crate::load::Derived;
@@ -33,7 +34,7 @@ pub fn run(system: &Derived, setup: &Setup, sink: &mut dyn Sink) -> Result<Outco
     let (compiled, motion, start) = system.begin(setup)?;
     motion.defined(&start, grid.start).map_err(RunError::at(grid.start))?;
     let warnings = system.gave_way().map(|text| Warning::Method { text }).into_iter().collect();
-    let subject = Subject { setup, watched: system.watched(grid.step), warnings };
+    let subject = Subject { setup, watched: system.watched(motion.space(), grid.step), warnings };
     let made = subject.run(&motion, &start, sink);
     let code = compiled.as_ref().map(|compiled| compiled.code());
     code.iter().flat_map(|code| code.notes()).for_each(|note| sink.warn(&note));
@@ -95,13 +96,14 @@ impl Derived {
     }
 
     /// The quantities watched in a run in steps of this size.
-    pub(crate) fn watched(&self, step: f64) -> Watched<'_> {
+    pub(crate) fn watched(&self, space: &Space, step: f64) -> Watched<'_> {
         let Facts { algebra, coordinates, .. } = self.facts();
         let damped = self.damping.is_some().then_some(match step < 0.0 {
             true => "rises: damping acts, and the run goes back in time",
             false => "falls: damping acts",
         });
-        Watched { algebra, coordinates, invariants: &self.invariants, attitude: true, damped }
+        let blocks = self.blocks.get_or_init(|| blocks(algebra, space.size()));
+        Watched { algebra, coordinates, invariants: &self.invariants, blocks, damped }
     }
 }
 
@@ -122,15 +124,18 @@ pub fn run_model(
         return Err(LearnError::Shape { what: "the start".into(), expected, found }.into());
     }
     let coordinates: Vec<String> = (0..expected).map(|i| format!("mu[{i}]")).collect();
-    let (invariants, attitude) = (Invariants::of(&algebra), model.attitude);
-    let (algebra, coordinates, invariants) = (&algebra, &coordinates, &invariants);
-    let watched = Watched { algebra, coordinates, invariants, attitude, damped: None };
-    let warnings = if attitude { Vec::new() } else { vec![Warning::NoAttitude] };
+    let invariants = Invariants::of(&algebra);
     let chart = if model.chart == "cayley" { lie::Chart::Cayley } else { lie::Chart::Exponential };
-    let group = Charted::new(file, group_of(file, algebra, false)?, chart)?;
+    let group = Charted::new(file, group_of(file, &algebra, false)?, chart)?;
     let grid = setup.schedule.grid();
     let motion = group.learned(model, grid).map_err(RunError::unmade)?;
     let start = start(file, motion.space(), setup.group_element.as_deref(), &setup.momentum)?;
+    let (blocks, warnings) = match model.attitude {
+        true => (blocks(&algebra, motion.space().size()), Vec::new()),
+        false => (Vec::new(), vec![Warning::NoAttitude]),
+    };
+    let (algebra, coordinates, invariants, blocks) = (&algebra, &coordinates, &invariants, &blocks);
+    let watched = Watched { algebra, coordinates, invariants, blocks, damped: None };
     let (mut outcome, ..) = Subject { setup, watched, warnings }.run(&motion, &start, sink)?;
     outcome.estimated_error = Err(Unknown::LEARNED);
     Ok(outcome)

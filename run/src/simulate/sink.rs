@@ -139,8 +139,7 @@ mod tests {
 
     #[test]
     fn columns_have_the_names_of_the_file_and_none_twice() {
-        let blocks =
-            [Block { range: 0..1, kind: Kind::Real }, Block { range: 1..2, kind: Kind::Real }];
+        let blocks = [0..1, 1..2].map(|range| Block { range, kind: Kind::Real, orthogonal: 0 });
         let names = |list: &[&str]| list.iter().map(|&name| name.to_owned()).collect::<Vec<_>>();
         let (scales, coordinates) = (Scales::default(), names(&["mu[0]", "energy", "x"]));
         let whole = Begun {

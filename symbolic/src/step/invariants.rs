@@ -114,8 +114,13 @@ impl Invariants {
         self.directions.as_ref().map_or(self.dim, Vec::len)
     }
 
-    /// The conserved quantities of states of this time, one after the other.
-    pub fn conserved(&self, time: f64, states: &[Seen<'_>]) -> Vec<Vec<f64>> {
+    /// The number of conserved quantities.
+    pub fn count(&self) -> usize {
+        self.values.outputs().len()
+    }
+
+    /// The conserved quantities of states of this time, [`count`](Self::count) numbers of each, one state after the other.
+    pub fn conserved(&self, time: f64, states: &[Seen<'_>]) -> Vec<f64> {
         self.evaluate(&self.values, time, states)
     }
 
@@ -126,21 +131,43 @@ impl Invariants {
 
     /// The sizes of what the Casimirs and the energy at a state are sums of.
     pub fn sizes(&self, time: f64, state: Seen<'_>) -> (Vec<f64>, Option<f64>) {
-        let mut sizes = self.evaluate(&self.sizes, time, &[state]).pop().unwrap_or_default();
+        self.parted(self.evaluate(&self.sizes, time, &[state]))
+    }
+
+    /// The sizes of the terms of the Casimirs, and of the energy where there is one.
+    fn parted(&self, mut sizes: Vec<f64>) -> (Vec<f64>, Option<f64>) {
         let energy = if self.energy { sizes.pop() } else { None };
         (sizes, energy.map(f64::abs))
     }
 
     /// The start of a run from that state.
     pub fn start(&self, time: f64, state: Seen<'_>) -> Start {
-        let conserved = self.conserved(time, &[state]).pop().unwrap_or_default();
-        let (casimirs, energy) = self.sizes(time, state);
-        let known = self.energy_of(&conserved).unwrap_or(0.0);
-        let scales = Scales::new(state.spatial, casimirs, [known, energy.unwrap_or(0.0)]);
-        Start { momenta: self.momenta(), conserved, scales }
+        self.starts(time, &[state]).next().unwrap_or_default()
     }
 
-    fn evaluate(&self, program: &Program, time: f64, states: &[Seen<'_>]) -> Vec<Vec<f64>> {
+    /// The starts of runs from these states.
+    pub fn starts<'a>(
+        &'a self,
+        time: f64,
+        states: &'a [Seen<'_>],
+    ) -> impl Iterator<Item = Start> + 'a {
+        let conserved = self.conserved(time, states);
+        let sizes = self.evaluate(&self.sizes, time, states);
+        let row = |list: &[f64], program: &Program, at: usize| {
+            let width = program.outputs().len();
+            list[at * width..][..width].to_vec()
+        };
+        states.iter().enumerate().map(move |(at, state)| {
+            let conserved = row(&conserved, &self.values, at);
+            let (casimirs, energy) = self.parted(row(&sizes, &self.sizes, at));
+            let known = self.energy_of(&conserved).unwrap_or(0.0);
+            let scales = Scales::new(state.spatial, casimirs, [known, energy.unwrap_or(0.0)]);
+            Start { momenta: self.momenta(), conserved, scales }
+        })
+    }
+
+    /// The outputs of a program for each state, one state after the other.
+    fn evaluate(&self, program: &Program, time: f64, states: &[Seen<'_>]) -> Vec<f64> {
         let n = self.dim;
         let input = |row: usize, i: usize| {
             let Seen { spatial, matrix, momentum } = states[row];
@@ -151,17 +178,14 @@ impl Invariants {
             };
             number.copied().unwrap_or(f64::NAN)
         };
-        let width = program.outputs().len();
-        let found = program.run_each(states.len(), input, &self.symbols);
-        let mut rows: Vec<Vec<f64>> =
-            (0..states.len()).map(|row| found[row * width..][..width].to_vec()).collect();
+        let mut found = program.run_each(states.len(), input, &self.symbols);
         if let Some(Given(function)) = &self.given {
-            for (row, state) in rows.iter_mut().zip(states) {
-                let rest = row.pop();
-                row.extend(rest.map(|rest| rest + function.value(time, state.momentum)));
+            for (row, state) in found.chunks_mut(program.outputs().len()).zip(states) {
+                let Some(energy) = row.last_mut() else { continue };
+                *energy += function.value(time, state.momentum);
             }
         }
-        rows
+        found
     }
 }
 
