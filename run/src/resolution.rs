@@ -86,8 +86,8 @@ impl Derived {
 
 /// A function of time, and when steps look at it.
 struct Moving<'a> {
-    /// Its values: velocities, or forces relative to the momentum.
-    values: Box<dyn Fn(f64) -> Vec<f64> + 'a>,
+    /// Its values at some times, one after the other: velocities, or forces relative to the momentum.
+    values: Box<dyn Fn(&[f64]) -> Vec<f64> + 'a>,
     /// The times of a step, from its beginning on and in its lengths, and their weights.
     looks: Vec<(f64, f64)>,
 }
@@ -99,7 +99,7 @@ impl<'a> Moving<'a> {
             return None;
         }
         let symbols = smooth.symbols_at(parameters);
-        let values = Box::new(move |time| smooth.gradient(&symbols, time, mu));
+        let values = Box::new(move |times: &[f64]| smooth.gradients(&symbols, times, mu));
         let splitting = smooth.kicks.as_ref().map(|kicks| kicks.splitting);
         let flows: Vec<f64> = splitting.map_or(vec![1.0], |splitting| splitting.flows().collect());
         let (mut start, mut looks) = (0.0, Vec::new());
@@ -122,9 +122,9 @@ impl<'a> Moving<'a> {
         let symbols: Vec<f64> =
             potential.symbols.iter().map(|symbol| symbol.expr.evaluate(parameters)).collect();
         let size = mu.iter().fold(0.0, |most: f64, mu| most.max(mu.abs()));
-        let values = Box::new(move |time| {
-            let values = torque.torque.run(&torque.inputs(&entries, mu, time), &symbols);
-            values.into_iter().map(|value| value / size).collect()
+        let values = Box::new(move |times: &[f64]| {
+            let of = |&time| torque.torque.run(&torque.inputs(&entries, mu, time), &symbols);
+            times.iter().flat_map(of).map(|value| value / size).collect()
         });
         let (mut at, mut looks) = (0.0, Vec::new());
         let flows = kicks.splitting.flows().chain([0.0]);
@@ -139,46 +139,48 @@ impl<'a> Moving<'a> {
     fn is_seen(&self, grid: Grid, steps: u64) -> bool {
         let stretches = if steps <= STRETCHES * STEPS { 1 } else { STRETCHES };
         let long = if stretches == 1 { steps } else { STEPS };
-        let mut points: Vec<Vec<f64>> = Vec::new();
+        let (mut points, mut width): (Vec<f64>, usize) = (Vec::new(), 0);
         let (mut missed, mut worst) = (0.0, 0.0);
         for stretch in 0..stretches {
             let first = (steps - long) / (stretches - 1).max(1) * stretch;
-            let mut sum: Vec<f64> = Vec::new();
-            for number in first..first + long {
+            // Points at the same places of every step would be blind as nodes may be.
+            let shift = |number: u64| (number as f64 * 0.618_033_988_749_894_9).fract();
+            let fine =
+                |number| (0..POINTS).map(move |i| (i as f64 + shift(number)) / POINTS as f64);
+            let looks = || self.looks.iter().map(|(at, _)| *at);
+            let times = (first..first + long).flat_map(|number| {
                 let start = grid.time(number);
-                // Points at the same places of every step would be blind as nodes may be.
-                let shift = (number as f64 * 0.618_033_988_749_894_9).fract();
-                let mut difference: Vec<f64> = Vec::new();
-                let looks = self.looks.iter().copied();
-                let fine =
-                    (0..POINTS).map(|i| ((i as f64 + shift) / POINTS as f64, -1.0 / POINTS as f64));
-                for (place, (at, weight)) in looks.chain(fine).enumerate() {
-                    let values = (self.values)(at.mul_add(grid.step, start));
-                    if values.iter().any(|value| !value.is_finite()) {
-                        // The run says where this is.
-                        return true;
-                    }
-                    difference.resize(values.len(), 0.0);
-                    difference.iter_mut().zip(&values).for_each(|(sum, v)| *sum += weight * v);
-                    if place >= self.looks.len() {
-                        points.push(values);
-                    }
+                looks().chain(fine(number)).map(move |at| at.mul_add(grid.step, start))
+            });
+            let values = (self.values)(&times.collect::<Vec<_>>());
+            if values.iter().any(|value| !value.is_finite()) {
+                // The run says where this is.
+                return true;
+            }
+            width = values.len() / (long as usize * (self.looks.len() + POINTS));
+            let weights = self.looks.iter().map(|(_, weight)| *weight);
+            let weights: Vec<f64> = weights.chain([-1.0 / POINTS as f64; POINTS]).collect();
+            let mut sum = vec![0.0; width];
+            for step in values.chunks(width * weights.len()) {
+                let mut difference = vec![0.0; width];
+                for (values, weight) in step.chunks(width).zip(&weights) {
+                    difference.iter_mut().zip(values).for_each(|(sum, v)| *sum += weight * v);
                 }
+                points.extend_from_slice(&step[width * self.looks.len()..]);
                 missed += largest(&difference);
-                sum.resize(difference.len(), 0.0);
                 sum.iter_mut().zip(&difference).for_each(|(sum, d)| *sum += d * grid.step);
                 worst = f64::max(worst, largest(&sum));
             }
         }
-        let count = points.len() as f64;
-        let mut mean = vec![0.0; points.first().map_or(0, Vec::len)];
-        for point in &points {
+        let count = (points.len() / width) as f64;
+        let mut mean = vec![0.0; width];
+        for point in points.chunks(width) {
             mean.iter_mut().zip(point).for_each(|(mean, value)| *mean += value / count);
         }
-        let apart = |point: &Vec<f64>| {
+        let apart = |point: &[f64]| {
             point.iter().zip(&mean).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
         };
-        let moves = points.iter().map(apart).sum::<f64>() / POINTS as f64;
+        let moves = points.chunks(width).map(apart).sum::<f64>() / POINTS as f64;
         worst <= MATTERS || missed <= LARGEST_SHARE * moves
     }
 }

@@ -180,6 +180,16 @@ impl Smooth {
         self.gradient.run(&self.inputs(time, mu), symbols)
     }
 
+    /// ∂H/∂μ at these times, one after the other, for one momentum.
+    pub fn gradients(&self, symbols: &[f64], times: &[f64], mu: &[f64]) -> Vec<f64> {
+        if let Some(Given(function)) = &self.given {
+            return times.iter().flat_map(|&time| function.gradient(time, mu)).collect();
+        }
+        let inputs: Vec<f64> = times.iter().flat_map(|&time| self.inputs(time, mu)).collect();
+        let width = self.gradient.inputs();
+        self.gradient.run_each(times.len(), |row, i| inputs[row * width + i], symbols)
+    }
+
     /// The square of the [reach](Smooth::reach) from one (t, μ) to another; none of a function of the user's.
     pub fn reach(&self, symbols: &[f64], from: (f64, &[f64]), to: (f64, &[f64])) -> Option<f64> {
         let mut inputs = self.inputs(from.0, from.1);

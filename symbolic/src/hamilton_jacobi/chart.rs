@@ -7,7 +7,7 @@ use num_traits::{One, Zero};
 use crate::hamilton_jacobi::{DeriveError, TermLimit};
 use crate::lie::{Chart, CubicEntry, LieAlgebra, cubic};
 use crate::number::{BernoulliWeights, Rational, integer, ratio};
-use crate::poly::{Polynomial, Product, SumError, sum_of_products};
+use crate::poly::{Arithmetic, Polynomial, Product, SumError, sum_of_products};
 
 /// Selects a map of the algebra or its transpose.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -183,14 +183,15 @@ pub(crate) type Series = Vec<Polynomial>;
 /// Counts the work done and stops when it exceeds the limit.
 pub(crate) struct Work {
     limit: TermLimit,
+    arithmetic: Arithmetic,
     products: u64,
     pub(crate) order: usize,
     pub(crate) variables: usize,
 }
 
 impl Work {
-    pub(crate) fn new(variables: usize, limit: TermLimit) -> Self {
-        Self { limit, products: 0, order: 0, variables }
+    pub(crate) fn new(variables: usize, limit: TermLimit, arithmetic: Arithmetic) -> Self {
+        Self { limit, arithmetic, products: 0, order: 0, variables }
     }
 
     /// Σ factor · left · right.
@@ -207,7 +208,7 @@ impl Work {
             list.push(Product { factor: factor.clone(), left, right });
         }
         self.charge(count)?;
-        let sum = sum_of_products(self.variables, &list, self.limit.terms);
+        let sum = sum_of_products(self.variables, &list, self.limit.terms, self.arithmetic);
         sum.map_err(|error| match error {
             SumError::Terms(terms) => {
                 DeriveError::TooLarge { order: self.order, terms, limit: self.limit.terms }

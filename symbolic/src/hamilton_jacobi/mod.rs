@@ -8,7 +8,7 @@ mod error;
 mod predict;
 
 use crate::lie::{Chart, LieAlgebra};
-use crate::poly::Polynomial;
+use crate::poly::{Arithmetic, Polynomial};
 use chart::{Composition, Inverse, Side, Work, identity, reciprocal};
 
 pub use error::{DeriveError, TermLimit};
@@ -57,23 +57,37 @@ pub fn derive(
     truncation: usize,
     limit: TermLimit,
 ) -> Result<GeneratingSeries, DeriveError> {
-    derive_orders(algebra, chart, hamiltonian, truncation, limit, true)
+    derive_orders(algebra, chart, hamiltonian, truncation, limit, (true, Arithmetic::Exact))
 }
 
-pub(super) fn derive_orders(
+/// As [`derive`], with coefficients that are rounded to floating point where they do not fit into machine integers: for estimates.
+///
+/// # Errors
+/// As [`derive`].
+pub(crate) fn estimate(
     algebra: &LieAlgebra,
     chart: Chart,
     hamiltonian: &Polynomial,
     truncation: usize,
     limit: TermLimit,
-    odd_only: bool,
+) -> Result<GeneratingSeries, DeriveError> {
+    derive_orders(algebra, chart, hamiltonian, truncation, limit, (true, Arithmetic::Rounded))
+}
+
+fn derive_orders(
+    algebra: &LieAlgebra,
+    chart: Chart,
+    hamiltonian: &Polynomial,
+    truncation: usize,
+    limit: TermLimit,
+    (odd_only, arithmetic): (bool, Arithmetic),
 ) -> Result<GeneratingSeries, DeriveError> {
     let dimension = algebra.dim();
     let variables = hamiltonian.variables();
     if variables < dimension {
         return Err(DeriveError::Variables { variables, dimension });
     }
-    let mut work = Work::new(variables, limit);
+    let mut work = Work::new(variables, limit, arithmetic);
     let mut body_momentum = Inverse::new(algebra, chart, Side::Dual)?;
     let mut energy = Composition::new(dimension, std::slice::from_ref(hamiltonian))?;
     let zero = Polynomial::zero(variables);

@@ -10,7 +10,7 @@ use crate::hamilton_jacobi::chart::{
 };
 use crate::lie::{Chart, CubicEntry, LieAlgebra, cubic};
 use crate::number::{Rational, ratio};
-use crate::poly::Polynomial;
+use crate::poly::{Arithmetic, Polynomial};
 use num_traits::One;
 
 /// Derives the solution p = Σ_m h^m p_m(μ′) of J_L(∂S/∂p(p), p) = μ′ as a power series in the step h. The result
@@ -26,7 +26,7 @@ pub fn predictor(
     degree: usize,
     limit: TermLimit,
 ) -> Result<Vec<Vec<Polynomial>>, DeriveError> {
-    let mut rows = PredictorRows::new(algebra, chart, hamiltonian, limit)?;
+    let mut rows = PredictorRows::new(algebra, chart, hamiltonian, limit, Arithmetic::Exact)?;
     (0..=degree).map(|_| rows.next_row()).collect()
 }
 
@@ -61,6 +61,7 @@ impl<'a> PredictorRows<'a> {
         chart: Chart,
         hamiltonian: &Polynomial,
         limit: TermLimit,
+        arithmetic: Arithmetic,
     ) -> Result<Self, DeriveError> {
         let dimension = algebra.dim();
         let variables = hamiltonian.variables();
@@ -70,7 +71,7 @@ impl<'a> PredictorRows<'a> {
         let gradient = hamiltonian.gradient(dimension);
         Ok(Self {
             algebra,
-            work: Work::new(variables, limit),
+            work: Work::new(variables, limit, arithmetic),
             gradient: Composition::new(dimension, &gradient)?,
             velocity: Inverse::new(algebra, chart, Side::Algebra)?,
             mu: identity(dimension, variables),

@@ -11,7 +11,7 @@ pub use coefficients::{Coefficients, Contribution};
 pub use fold::FoldTable;
 pub use kick::{Kick, Kicks};
 pub(crate) use lower::DefectTerm;
-pub(crate) use plan::operations;
+pub(crate) use plan::{Guesses, operations};
 pub use plan::{Plan, Predictor};
 
 use std::sync::OnceLock;

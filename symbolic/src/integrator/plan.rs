@@ -7,7 +7,7 @@ use super::flow;
 use crate::hamilton_jacobi::{DeriveError, GeneratingSeries, PredictorRows, TermLimit};
 use crate::integrator::lower::collect;
 use crate::lie::Chart;
-use crate::poly::{Factors, Polynomial, split_at};
+use crate::poly::{Arithmetic, Factors, Polynomial, split_at};
 use crate::problem::{Problem, Solver};
 
 /// The first guess of p in a step.
@@ -77,7 +77,9 @@ impl Plan {
         terms: &[BaseTerm],
         limit: TermLimit,
     ) -> Result<(Self, Vec<Vec<Polynomial>>), DeriveError> {
-        let (_, plan, mut polynomials) = Self::cheapest(problem, terms, limit)?;
+        let mut guesses = Guesses::new(problem, limit)?;
+        let (_, plan) = Self::cheapest(problem, terms, &mut guesses)?;
+        let mut polynomials = guesses.known;
         match plan.predictor {
             Predictor::Explicit(degree) => polynomials.truncate(degree + 1),
             Predictor::Flow(_) => polynomials.clear(),
@@ -93,68 +95,53 @@ impl Plan {
     pub(crate) fn operations(
         problem: &Problem,
         series: &GeneratingSeries,
-        limit: TermLimit,
+        guesses: &mut Guesses<'_>,
     ) -> Result<usize, DeriveError> {
         let dim = problem.algebra.dim();
         let orders = (1..=problem.truncation).map(|k| (k as u32, series.order(k)));
         let terms = collect(&mut Coefficients::default(), dim, orders);
-        Ok(Self::cheapest(problem, &terms, limit)?.0)
+        Ok(Self::cheapest(problem, &terms, guesses)?.0)
     }
 
-    /// The cheapest plan with the operations of a step, and the polynomials of all explicit predictors that were tried: as
-    /// long as no other plan is cheaper, and they take no more than [`MOST_PRODUCTS`].
+    /// The cheapest plan with the operations of a step. Explicit predictors are tried as long as no other plan is cheaper, and
+    /// they take no more than [`MOST_PRODUCTS`].
     fn cheapest(
         problem: &Problem,
         terms: &[BaseTerm],
-        limit: TermLimit,
-    ) -> Result<(usize, Self, Vec<Vec<Polynomial>>), DeriveError> {
+        guesses: &mut Guesses<'_>,
+    ) -> Result<(usize, Self), DeriveError> {
         let highest = Self::single_step_degree(problem.truncation);
         let newton = problem.solver() == Solver::Newton;
         let costs = Costs::new(problem, terms);
         let mut found: Vec<(usize, Self)> = Vec::new();
-        if newton && problem.chart == Chart::Exponential {
+        if guesses.along_flow {
             let possible = flow::DEGREES.iter().filter(|&&degree| degree <= highest).count();
             let degrees = &flow::DEGREES[..possible];
             // If a correction is dear, the best guess available pays.
             let first = if corrects_dearly(problem) { possible.saturating_sub(1) } else { 0 };
             for &degree in &degrees[first..] {
-                let program =
-                    flow::increment_program(&mut Coefficients::default(), problem, degree);
                 // From x to p the chart is evaluated once more.
-                let own = program.cost().total() + WAIT;
+                let own = guesses.flow(degree) + WAIT;
                 found.extend(costs.cheapest(Predictor::Flow(degree), own));
             }
         }
         let mut least = found.iter().map(|&(cost, _)| cost).min().unwrap_or(usize::MAX);
-        let most = match problem.algebra.dim() {
-            ..=SMALL => limit.products,
-            _ if found.is_empty() => limit.products,
-            _ => limit.products.min(MOST_PRODUCTS),
-        };
-        let limit = TermLimit { products: most, ..limit };
-        let Problem { algebra, chart, .. } = problem;
-        let mut rows = PredictorRows::new(algebra, *chart, problem.generated(), limit)?;
         let last = if newton { highest } else { HIGHEST_CHEAP_DEGREE };
         let (mut monomials, mut data) = (HashSet::new(), 0);
-        let mut polynomials = Vec::new();
         let mut explicit: Vec<(usize, Self)> = Vec::new();
         let tried = if corrects_dearly(problem) && !found.is_empty() { 0 } else { last + 1 };
         for degree in 0..tried {
-            let row = match rows.next_row() {
-                Ok(row) => row,
-                Err(error) if degree > 0 && error.is_of_size() => break,
-                Err(error) => return Err(error),
-            };
+            let Some(row) = guesses.row(degree)? else { break };
             for (i, component) in row.iter().enumerate() {
                 let factors = component.factors();
-                let momenta = |f: &[(u32, u32)]| Factors(split_at(f, algebra.dim()).0.into());
+                let dim = problem.algebra.dim();
+                let momenta = |f: &[(u32, u32)]| Factors(split_at(f, dim).0.into());
                 monomials.extend(factors.map(|(factors, _)| (i, momenta(&factors))));
             }
             data += row.iter().map(Polynomial::len).sum::<usize>();
             if !found.is_empty() && data > MOST_DATA * monomials.len() {
                 break;
             }
-            polynomials.push(row);
             // About two operations for each monomial. They only grow with the degree.
             let own = 2 * monomials.len();
             if own > least {
@@ -176,7 +163,61 @@ impl Plan {
             hessian_truncation: problem.truncation,
         };
         let (cost, plan) = best.unwrap_or_else(|| (usize::MAX, constant()));
-        Ok((cost, plan, polynomials))
+        Ok((cost, plan))
+    }
+}
+
+/// The first guesses of a problem, which do not depend on the truncation; each is made once.
+pub(crate) struct Guesses<'a> {
+    problem: &'a Problem,
+    /// True if guesses along the flow are possible.
+    along_flow: bool,
+    /// Degrees of guesses along the flow, and their operations.
+    flows: Vec<(usize, usize)>,
+    /// The next polynomials of explicit guesses, until there are too many.
+    rows: Option<PredictorRows<'a>>,
+    /// Polynomials, `[order in h][component]`.
+    known: Vec<Vec<Polynomial>>,
+}
+
+impl<'a> Guesses<'a> {
+    /// # Errors
+    /// [`DeriveError`] if not even the constant predictor can be derived.
+    pub(crate) fn new(problem: &'a Problem, limit: TermLimit) -> Result<Self, DeriveError> {
+        let Problem { algebra, chart, .. } = problem;
+        let along_flow = problem.solver() == Solver::Newton && *chart == Chart::Exponential;
+        let most = match algebra.dim() {
+            dim if dim > SMALL && along_flow => limit.products.min(MOST_PRODUCTS),
+            _ => limit.products,
+        };
+        let limit = TermLimit { products: most, ..limit };
+        let (chart, generated) = (*chart, problem.generated());
+        let rows = PredictorRows::new(algebra, chart, generated, limit, Arithmetic::Rounded)?;
+        let (flows, known, rows) = (Vec::new(), Vec::new(), Some(rows));
+        Ok(Self { problem, along_flow, flows, rows, known })
+    }
+
+    /// The operations of the guess along the flow of this degree.
+    fn flow(&mut self, degree: usize) -> usize {
+        if let Some((_, known)) = self.flows.iter().find(|(own, _)| *own == degree) {
+            return *known;
+        }
+        let program = flow::increment_program(&mut Coefficients::default(), self.problem, degree);
+        self.flows.push((degree, program.cost().total()));
+        program.cost().total()
+    }
+
+    /// The polynomials of this degree in h, after those of all lower ones; none if they are too large.
+    fn row(&mut self, degree: usize) -> Result<Option<&[Polynomial]>, DeriveError> {
+        while self.known.len() <= degree {
+            let Some(rows) = &mut self.rows else { return Ok(None) };
+            match rows.next_row() {
+                Ok(row) => self.known.push(row),
+                Err(error) if degree > 0 && error.is_of_size() => self.rows = None,
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(self.known.get(degree).map(Vec::as_slice))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use num_bigint::BigInt;
 use num_integer::Integer;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::{Float, One, Signed, ToPrimitive, Zero};
 
 use crate::number::Rational;
 
@@ -127,6 +127,40 @@ impl Coefficients {
             return numerators[index] as f64 / *denominator as f64;
         }
         self.get(index).to_f64().unwrap_or(f64::NAN)
+    }
+
+    /// All values in floating point, to within a few units in the last place; none where one is out of its range.
+    pub(crate) fn to_f64s(&self) -> Option<Vec<f64>> {
+        let values: Vec<f64> = match self {
+            Self::Small { numerators, denominator, .. } => {
+                numerators.iter().map(|value| *value as f64 / *denominator as f64).collect()
+            }
+            Self::Big { numerators, denominator } => {
+                let denominator = denominator.to_f64()?;
+                numerators.iter().filter_map(|value| Some(value.to_f64()? / denominator)).collect()
+            }
+        };
+        values.iter().all(|value| value.is_normal()).then_some(values)
+    }
+
+    /// The list of these values; none where one is not normal.
+    pub(crate) fn of_f64s(values: &[f64]) -> Option<Self> {
+        if values.iter().any(|value| !value.is_normal()) {
+            return None;
+        }
+        let decoded: Vec<(u64, i16, i8)> =
+            values.iter().map(|value| value.integer_decode()).collect();
+        let lowest = |&(mantissa, exponent, _): &(u64, i16, i8)| {
+            i32::from(exponent) + mantissa.trailing_zeros() as i32
+        };
+        let shift = -decoded.iter().map(lowest).min().unwrap_or(0).min(0);
+        let numerator = |(mantissa, exponent, sign): (u64, i16, i8)| {
+            let by = i32::from(exponent) + shift;
+            let whole = BigInt::from(mantissa) * sign;
+            if by < 0 { whole >> -by } else { whole << by }
+        };
+        let numerators = decoded.into_iter().map(numerator).collect();
+        Some(Self::big(numerators, BigInt::one() << shift))
     }
 
     /// The numerators and the common denominator as big integers.

@@ -2,7 +2,7 @@
 
 use crate::number::{Coefficients, Rational, integer};
 use crate::poly::polynomial::{Factors, Keys, Packing, Polynomial};
-use crate::poly::product::{Product, sum_of_products};
+use crate::poly::product::{Arithmetic, Product, sum_of_products};
 use num_traits::{One, Zero};
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -117,7 +117,7 @@ impl Polynomial {
             .iter()
             .map(|(factor, left, right)| Product { factor: integer(*factor), left, right })
             .collect();
-        match sum_of_products(variables, &products, usize::MAX) {
+        match sum_of_products(variables, &products, usize::MAX, Arithmetic::Exact) {
             Ok(sum) => sum,
             // Without a limit none is exceeded.
             Err(_) => Self::zero(variables),

@@ -11,7 +11,7 @@ mod region;
 use std::fmt;
 
 use crate::hamilton_jacobi::{self, DeriveError, GeneratingSeries, TermLimit};
-use crate::integrator::Plan;
+use crate::integrator::{Guesses, Plan};
 use crate::problem::Problem;
 use crate::tolerance::along::{Along, Brackets, Flow, Gradient, rate};
 
@@ -250,11 +250,12 @@ pub fn choose(
     let sizes = Sizes::of(&flow, dim, target);
     let first = target.truncation.unwrap_or(*TRUNCATIONS.start());
     let last = target.truncation.unwrap_or(*TRUNCATIONS.end()).min(series.truncation() - 2);
+    let mut guesses = Guesses::new(problem, limit)?;
     let mut best: Option<(Choice, Bound)> = None;
     for truncation in (first..=last).step_by(2) {
         let (step, bound) = sizes.step(&orders, truncation, target);
         let candidate = Problem { truncation, ..problem.clone() };
-        let operations = Plan::operations(&candidate, &series, limit)? as f64 / step;
+        let operations = Plan::operations(&candidate, &series, &mut guesses)? as f64 / step;
         if best.as_ref().is_none_or(|(best, _)| operations < best.operations) {
             let place = truncation.div_ceil(2);
             let choice = Choice {
@@ -321,7 +322,7 @@ fn derive(
     let smallest = only.unwrap_or(*TRUNCATIONS.start()) + 2;
     let mut highest = only.unwrap_or(*TRUNCATIONS.end()) + 2;
     loop {
-        let derived = hamilton_jacobi::derive(
+        let derived = hamilton_jacobi::estimate(
             &problem.algebra,
             problem.chart,
             problem.generated(),
