@@ -20,9 +20,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let folder = PathBuf::from(std::env::var("OUT_DIR")?).join("emitted");
     std::fs::create_dir_all(&folder)?;
     for source in emitted::SYSTEMS {
-        let integrator = emitted::from_function(source)?;
-        let name = &integrator.problem.name;
-        let text = emit::file(emit::items(&integrator, &emit::Options::for_problem(name)));
+        let origin = emitted::origin(source)?;
+        let name = origin.facts().name;
+        let text = emit::file(emit::items_of(&origin, &emit::Options::for_problem(name))?);
         std::fs::write(folder.join(format!("{name}.rs")), text)?;
     }
     Ok(())

@@ -4,17 +4,18 @@ use coadjoint_program::fold::FoldError;
 
 use crate::collocation::Undefined;
 use crate::error::StepError;
-use crate::generating::ScalarOf;
 use crate::group::phase::Phase;
 use crate::number::Scalar;
-use crate::solve::Integrator;
+use crate::step::NumberOf;
 
+pub use crate::collocation::collocated;
 pub use crate::number::{Coefficients, Number, Registers};
-pub use crate::solve::{Driven, DrivenOf, estimated_ratio};
+pub use crate::solve::{Driven, DrivenIn, DrivenOf, estimated_ratio};
 pub use crate::step::numbers::ElementNumbers;
 pub use crate::step::printed::{
-    BLOCK, called, choose, choose_all, is_one, load, load_lanes, store, store_lanes,
+    BLOCK, called, choose, choose_all, is_one, load, load_lanes, store, store_lanes, timed,
 };
+pub use crate::step::{Steps, advance_at, advance_from};
 
 /// All coefficients of a generated step or potential, in each lane for its step size and symbols, folded in this room of
 /// [`Fold::room`] numbers.
@@ -51,20 +52,6 @@ pub fn fold<T: Scalar, const SYMBOLS: usize, const ROOM: usize, const LEN: usize
             Err(StepError::InvalidParameter { name: OF_SERIES, value: value.largest_lane() })
         }
         None => Ok(coefficients),
-    }
-}
-
-/// The expressions in parameters of a Hamiltonian, where all are finite.
-///
-/// # Errors
-/// [`StepError::InvalidParameter`].
-pub fn finite<const SYMBOLS: usize>(
-    names: [&'static str; SYMBOLS],
-    symbols: [f64; SYMBOLS],
-) -> Result<[f64; SYMBOLS], StepError> {
-    match symbols.iter().position(|value| !value.is_finite()) {
-        Some(i) => Err(StepError::InvalidParameter { name: names[i], value: symbols[i] }),
-        None => Ok(symbols),
     }
 }
 
@@ -106,11 +93,11 @@ pub use coadjoint_program::fold::Fold;
 /// The error of a step, with a step size that works where there is one among halves, quarters, … of `step`.
 #[cold]
 #[inline(never)]
-pub fn advise<S: Integrator>(
+pub fn advise<S: Steps>(
     error: StepError,
     phase: &Phase<S::Group>,
-    step: ScalarOf<S>,
-    shorter: impl Fn(ScalarOf<S>) -> Result<S, StepError>,
+    [time, step]: [NumberOf<S>; 2],
+    shorter: impl Fn(NumberOf<S>) -> Result<S, StepError>,
 ) -> StepError {
     if !error.asks_for_smaller_step() {
         return error;
@@ -118,7 +105,7 @@ pub fn advise<S: Integrator>(
     let mut smaller = step;
     for _ in 0..MOST_HALVINGS {
         smaller *= Scalar::of(0.5);
-        let works = |step: S| crate::steps::advance(&step, &mut phase.clone()).is_ok();
+        let works = |step: S| advance_at(&step, &mut phase.clone(), time).is_ok();
         if shorter(smaller).is_ok_and(works) {
             return error.with_usable_step(smaller.largest_lane());
         }

@@ -2,7 +2,7 @@
 
 pub use crate::error::{Circumstances, Stopped};
 pub use crate::step::{
-    StepReport, advance, advance_by,
+    StepReport, Steps, advance, advance_by,
     kicked::{Flows, Kicked, Piece, compose},
     monitor::{Drift, Monitor},
     poisson_map, reconstruct,

@@ -34,7 +34,7 @@
 
 /// Hamiltonian: `learned from 60 samples, dt = 0.1`
 ///
-/// Group: SO3. Chart exp, truncation K = 1, order of accuracy 2.
+/// Group: SO3. Chart: exponential. Truncation K = 1, order of accuracy 2.
 /// Terms: S1: 10.
 /// A step takes 397 operations, and 299 more for each further correction.
 #[derive(::core::clone::Clone, ::core::fmt::Debug)]
@@ -44,9 +44,7 @@ pub struct Learned<T = f64> {
     step: T,
     /// The parameters, as expressions of them stand in the coefficients.
     symbols: [T; 0],
-    /// The coefficients of the programs below, folded for h and the parameters; after them those of the bound on
-    /// what is left out of the Hessian, the square of the |μ| up to which the series can be trusted, and the
-    /// coefficients of its last two terms.
+    /// The coefficients of the programs below, folded for h and the parameters; after them those of the bound on what is left out of the Hessian, the square of the |μ| up to which the series can be trusted, and the coefficients of its last two terms.
     coefficients: [T; 81],
 }
 
@@ -106,11 +104,12 @@ const _: () = {
             &self,
             error: ::coadjoint::StepError,
             phase: &::coadjoint::Phase<::coadjoint::groups::SO3<T>>,
+            time: T,
         ) -> ::coadjoint::StepError {
             ::coadjoint::plumbing::advise(
                 error,
                 phase,
-                self.step,
+                [time, self.step],
                 |step| { Self::of_symbols(step, &self.symbols) },
             )
         }
@@ -133,8 +132,8 @@ const _: () = {
             ::coadjoint::steps::StepReport<T>,
             ::coadjoint::StepError,
         > {
-            ::coadjoint::steps::advance(self, phase)
-                .map_err(|error| self.advise(error, phase))
+            plumbing::advance_at(self, phase, T::of(0.0))
+                .map_err(|error| self.advise(error, phase, T::of(0.0)))
         }
 
         /// Advances (g, μ) by `steps` steps, faster than one by one; the report is of the
@@ -150,10 +149,12 @@ const _: () = {
             ::coadjoint::steps::StepReport<T>,
             ::coadjoint::steps::Stopped,
         > {
-            ::coadjoint::steps::advance_by(self, phase, steps)
-                .map_err(|stopped| ::coadjoint::steps::Stopped {
-                    error: self.advise(stopped.error, phase),
-                    ..stopped
+            plumbing::advance_from(self, phase, T::of(0.0), steps)
+                .map_err(|stopped| {
+                    ::coadjoint::steps::Stopped {
+                        error: self.advise(stopped.error, phase, T::of(0.0)),
+                        ..stopped
+                    }
                 })
         }
 
@@ -755,24 +756,6 @@ const _: () = {
         }
     }
 
-    impl ::coadjoint::lanes::Lanes for Learned<f64> {
-        #[inline(always)]
-        fn drive_lanes<R: ::coadjoint::plumbing::Registers>(
-            &self,
-            registers: R,
-            phases: &mut [(
-                usize,
-                &mut ::coadjoint::Phase<<Self as ::coadjoint::GeneratingFunction>::Group>,
-            )],
-            asked: u64,
-        ) -> bool {
-            let c = R::coefficients(registers, &self.coefficients);
-            let state = ::coadjoint::plumbing::load_lanes(registers, phases);
-            let run = steps(c, state, asked);
-            ::coadjoint::plumbing::store_lanes(registers, phases, asked, run)
-        }
-    }
-
     impl<T: ::coadjoint::Scalar> ::coadjoint::GeneratingFunction for Learned<T> {
         type Group = ::coadjoint::groups::SO3<T>;
         type Chart = ::coadjoint::groups::Exponential;
@@ -831,6 +814,31 @@ const _: () = {
                     [c.at(2), c.at(6), c.at(7)],
                 ]),
             )
+        }
+    }
+
+    static LAST: plumbing::LastTerms = plumbing::LastTerms {
+        /// The monomials of the last two terms of S, those of the last marked, as (coordinate, exponent) from zero.
+        monomials: &[],
+        /// The direct factor of the group that each coordinate belongs to.
+        factors: &[0, 0, 0],
+    };
+
+    impl ::coadjoint::lanes::Lanes for Learned<f64> {
+        #[inline(always)]
+        fn drive_lanes<R: ::coadjoint::plumbing::Registers>(
+            &self,
+            registers: R,
+            phases: &mut [(
+                usize,
+                &mut ::coadjoint::Phase<<Self as plumbing::Steps>::Group>,
+            )],
+            asked: u64,
+        ) -> bool {
+            let c = R::coefficients(registers, &self.coefficients);
+            let state = ::coadjoint::plumbing::load_lanes(registers, phases);
+            let run = steps(c, state, asked);
+            ::coadjoint::plumbing::store_lanes(registers, phases, asked, run)
         }
     }
 
@@ -943,13 +951,6 @@ const _: () = {
         /// of the gradient.
         last: &[],
         radius: ::core::option::Option::Some(80),
-    };
-
-    static LAST: plumbing::LastTerms = plumbing::LastTerms {
-        /// The monomials of the last two terms of S, those of the last marked, as (coordinate, exponent) from zero.
-        monomials: &[],
-        /// The direct factor of the group that each coordinate belongs to.
-        factors: &[0, 0, 0],
     };
 };
 

@@ -5,17 +5,38 @@ use coadjoint_codegen::diagnostic::Diagnostics;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::parse::rust;
+use coadjoint_codegen::step::Origin;
 
-pub const SYSTEMS: [(&str, &str); 5] =
-    [RIGID_BODY, CAYLEY_BODY, HEAVY_TOP, COMOVING_BODY, THREE_WAVE];
+/// The arguments of an attribute and its function.
+pub type Source = (&'static str, &'static str);
 
-/// The integrator that the attribute with `arguments` builds from the source of a function.
-pub fn from_function((arguments, function): (&str, &str)) -> syn::Result<Integrator> {
+pub const SYSTEMS: [Source; 9] = [
+    RIGID_BODY,
+    CAYLEY_BODY,
+    HEAVY_TOP,
+    COMOVING_BODY,
+    THREE_WAVE,
+    RELATIVISTIC,
+    SIX_VARIABLES,
+    TABLES,
+    TWIST,
+];
+
+/// The system that the attribute with `arguments` makes steps of, from the source of a function.
+pub fn origin((arguments, function): Source) -> syn::Result<Origin> {
     let function: syn::ItemFn = syn::parse_str(function)?;
-    let problem =
-        rust::lie_poisson(arguments.parse()?, &function).map_err(Diagnostics::into_syn_error)?;
-    Integrator::build(problem, TermLimit::default())
+    let read =
+        rust::hamiltonian(arguments.parse()?, &function).map_err(Diagnostics::into_syn_error)?;
+    Origin::derive(read, TermLimit::default())
         .map_err(|error| syn::Error::new_spanned(&function.sig.ident, error))
+}
+
+/// The integrator of a polynomial.
+pub fn from_function(source: Source) -> syn::Result<Integrator> {
+    match origin(source)? {
+        Origin::Series(integrator) => Ok(*integrator),
+        Origin::Collocation(smooth) => Err(syn::Error::new_spanned(smooth.source, "no polynomial")),
+    }
 }
 
 /// The paper's rigid body, its Hessian truncated for Newton's method.
@@ -58,5 +79,39 @@ pub const THREE_WAVE: (&str, &str) = (
     "group = SL2, truncation = 5",
     "fn three_wave(mu: [f64; 3], s: f64) -> f64 {
         mu[0] * mu[0] / 8.0 + s * mu[1] * mu[2]
+    }",
+);
+
+/// A body at speeds near that of light, by collocation.
+pub const RELATIVISTIC: Source = (
+    "group = SO3",
+    "fn relativistic(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
+        let [x, y, z] = mu;
+        (1.0 + x * x / inertia[0] + y * y / inertia[1] + z * z / inertia[2]).sqrt()
+    }",
+);
+
+pub const SIX_VARIABLES: Source = (
+    "group = SE3, truncation = 5",
+    "fn six_variables(mu: [f64; 6], stiffness: f64) -> f64 {
+        let [x, y, z, p, q, r] = mu;
+        let root = (1.0 + x * x + 2.0 * y * y + z * z).sqrt();
+        root + 1.0 / (2.0 + p * p + q * q).sqrt() + (-stiffness * r * r).exp()
+    }",
+);
+
+/// One node on a group by tables, of its own.
+pub const TABLES: Source = (
+    "group = algebra(generators = [a, b, c], brackets = [\"[a, b] = c\"]), truncation = 1",
+    "fn tables(mu: [f64; 3]) -> f64 {
+        (1.0 + mu[0] * mu[0] + mu[1] * mu[1]).sqrt() + mu[2].sin()
+    }",
+);
+
+/// A twist about the third axis whose rate grows.
+pub const TWIST: Source = (
+    "group = SO3, truncation = 9, time = s",
+    "fn twist(mu: [f64; 3], s: f64, rate: f64) -> f64 {
+        0.5 * mu[2] * mu[2] * (rate * s).exp() + 0.1 * mu[0] * mu[1]
     }",
 );

@@ -10,6 +10,7 @@ use crate::emit::program::{float, tokens};
 use crate::emit::table::list;
 use crate::lie::{Chart, LieAlgebra, catalogue, watched_casimirs};
 use crate::number::Rational;
+use crate::step::Elements;
 
 /// Groups the runtime has closed forms for, under the catalogue's name.
 const CLOSED_FORMS: [&str; 4] = ["SO3", "SE3", "SU2", "SE2"];
@@ -168,8 +169,8 @@ pub(crate) struct Types {
     pub dim: usize,
     /// The group, over the scalar `T`.
     pub group: TokenStream,
-    /// True if elements are matrices in the representation of the basis, also those of a product.
-    pub by_tables: bool,
+    /// The numbers of its elements.
+    pub elements: Elements,
     /// The chart.
     pub chart: TokenStream,
     /// Vectors of the algebra or its dual, over the scalar `T`.
@@ -203,7 +204,7 @@ impl Types {
         Self {
             dim,
             group: group.ty,
-            by_tables: group.by_tables,
+            elements: if group.by_tables { Elements::Matrices } else { Elements::ByFactors },
             chart,
             vector: quote!(#vector<T>),
             matrix: quote!(#matrix<T>),

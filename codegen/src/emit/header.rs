@@ -9,20 +9,16 @@ use crate::emit::{Options, identifier};
 use crate::integrator::{Coefficients, Integrator, Kicks};
 use crate::lie::Chart;
 use crate::problem::Problem;
-use crate::smooth::Facts;
+use crate::smooth::{Facts, Smooth};
 use crate::step::{Origin, Step};
 
-/// Lines for a doc comment: source, group, chart, truncation, order, terms, operations of a step where it is printed.
-pub(crate) fn lines(integrator: &Integrator, step: Option<&Step>) -> Vec<String> {
-    let problem = &integrator.problem;
-    let terms: Vec<String> = (1..=problem.truncation)
-        .step_by(2)
-        .map(|k| format!("S{k}: {}", integrator.series.order(k).len()))
-        .collect();
-    let frame = problem
-        .comoving
-        .as_ref()
-        .map(|_| " Comoving frame: S generates the motion in it.".to_owned());
+/// Lines for a doc comment: source, group, method, operations of a step where it is printed.
+pub(crate) fn lines(
+    facts: Facts<'_>,
+    method: &Method<'_>,
+    integrator: Option<&Integrator>,
+    step: Option<&Step>,
+) -> Vec<String> {
     let operations = match step {
         Some(step) => {
             let all = step_operations(step);
@@ -34,36 +30,39 @@ pub(crate) fn lines(integrator: &Integrator, step: Option<&Step>) -> Vec<String>
         }
     };
     let mut lines = vec![
-        format!(" Hamiltonian: `{}`", rust_comment(&problem.source)),
+        format!(" Hamiltonian: `{}`", rust_comment(method.source)),
         String::new(),
-        format!(
-            " Group: {}. Chart {}, truncation K = {}, order of accuracy {}.",
-            rust_comment(problem.algebra.name()),
-            problem.chart,
-            problem.truncation,
-            integrator.order()
-        ),
-        format!(" Terms: {}.", terms.join(", ")),
-        operations,
+        format!(" Group: {}. {}", rust_comment(facts.algebra.name()), method.about),
     ];
-    lines.extend(frame);
+    lines.extend(integrator.map(terms));
+    lines.push(operations);
+    let comoving = integrator.is_some_and(|integrator| integrator.problem.comoving.is_some());
+    lines.extend(comoving.then(|| " Comoving frame: S generates the motion in it.".to_owned()));
     lines
+}
+
+/// The terms of the series of each order.
+fn terms(integrator: &Integrator) -> String {
+    let orders = (1..=integrator.problem.truncation).step_by(2);
+    let terms = orders.map(|k| format!("S{k}: {}", integrator.series.order(k).len()));
+    format!(" Terms: {}.", terms.collect::<Vec<_>>().join(", "))
 }
 
 /// Paragraphs for the opening of a file: the system, how to use its step, the promises, the cost, how to read it.
 pub(crate) fn opening(
-    integrator: &Integrator,
+    facts: Facts<'_>,
+    method: &Method<'_>,
+    kicks: Option<&Kicks>,
     options: &Options,
     step: Option<&Step>,
 ) -> Vec<String> {
-    let problem = &integrator.problem;
-    let arguments = problem.parameters.iter().map(|one| format!(", {}", identifier(&one.name)));
-    let method = Method::of_series(integrator);
-    let mut values = system(problem.facts(), integrator.kicks.as_ref(), &method, rust_comment);
+    let arguments = facts.parameters.iter().map(|one| format!(", {}", identifier(&one.name)));
+    let mut values = system(facts, kicks, method, rust_comment);
     values.extend([
         ("NAME", options.name.to_string()),
         ("PARAMETERS", arguments.collect()),
-        ("RESCUE", RESCUE.to_owned()),
+        ("NOW", if method.moves { ", time" } else { "" }.to_owned()),
+        ("RESCUE", method.rescue.to_owned()),
         ("COSTS", step.map_or_else(String::new, |step| costs(step.kernel()))),
     ]);
     paragraphs(&values)
@@ -71,6 +70,9 @@ pub(crate) fn opening(
 
 /// The rescue of a refused step by the library.
 const RESCUE: &str = "For other steps the library follows the solution from the identity, or says why there is none.";
+const PARTS: &str = "Other steps the library solves in loops, and makes them where parts of them lead to the same end, or it says why \
+         there is none. Steps of one call of `advance_by` begin with a guess from those before them; `advance` knows none, and takes \
+         about twice as long.";
 
 /// The paragraphs of the opening of a file, which are lines of a template; a backslash joins a line and the next.
 pub(crate) fn paragraphs(values: &[Value]) -> Vec<String> {
@@ -153,11 +155,13 @@ pub(crate) struct Method<'a> {
     /// The power of the step that its error follows.
     error: String,
     /// True if the Hamiltonian depends on the time.
-    moves: bool,
+    pub moves: bool,
+    /// The rescue of a refused step.
+    rescue: &'static str,
 }
 
 impl<'a> Method<'a> {
-    fn of_series(integrator: &'a Integrator) -> Self {
+    pub(crate) fn of_series(integrator: &'a Integrator) -> Self {
         let Problem { source, chart, truncation, .. } = &integrator.problem;
         let chart = match chart {
             Chart::Exponential => "exponential",
@@ -166,22 +170,24 @@ impl<'a> Method<'a> {
         let order = integrator.order();
         let about =
             format!("Chart: {chart}. Truncation K = {truncation}, order of accuracy {order}.");
-        Self { source, about, error: "K+2".to_owned(), moves: false }
+        Self { source, about, error: "K+2".to_owned(), moves: false, rescue: RESCUE }
+    }
+
+    pub(crate) fn of_collocation(smooth: &'a Smooth) -> Self {
+        let nodes = smooth.nodes();
+        let about = format!(
+            "Collocation at {nodes} nodes in the exponential chart about the middle of a step, order of accuracy {}.",
+            2 * nodes
+        );
+        let (error, moves) = ((2 * nodes + 1).to_string(), smooth.depends_on_time());
+        Self { source: &smooth.source, about, error, moves, rescue: PARTS }
     }
 
     /// The method of a system.
     pub(crate) fn of(origin: &'a Origin) -> Self {
         match origin {
             Origin::Series(integrator) => Self::of_series(integrator),
-            Origin::Collocation(smooth) => {
-                let nodes = smooth.nodes();
-                let about = format!(
-                    "Collocation at {nodes} nodes in the exponential chart about the middle of a step, order of accuracy {}.",
-                    2 * nodes
-                );
-                let (error, moves) = ((2 * nodes + 1).to_string(), smooth.depends_on_time());
-                Self { source: &smooth.source, about, error, moves }
-            }
+            Origin::Collocation(smooth) => Self::of_collocation(smooth),
         }
     }
 }
@@ -193,7 +199,7 @@ pub(crate) fn system(
     method: &Method<'_>,
     quoted: fn(&str) -> String,
 ) -> Vec<Value> {
-    let Method { source, about, error, moves } = method;
+    let Method { source, about, error, moves, .. } = method;
     let mut values = vec![
         ("VERSION", env!("CARGO_PKG_VERSION").to_owned()),
         ("SYSTEM", quoted(facts.name)),

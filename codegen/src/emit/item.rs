@@ -11,10 +11,12 @@ use crate::emit::generating_function::{
 use crate::emit::group::Types;
 use crate::emit::programs::{MOST_OPERATIONS, programs, step_operations};
 use crate::emit::table::{fold_item, last_item};
+use crate::emit::header::Method;
 use crate::emit::{Options, allow, fresh, header, identifier, parameter};
-use crate::integrator::{FoldTable, Integrator};
-use crate::problem::{Parameter, Shape};
-use crate::step::Step;
+use crate::integrator::{FoldTable, Integrator, Kicks};
+use crate::problem::{Parameter, Shape, Symbol};
+use crate::smooth::Facts;
+use crate::step::{Step, StepError};
 
 /// An integrator as items.
 #[derive(Debug, Default)]
@@ -29,41 +31,124 @@ pub struct Items {
     pub legend: Vec<String>,
 }
 
+/// What the items of an integrator differ in by its method.
+pub(super) struct Parts<'a> {
+    pub facts: Facts<'a>,
+    pub method: Method<'a>,
+    pub symbols: &'a [Symbol],
+    pub types: Types,
+    pub fold: FoldTable,
+    pub order: usize,
+    /// The programs of the step, where they are printed.
+    pub step: Option<Step>,
+    /// Lines about the truncation, and about the coefficients.
+    pub about: [&'static str; 2],
+    /// The steps that lanes make together, where these are not a block.
+    pub together: Option<TokenStream>,
+    /// The value of the Hamiltonian from `mu`, `c` and the time.
+    pub energy: TokenStream,
+    /// More methods.
+    pub methods: TokenStream,
+    /// The implementations that make its steps, and what these need.
+    pub programs: TokenStream,
+}
+
+/// A step if it is short enough to be printed, and no kicks belong to it, which are items of their own.
+pub(super) fn printed(step: Result<Step, StepError>) -> Option<Step> {
+    let step = step.ok()?;
+    let short = step.kernel().flows().is_none() && step_operations(&step) <= MOST_OPERATIONS;
+    short.then_some(step)
+}
+
 /// The integrator as items, its programs and tables apart.
 #[must_use]
 pub fn items(integrator: &Integrator, options: &Options) -> Items {
-    let Options { krate, visibility, name, attributes, .. } = options;
-    let types = Types::new(&integrator.problem.algebra, integrator.problem.chart, options);
-    let Types { group, vector, definition, tables, aliases, .. } = &types;
-    let step = match types.by_tables {
-        true => Step::on_matrices(integrator),
-        false => Step::build(integrator),
-    };
-    // Kicks are items of their own.
-    let step = step
-        .ok()
-        .filter(|step| step.kernel().flows().is_none() && step_operations(step) <= MOST_OPERATIONS);
-    let summary = header::lines(integrator, step.as_ref());
-    let blank = (!attributes.is_empty()).then(|| quote!(#[doc = ""]));
+    let Options { krate, .. } = options;
+    let problem = &integrator.problem;
+    let types = Types::new(&problem.algebra, problem.chart, options);
+    let Types { vector, elements, .. } = &types;
+    let step = printed(Step::by_series(integrator, *elements));
     let fold = FoldTable::new(integrator);
-    let count = fold.len();
-    let slots = Literal::usize_unsuffixed(count);
-    let constructor = constructor(integrator, &fold, options, group);
-    let generating = generating_function(integrator, options, &types, count);
     let programs = match &step {
-        Some(step) => programs(step, options, group, &solver(integrator, krate)),
+        Some(step) => programs(step, options, &types.group, &solver(integrator, krate)),
         None => without_programs(integrator, options, &types),
     };
-    let n = Literal::usize_unsuffixed(types.dim);
-    let symbols = Literal::usize_unsuffixed(integrator.problem.symbols.len());
-    let lanes = lanes(options, step.is_some());
-    let energy = scalar_function(&integrator.energy, options, "mu");
-    let (table, last) = (fold_item(&fold), last_item(integrator));
-    let truncation = Literal::usize_unsuffixed(integrator.problem.truncation);
-    let order = Literal::usize_unsuffixed(integrator.order());
+    let generating = generating_function(integrator, options, &types, fold.len());
+    let last = last_item(integrator);
+    let mu = options.bound("mu");
+    let parts = Parts {
+        facts: problem.facts(),
+        method: Method::of_series(integrator),
+        symbols: &problem.symbols,
+        fold,
+        order: integrator.order(),
+        step,
+        about: [
+            " K: the series S₁ … S_K of the generating function is kept.",
+            " The coefficients of the programs below, folded for h and the parameters; after them those of the bound on \
+             what is left out of the Hessian, the square of the |μ| up to which the series can be trusted, and the \
+             coefficients of its last two terms.",
+        ],
+        together: None,
+        energy: scalar_function(&integrator.energy, options, "mu"),
+        methods: quote! {
+            /// The Poisson map μ ↦ μ″ of one step on 𝔤*.
+            ///
+            /// # Errors
+            /// As `advance`.
+            #[inline]
+            pub fn poisson_map(
+                &self,
+                #mu: &#vector,
+            ) -> ::core::result::Result<#vector, #krate::StepError> {
+                #krate::steps::poisson_map(self, #mu)
+            }
+        },
+        programs: quote!(#programs #generating #last),
+        types,
+    };
+    let kicks = integrator.kicks.as_ref();
+    Items {
+        legend: header::legend(&integrator.coefficients),
+        ..assemble(&parts, Some(integrator), kicks, options)
+    }
+}
+
+/// The items of these parts, without a legend; those of a series say more of it.
+pub(super) fn assemble(
+    parts: &Parts<'_>,
+    series: Option<&Integrator>,
+    kicks: Option<&Kicks>,
+    options: &Options,
+) -> Items {
+    let Options { krate, visibility, name, attributes, .. } = options;
+    let Parts { facts, method, types, fold, step, energy, methods, programs, .. } = parts;
+    let Types { group, vector, definition, tables, aliases, .. } = types;
+    let summary = header::lines(*facts, method, series, step.as_ref());
+    let blank = (!attributes.is_empty()).then(|| quote!(#[doc = ""]));
+    let index = Literal::usize_unsuffixed;
+    let (slots, n, symbols) = (index(fold.len()), index(types.dim), index(parts.symbols.len()));
+    let (truncation, order) = (index(facts.truncation), index(parts.order));
+    let [of_truncation, of_coefficients] = parts.about;
+    let constructor = constructor(parts, options);
+    let lanes = (!method.moves).then(|| lanes(parts, options));
+    let table = fold_item(fold);
     let allow = allow();
-    let names = ["mu", "c", "phase", "steps", "error", "stopped"];
-    let [mu, c, phase, steps, error, stopped] = names.map(|name| options.bound(name));
+    let names = ["mu", "c", "phase", "steps", "error", "stopped", "time"];
+    let [mu, c, phase, steps, error, stopped, time] = names.map(|name| options.bound(name));
+    let bound = bound(method.moves, krate);
+    // If H depends on the time, methods take the time of the state.
+    let (argument, now, then) = match method.moves {
+        true => (
+            Some(quote!(#time: T,)),
+            quote!(#time),
+            quote!(#time + T::of(#stopped.steps as f64) * self.step),
+        ),
+        false => (None, quote!(T::of(0.0)), quote!(T::of(0.0))),
+    };
+    let of = if method.moves { "(t, μ)" } else { "(μ)" };
+    let reduced =
+        format!(" The reduced Hamiltonian H_red{of}, with the parameters given at construction.");
     let struct_and_methods = quote! {
         #definition
 
@@ -77,9 +162,7 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
             step: T,
             /// The parameters, as expressions of them stand in the coefficients.
             symbols: [T; #symbols],
-            /// The coefficients of the programs below, folded for h and the parameters; after them those of the bound on
-            /// what is left out of the Hessian, the square of the |μ| up to which the series can be trusted, and the
-            /// coefficients of its last two terms.
+            #[doc = #of_coefficients]
             coefficients: [T; #slots],
         }
 
@@ -87,8 +170,8 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
         const _: () = {
             #aliases
 
-            impl<T: #krate::Scalar> #name<T> {
-                /// K: the series S₁ … S_K of the generating function is kept.
+            impl<T: #bound> #name<T> {
+                #[doc = #of_truncation]
                 pub const TRUNCATION: usize = #truncation;
                 /// The order of accuracy, K + 1.
                 pub const ORDER: usize = #order;
@@ -109,8 +192,10 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
                 pub fn advance(
                     &self,
                     #phase: &mut #krate::Phase<#group>,
+                    #argument
                 ) -> ::core::result::Result<#krate::steps::StepReport<T>, #krate::StepError> {
-                    #krate::steps::advance(self, #phase).map_err(|#error| self.advise(#error, #phase))
+                    plumbing::advance_at(self, #phase, #now)
+                        .map_err(|#error| self.advise(#error, #phase, #now))
                 }
 
                 /// Advances (g, μ) by `steps` steps, faster than one by one; the report is of the
@@ -121,25 +206,18 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
                 pub fn advance_by(
                     &self,
                     #phase: &mut #krate::Phase<#group>,
+                    #argument
                     #steps: u64,
                 ) -> ::core::result::Result<#krate::steps::StepReport<T>, #krate::steps::Stopped> {
-                    #krate::steps::advance_by(self, #phase, #steps).map_err(|#stopped| #krate::steps::Stopped {
-                        error: self.advise(#stopped.error, #phase),
-                        ..#stopped
+                    plumbing::advance_from(self, #phase, #now, #steps).map_err(|#stopped| {
+                        #krate::steps::Stopped {
+                            error: self.advise(#stopped.error, #phase, #then),
+                            ..#stopped
+                        }
                     })
                 }
 
-                /// The Poisson map μ ↦ μ″ of one step on 𝔤*.
-                ///
-                /// # Errors
-                /// As `advance`.
-                #[inline]
-                pub fn poisson_map(
-                    &self,
-                    #mu: &#vector,
-                ) -> ::core::result::Result<#vector, #krate::StepError> {
-                    #krate::steps::poisson_map(self, #mu)
-                }
+                #methods
             }
         };
     };
@@ -152,12 +230,10 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
 
             #lanes
 
-            #generating
-
-            impl<T: #krate::Scalar> #name<T> {
-                /// The reduced Hamiltonian H_red(μ), with the parameters given at construction.
+            impl<T: #bound> #name<T> {
+                #[doc = #reduced]
                 #[inline]
-                pub fn energy(&self, #mu: &#vector) -> T {
+                pub fn energy(&self, #argument #mu: &#vector) -> T {
                     let (#mu, #c): (&[T; #n], _) = (&#mu.data.0[0], &self.coefficients);
                     #energy
                 }
@@ -168,33 +244,34 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
             }
 
             #table
-
-            #last
         };
 
         #tables
     };
-    let opening = header::opening(integrator, options, step.as_ref());
-    Items {
-        opening,
-        struct_and_methods,
-        programs,
-        legend: header::legend(&integrator.coefficients),
-    }
+    let opening = header::opening(*facts, method, kicks, options, step.as_ref());
+    Items { opening, struct_and_methods, programs, legend: Vec::new() }
+}
+
+/// The bound of numbers; those of 32 bits could not tell the times within a step apart.
+pub(super) fn bound(moves: bool, krate: &TokenStream) -> TokenStream {
+    if moves { quote!(#krate::Scalar<Element = f64>) } else { quote!(#krate::Scalar) }
 }
 
 /// `impl Lanes`: steps in lanes, where the programs of the step are printed.
-fn lanes(options: &Options, printed: bool) -> TokenStream {
+fn lanes(parts: &Parts<'_>, options: &Options) -> TokenStream {
     let Options { krate, name, .. } = options;
     let names = ["registers", "phases", "asked", "state", "run", "c"];
     let [registers, phases, asked, state, run, c] = names.map(|name| options.bound(name));
-    let drive = printed.then(|| {
+    let together = parts.together.as_ref().map(|most| quote!(const TOGETHER: u64 = #most;));
+    let drive = parts.step.as_ref().map(|_| {
         quote! {
+            #together
+
             #[inline(always)]
             fn drive_lanes<R: #krate::plumbing::Registers>(
                 &self,
                 #registers: R,
-                #phases: &mut [(usize, &mut #krate::Phase<<Self as #krate::GeneratingFunction>::Group>)],
+                #phases: &mut [(usize, &mut #krate::Phase<<Self as plumbing::Steps>::Group>)],
                 #asked: u64,
             ) -> bool {
                 let #c = R::coefficients(#registers, &self.coefficients);
@@ -212,22 +289,18 @@ fn lanes(options: &Options, printed: bool) -> TokenStream {
 }
 
 /// The constructor `new(step, parameters…)`, which folds.
-fn constructor(
-    integrator: &Integrator,
-    fold: &FoldTable,
-    options: &Options,
-    group: &TokenStream,
-) -> TokenStream {
+fn constructor(parts: &Parts<'_>, options: &Options) -> TokenStream {
     let krate = &options.krate;
-    let names = ["step", "symbols", "coefficients", "error", "phase"];
-    let [own, given, coefficients, error, phase] = names.map(|name| options.bound(name));
-    let problem = &integrator.problem;
-    let Arguments { arguments, names, scalars } = arguments(&problem.parameters, krate);
+    let Parts { facts, symbols: all, types, fold, .. } = parts;
+    let group = &types.group;
+    let names = ["step", "symbols", "coefficients", "error", "phase", "time"];
+    let [own, given, coefficients, error, phase, time] = names.map(|name| options.bound(name));
+    let Arguments { arguments, names, scalars } = arguments(facts.parameters, krate);
     let step = format_ident!("{}", fresh(&own.to_string(), &names));
-    let symbols = parameter::symbols(&problem.symbols, &scalars);
+    let symbols = parameter::symbols(all, &scalars);
     let symbols = quote!([#(#symbols),*]);
-    let texts = problem.symbols.iter().map(|s| &s.text);
-    let [count, room] = [problem.symbols.len(), fold.lists().room()].map(Literal::usize_unsuffixed);
+    let texts = all.iter().map(|s| &s.text);
+    let [count, room] = [all.len(), fold.lists().room()].map(Literal::usize_unsuffixed);
     quote! {
         /// Folds all coefficients for the step size `step` (negative: backwards in time) and the
         /// parameters.
@@ -261,8 +334,9 @@ fn constructor(
             &self,
             #error: #krate::StepError,
             #phase: &#krate::Phase<#group>,
+            #time: T,
         ) -> #krate::StepError {
-            #krate::plumbing::advise(#error, #phase, self.step, |#own| {
+            #krate::plumbing::advise(#error, #phase, [#time, self.step], |#own| {
                 Self::of_symbols(#own, &self.symbols)
             })
         }

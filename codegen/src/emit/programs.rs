@@ -19,7 +19,18 @@ pub(crate) fn step_operations(step: &Step) -> usize {
     programs.map(Program::operations).sum()
 }
 
-/// The programs and the loop as functions, and `impl Integrator`, which runs them.
+/// The programs of a step, and the loop that calls them, as functions.
+pub(crate) fn functions(step: &Step, options: &Options) -> TokenStream {
+    let dialect = Rust::new(options.suffix, step_operations(step));
+    let named = |field: Field| Field { name: dialect.bound(&field.name), ..field };
+    let functions = signatures(step.kernel(), "").map(|mut signature| {
+        signature.inputs = signature.inputs.into_iter().map(named).collect();
+        dialect.function(&signature, &dialect.body(&signature))
+    });
+    tokens(&(functions.collect::<String>() + &steps(step.kernel(), &dialect)))
+}
+
+/// The functions of a step of a series, and `impl Integrator`, which runs them.
 pub(crate) fn programs(
     step: &Step,
     options: &Options,
@@ -27,14 +38,7 @@ pub(crate) fn programs(
     solver: &TokenStream,
 ) -> TokenStream {
     let Options { krate, name, .. } = options;
-    let dialect = Rust::new(options.suffix, step_operations(step));
-    let named = |field: Field| Field { name: dialect.bound(&field.name), ..field };
-    let functions = signatures(step.kernel(), "").map(|mut signature| {
-        signature.inputs = signature.inputs.into_iter().map(named).collect();
-        dialect.function(&signature, &dialect.body(&signature))
-    });
-    let text = functions.collect::<String>() + &steps(step.kernel(), &dialect);
-    let functions = tokens(&text);
+    let functions = functions(step, options);
     let [phase, asked, state] = ["phase", "asked", "state"].map(|name| options.bound(name));
     quote! {
         #functions

@@ -3,7 +3,7 @@
 //! Lanes move together: a condition holds where it holds in all of them. Only an equation is corrected in the lanes where it
 //! is not solved yet, so that each lane computes the bits that it would have alone.
 
-use coadjoint_program::Kernel;
+use coadjoint_program::{Clock, Kernel};
 use coadjoint_program::print::{Dialect, Loop, LoopStyle, Name, fill, statements};
 use coadjoint_program::schedule::{Kind, Part, Test, Variable};
 
@@ -13,14 +13,25 @@ use crate::emit::program::{Rust, tuple};
 pub(crate) fn steps(kernel: &Kernel, dialect: &Rust<'_>) -> String {
     let name = |name: &str| dialect.bound(name);
     let [c, live, driven, tried] = ["c", "live", "driven", "tried"].map(name);
+    let [time, done] = ["time", "done"].map(name);
     let [bound, distance] = ["residual_bound", "distance"].map(name);
     let refused = |reason: &str| {
         format!("{driven}.refused = ::core::option::Option::{reason};\n{live} = false;")
     };
+    // The increment alone is of use to those who make the step by other means.
+    let found = match kernel.solution == kernel.dim {
+        true => format!("Some(({}, {distance}))", name("x")),
+        false => "None".to_owned(),
+    };
+    let clock = kernel.clock().map_or_else(String::new, |Clock { size, first, times, .. }| {
+        let now = format!("{time} + {c}.of({done} as f64) * {c}.at({size})");
+        format!("let {c} = plumbing::timed({c}, [{size}, {first}], {now}, {times:?});")
+    });
     let style = LoopStyle {
         open: format!("open({c}, {bound}, {distance})"),
         right: format!("is_one({c}, {})", name("right")),
-        refuse: [refused(&format!("Some(({}, {distance}))", name("x"))), refused("None")],
+        refuse: [refused(&found), refused("None")],
+        clock,
         note: format!("{driven}.note({tried}, {bound});"),
         live: live.clone(),
         ..LoopStyle::default()
@@ -34,8 +45,9 @@ pub(crate) fn steps(kernel: &Kernel, dialect: &Rust<'_>) -> String {
         ("C", c),
         ("G", name("g")),
         ("MU", name("mu")),
+        ("TIME", kernel.clock().map_or_else(String::new, |_| time)),
         ("ASKED", name("steps")),
-        ("DONE", name("done")),
+        ("DONE", done),
         ("LIVE", live),
         ("DRIVEN", driven),
         ("BOUND", bound),

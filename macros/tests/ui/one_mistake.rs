@@ -1,5 +1,5 @@
 //! One wrong name is one error, whatever is done with what should have been generated.
-use coadjoint::{GeneratingFunction, Phase, SO3};
+use coadjoint::{Phase, SO3, solve::Integrator};
 use coadjoint::groups::SO4;
 use coadjoint::lanes::Lanes;
 use coadjoint::steps::{Kicked, Splitting};
@@ -21,7 +21,7 @@ fn height(g: [[f64; 3]; 3], weight: f64) -> f64 {
     weigth * g[2][2]
 }
 
-fn end<S: GeneratingFunction<Group = SO3> + Lanes + Clone + std::fmt::Debug>(step: S) {
+fn end<S: Integrator<Group = SO3> + Lanes + Clone + std::fmt::Debug>(step: S) {
     let mut phase = Phase::<SO3>::at_identity([1.0, 2.0, 3.0]);
     let _ = coadjoint::steps::advance(&step, &mut phase);
     let _ = format!("{step:?}");

@@ -18,12 +18,15 @@ mod damping;
 mod energy;
 mod following;
 mod rates;
+mod refused;
 mod solution;
 mod solving;
 
 pub use coadjoint_program::collocation::MAX_NODES;
 pub use damping::Damping;
 pub use energy::{Energy, Undefined};
+#[doc(hidden)]
+pub use refused::collocated;
 pub use solution::{Node, Solution};
 
 use crate::error::{StepError, Stopped};

@@ -76,7 +76,10 @@ pub struct Driven<V, T> {
 }
 
 /// The outcome of driving the programs of `S`.
-pub type DrivenOf<S> = Driven<VectorOf<S>, ScalarOf<S>>;
+pub type DrivenOf<S> = DrivenIn<<S as GeneratingFunction>::Group>;
+
+/// The outcome of driving programs on a group.
+pub type DrivenIn<G> = Driven<<G as LieGroup>::Vector, <G as LieGroup>::Scalar>;
 
 impl<V, T> Driven<V, T> {
     /// No step, and so no residual.

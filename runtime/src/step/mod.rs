@@ -14,7 +14,7 @@ use crate::group::LieGroup;
 use crate::group::phase::Phase;
 use crate::linear::coordinates::Coordinates;
 use crate::number::Scalar;
-use crate::solve::{Candidate, Integrator, accept, propose};
+use crate::solve::{Candidate, DrivenIn, Integrator, accept, propose};
 
 /// Statistics of the solve of one step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,6 +23,74 @@ pub struct StepReport<T> {
     pub iterations: u32,
     /// A bound on the residual left in J_L(x, p) = μ, relative to the largest coordinate of μ.
     pub residual: T,
+}
+
+/// The numbers of the states of steps.
+pub type NumberOf<S> = <<S as Steps>::Group as LieGroup>::Scalar;
+
+/// An increment that programs have found and refused, and how far p lies from its first guess.
+pub(crate) type Refused<G> = (<G as LieGroup>::Vector, <G as LieGroup>::Scalar);
+
+/// The steps of a system, by programs as far as these accept them. Every [`Integrator`] has steps, and so has a struct that the
+/// attribute generates for a Hamiltonian that is no polynomial.
+pub trait Steps {
+    /// The group of the states.
+    type Group: LieGroup;
+
+    /// Makes up to `steps` steps by programs, where there are any, after those made since the time given.
+    #[doc(hidden)]
+    fn drive_from(
+        &self,
+        phase: &mut Phase<Self::Group>,
+        since: (NumberOf<Self>, u64),
+        steps: u64,
+    ) -> DrivenIn<Self::Group>;
+
+    /// Makes a step that programs have refused, or of which there are none.
+    ///
+    /// # Errors
+    /// The reason why there is no right step; `phase` is then left as it was.
+    #[doc(hidden)]
+    fn by_hand(
+        &self,
+        phase: &mut Phase<Self::Group>,
+        since: (NumberOf<Self>, u64),
+        refused: Option<Refused<Self::Group>>,
+    ) -> Result<StepReport<NumberOf<Self>>, StepError>;
+}
+
+impl<S: Integrator + ?Sized> Steps for S {
+    type Group = S::Group;
+
+    #[inline(always)]
+    fn drive_from(
+        &self,
+        phase: &mut Phase<S::Group>,
+        _: (ScalarOf<S>, u64),
+        steps: u64,
+    ) -> DrivenIn<S::Group> {
+        self.drive(phase, steps)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn by_hand(
+        &self,
+        phase: &mut Phase<S::Group>,
+        _: (ScalarOf<S>, u64),
+        refused: Option<Refused<S::Group>>,
+    ) -> Result<StepReport<ScalarOf<S>>, StepError> {
+        let mu = &phase.momentum;
+        let (guess, distance) = match refused {
+            Some((x, distance)) => (S::Chart::default().pull_back(self.group(), &x, mu), distance),
+            None => (self.predict(mu), ScalarOf::<S>::of(0.0)),
+        };
+        let mut candidate = propose(self, mu, guess);
+        candidate.moved += distance;
+        let Candidate { x, iterations, residual, .. } = accept(self, mu, candidate)?;
+        reconstruct(self, phase, &x)?;
+        Ok(StepReport { iterations, residual })
+    }
 }
 
 /// The Poisson map μ′ → μ″ = Ad\*_{τ(x)⁻¹} μ′ of 𝔤\* that `generating` induces, with the
@@ -54,20 +122,7 @@ pub fn advance<S: Integrator + ?Sized>(
     generating: &S,
     phase: &mut Phase<S::Group>,
 ) -> Result<StepReport<ScalarOf<S>>, StepError> {
-    let driven = generating.drive(phase, 1);
-    if driven.steps == 1 {
-        return Ok(StepReport { iterations: driven.iterations, residual: driven.residual });
-    }
-    refused(generating, phase)
-}
-
-/// The step that programs have refused, made anew: every step would have to keep its candidate in memory to hand it on.
-#[cold]
-fn refused<S: Integrator + ?Sized>(
-    generating: &S,
-    phase: &mut Phase<S::Group>,
-) -> Result<StepReport<ScalarOf<S>>, StepError> {
-    advance_by(generating, phase, 1).map_err(|stopped| stopped.error)
+    advance_at(generating, phase, ScalarOf::<S>::of(0.0))
 }
 
 /// Many steps of [`advance`], faster than one by one: a comoving frame moves on, and the state is checked, for many at
@@ -75,53 +130,72 @@ fn refused<S: Integrator + ?Sized>(
 ///
 /// # Errors
 /// [`Stopped`]: how many steps were made, and why the next one was not; `phase` is then the state before that.
-// Not inlined: what steps read of `generating` is prepared once, where nothing beside it might write there.
-#[inline(never)]
 pub fn advance_by<S: Integrator + ?Sized>(
     generating: &S,
     phase: &mut Phase<S::Group>,
     steps: u64,
 ) -> Result<StepReport<ScalarOf<S>>, Stopped> {
-    let mut worst = StepReport { iterations: 0, residual: ScalarOf::<S>::of(0.0) };
-    let mut note = |iterations: u32, residual: ScalarOf<S>| {
+    advance_from(generating, phase, ScalarOf::<S>::of(0.0), steps)
+}
+
+/// Makes a step from the state at `time`.
+///
+/// # Errors
+/// [`StepError`]; `phase` is then left as it was.
+#[inline(always)]
+pub fn advance_at<S: Steps + ?Sized>(
+    step: &S,
+    phase: &mut Phase<S::Group>,
+    time: NumberOf<S>,
+) -> Result<StepReport<NumberOf<S>>, StepError> {
+    let driven = step.drive_from(phase, (time, 0), 1);
+    if driven.steps == 1 {
+        return Ok(StepReport { iterations: driven.iterations, residual: driven.residual });
+    }
+    refused(step, phase, time)
+}
+
+/// The step that programs have refused, made anew: every step would have to keep its candidate in memory to hand it on.
+#[cold]
+fn refused<S: Steps + ?Sized>(
+    step: &S,
+    phase: &mut Phase<S::Group>,
+    time: NumberOf<S>,
+) -> Result<StepReport<NumberOf<S>>, StepError> {
+    advance_from(step, phase, time, 1).map_err(|stopped| stopped.error)
+}
+
+/// Makes many steps from the state at `time`.
+///
+/// # Errors
+/// [`Stopped`]; `phase` is then the state before the step that failed.
+// Not inlined: what steps read of `step` is prepared once, where nothing beside it might write there.
+#[inline(never)]
+pub fn advance_from<S: Steps + ?Sized>(
+    step: &S,
+    phase: &mut Phase<S::Group>,
+    time: NumberOf<S>,
+    steps: u64,
+) -> Result<StepReport<NumberOf<S>>, Stopped> {
+    let mut worst = StepReport { iterations: 0, residual: NumberOf::<S>::of(0.0) };
+    let mut note = |iterations: u32, residual: NumberOf<S>| {
         worst.iterations = worst.iterations.max(iterations);
         worst.residual = worst.residual.simd_max(residual);
     };
     let mut done = 0;
     while done < steps {
-        let driven = generating.drive(phase, steps - done);
+        let driven = step.drive_from(phase, (time, done), steps - done);
         done += driven.steps;
         note(driven.iterations, driven.residual);
         if done < steps {
-            let report = by_hand(generating, phase, driven.refused)
+            let report = step
+                .by_hand(phase, (time, done), driven.refused)
                 .map_err(|error| Stopped { steps: done, error })?;
             note(report.iterations, report.residual);
             done += 1;
         }
     }
     Ok(worst)
-}
-
-/// One step without programs, or from the x that programs have found and refused, and its distance from their guess.
-#[cold]
-#[inline(never)]
-fn by_hand<S: Integrator + ?Sized>(
-    generating: &S,
-    phase: &mut Phase<S::Group>,
-    refused: Option<(VectorOf<S>, ScalarOf<S>)>,
-) -> Result<StepReport<ScalarOf<S>>, StepError> {
-    let mu = &phase.momentum;
-    let (guess, distance) = match refused {
-        Some((x, distance)) => {
-            (S::Chart::default().pull_back(generating.group(), &x, mu), distance)
-        }
-        None => (generating.predict(mu), ScalarOf::<S>::of(0.0)),
-    };
-    let mut candidate = propose(generating, mu, guess);
-    candidate.moved += distance;
-    let Candidate { x, iterations, residual, .. } = accept(generating, mu, candidate)?;
-    reconstruct(generating, phase, &x)?;
-    Ok(StepReport { iterations, residual })
 }
 
 /// The second half of [`advance`]: advances (g′, μ′) to (g′·τ(x), Ad\*_{τ(x)⁻¹} μ′) with the x that

@@ -133,6 +133,45 @@ impl<V, T: Number> Driven<V, T> {
     }
 }
 
+/// Coefficients, and after those that are folded the times at which programs ask for the Hamiltonian.
+#[derive(Clone, Copy)]
+pub struct Timed<C, T, const TIMES: usize> {
+    folded: C,
+    first: usize,
+    times: [T; TIMES],
+}
+
+/// The coefficients of a step that begins at `now`, whose size is at the place `size`. The times have the places from `first` on,
+/// and are given as parts of the step.
+#[inline(always)]
+pub fn timed<T: Number, C: Coefficients<T>, const TIMES: usize>(
+    folded: C,
+    [size, first]: [usize; 2],
+    now: T,
+    parts: [f64; TIMES],
+) -> Timed<C, T, TIMES> {
+    let mut times = [now; TIMES];
+    for i in 0..TIMES {
+        times[i] = folded.of(parts[i]).times_plus(folded.at(size), now);
+    }
+    Timed { folded, first, times }
+}
+
+impl<T: Number, C: Coefficients<T>, const TIMES: usize> Coefficients<T> for Timed<C, T, TIMES> {
+    #[inline(always)]
+    fn at(self, place: usize) -> T {
+        if place < self.first { self.folded.at(place) } else { self.times[place - self.first] }
+    }
+    #[inline(always)]
+    fn of(self, value: f64) -> T {
+        self.folded.of(value)
+    }
+    #[inline(always)]
+    fn epsilon(self) -> T {
+        self.folded.epsilon()
+    }
+}
+
 /// True if the answer of a program is 1 in all lanes.
 #[inline(always)]
 pub fn is_one<T: Number, C: Coefficients<T>>(c: C, answer: T) -> bool {

@@ -79,24 +79,16 @@ impl Step {
     /// # Errors
     /// [`StepError`] where the step has no straight-line programs.
     pub fn build(integrator: &Integrator) -> Result<Self, StepError> {
-        Self::on(integrator, &integrator.problem.algebra.factors())
+        Self::by_series(integrator, Elements::ByFactors)
     }
 
-    /// As [`Step::build`], with group elements as matrices in the representation of the basis, also those of a product.
+    /// As [`Step::build`], with these numbers of group elements.
     ///
     /// # Errors
     /// As [`Step::build`].
-    pub fn on_matrices(integrator: &Integrator) -> Result<Self, StepError> {
-        let algebra = &integrator.problem.algebra;
-        let scheme = Scheme::of(integrator);
-        Self::with(integrator, vec![tables(algebra, integrator.problem.chart, scheme)?])
-    }
-
-    fn on(integrator: &Integrator, factors: &[LieAlgebra]) -> Result<Self, StepError> {
-        let (chart, scheme) = (integrator.problem.chart, Scheme::of(integrator));
-        let parts: Result<Vec<_>, _> =
-            factors.iter().map(|factor| part(factor, chart, scheme)).collect();
-        Self::with(integrator, parts?)
+    pub fn by_series(integrator: &Integrator, elements: Elements) -> Result<Self, StepError> {
+        let (problem, scheme) = (&integrator.problem, Scheme::of(integrator));
+        Self::with(integrator, elements.parts(&problem.algebra, problem.chart, scheme)?)
     }
 
     fn with(integrator: &Integrator, parts: Vec<Box<dyn Part>>) -> Result<Self, StepError> {
@@ -122,9 +114,12 @@ impl Step {
     ///
     /// # Errors
     /// [`StepError`] where the step has no straight-line programs.
-    fn by_collocation(smooth: &Smooth, precision: Precision) -> Result<Self, StepError> {
-        let part = |factor: &LieAlgebra| part(factor, Chart::Exponential, Scheme::FixedPoint);
-        let parts: Result<Vec<_>, _> = smooth.algebra.factors().iter().map(part).collect();
+    pub fn by_collocation(
+        smooth: &Smooth,
+        precision: Precision,
+        elements: Elements,
+    ) -> Result<Self, StepError> {
+        let parts = elements.parts(&smooth.algebra, Chart::Exponential, Scheme::FixedPoint);
         let mut group = Product(parts?);
         if collocation::operations(smooth) > MOST_OF_TABLES {
             return Err(StepError::TooLarge {
@@ -283,6 +278,33 @@ impl Step {
     /// The numbers of the group element with this matrix, row by row; factors are its diagonal blocks.
     pub fn element_of(&self, matrix: &[f64]) -> Vec<f64> {
         self.group.element_of(matrix)
+    }
+}
+
+/// The numbers of group elements.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Elements {
+    /// Those of each factor, in closed form where there is one.
+    ByFactors,
+    /// A matrix in the representation of the basis, also of a product.
+    Matrices,
+}
+
+impl Elements {
+    /// The formulas of a group.
+    fn parts(
+        self,
+        algebra: &LieAlgebra,
+        chart: Chart,
+        scheme: Scheme,
+    ) -> Result<Vec<Box<dyn Part>>, StepError> {
+        match self {
+            Self::Matrices => Ok(vec![tables(algebra, chart, scheme)?]),
+            Self::ByFactors => {
+                let factors = algebra.factors();
+                factors.iter().map(|factor| part(factor, chart, scheme)).collect()
+            }
+        }
     }
 }
 

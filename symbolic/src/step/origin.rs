@@ -3,7 +3,7 @@
 use coadjoint_program::Precision;
 use coadjoint_program::splitting::Splitting;
 
-use super::{Step, StepError};
+use super::{Elements, Step, StepError};
 use crate::hamilton_jacobi::{DeriveError, TermLimit};
 use crate::integrator::{Integrator, Kick, Kicks};
 use crate::problem::Symbol;
@@ -76,7 +76,9 @@ impl Origin {
                 let step = Step::build(integrator)?;
                 Ok(Step { kernel: step.kernel.in_precision(precision), ..step })
             }
-            Self::Collocation(smooth) => Step::by_collocation(smooth, precision),
+            Self::Collocation(smooth) => {
+                Step::by_collocation(smooth, precision, Elements::ByFactors)
+            }
         }
     }
 

@@ -3,12 +3,15 @@
 #![allow(clippy::unwrap_used)]
 
 use coadjoint::nalgebra::{SVector, Vector3};
+use coadjoint::groups::SL2;
+use coadjoint::plumbing::ElementNumbers;
 use coadjoint::steps::{Kicked, Splitting};
-use coadjoint::{GeneratingFunction, LieGroup as _, Phase, SO3, StepError};
-use coadjoint_codegen::graph::Program;
+use coadjoint::{GeneratingFunction, LieGroup as _, Phase, SE3, SO3, StepError};
+use coadjoint_codegen::graph::{Graph, Id, Node, Program};
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::{FoldTable, Integrator, Kick};
 use coadjoint_codegen::system::{Options, Parameters, read};
+use coadjoint_program::{Kernel, KernelParts, Precision, Programs, Stepper};
 use coadjoint_tests::emitted::{self, from_function};
 
 mod rigid_body {
@@ -22,6 +25,18 @@ mod heavy_top {
 }
 mod comoving_body {
     include!(concat!(env!("OUT_DIR"), "/emitted/comoving_body.rs"));
+}
+mod relativistic {
+    include!(concat!(env!("OUT_DIR"), "/emitted/relativistic.rs"));
+}
+mod six_variables {
+    include!(concat!(env!("OUT_DIR"), "/emitted/six_variables.rs"));
+}
+mod tables {
+    include!(concat!(env!("OUT_DIR"), "/emitted/tables.rs"));
+}
+mod twist {
+    include!(concat!(env!("OUT_DIR"), "/emitted/twist.rs"));
 }
 mod weighted_body {
     include!(concat!(env!("OUT_DIR"), "/weighted_body.rs"));
@@ -96,6 +111,126 @@ fn emitted_steps_equal_the_interpreter() -> Result<(), StepError> {
 
     let step = three_wave::ThreeWave::new(H, 0.7)?;
     against_interpreter(&of(emitted::THREE_WAVE), &step, |mu| step.energy(mu), &[0.7]);
+    Ok(())
+}
+
+/// The programs without fused products, as a processor without them computes.
+fn unfused(kernel: &Kernel) -> Kernel {
+    let of = |program: &Program| {
+        let graph = Graph::new();
+        let mut ids: Vec<Id> = Vec::new();
+        for node in program.nodes() {
+            let at = |id: Id| ids[id.index()];
+            ids.push(match *node {
+                Node::Zero => graph.zero(),
+                Node::Constant(bits) => graph.constant(f64::from_bits(bits)),
+                Node::Epsilon => graph.epsilon(),
+                Node::Input(i) => graph.input(i as usize),
+                Node::Slot(i) => graph.slot(i as usize),
+                Node::Add(a, b) => graph.add(at(a), at(b)),
+                Node::Sub(a, b) => graph.sub(at(a), at(b)),
+                Node::Mul(a, b) => graph.mul(at(a), at(b)),
+                Node::TimesPlus(a, b, c) => graph.add(graph.mul(at(a), at(b)), at(c)),
+                Node::Div(a, b) => graph.div(at(a), at(b)),
+                Node::Neg(a) => graph.neg(at(a)),
+                Node::Abs(a) => graph.abs(at(a)),
+                Node::Sqrt(a) => graph.sqrt(at(a)),
+                Node::Round(a) => graph.round(at(a)),
+                Node::Scale(a, k) => graph.scale(at(a), at(k)),
+                Node::Exponent(a) => graph.exponent(at(a)),
+                Node::Select(a, b, c, d) => graph.select(at(a), at(b), at(c), at(d)),
+            });
+        }
+        let outputs: Vec<Id> = program.outputs().iter().map(|id| ids[id.index()]).collect();
+        graph.finish(program.inputs(), &outputs)
+    };
+    let KernelParts { programs, .. } = &**kernel;
+    let programs = Programs {
+        guess: of(&programs.guess),
+        correct: of(&programs.correct),
+        accept: of(&programs.accept),
+        transport: of(&programs.transport),
+        frame: programs.frame.as_ref().map(of),
+        sound: of(&programs.sound),
+        watch: of(&programs.watch),
+        matrix: of(&programs.matrix),
+    };
+    Kernel::new(KernelParts { programs, ..(**kernel).clone() }).unwrap()
+}
+
+/// The time at which trajectories begin.
+const START: f64 = -9.3;
+
+/// Steps from a momentum as the emitted code makes them, beside those of the kernel that it is printed from.
+fn has_the_bits_of_its_kernel<G, const N: usize>(
+    source: emitted::Source,
+    parameters: &[f64],
+    advance: impl Fn(&mut Phase<G>, f64, u64),
+) where
+    G: ElementNumbers + coadjoint::LieGroup<Scalar = f64, Vector = SVector<f64, N>> + Default,
+{
+    let origin = emitted::origin(source).unwrap();
+    let (step, fused) = (origin.step(Precision::Double).unwrap(), cfg!(target_feature = "fma"));
+    let kernel = if fused { step.kernel().clone() } else { unfused(step.kernel()) };
+    let mut slots = step.fold(H, parameters).unwrap();
+    let name = origin.facts().name;
+    for point in 0..4 {
+        let mu = SVector::<f64, N>::from_fn(|i, _| 0.5 * (1.3 * (point + i) as f64 + 0.4).sin());
+        let mut phase = Phase::<G>::at_identity(mu);
+        let (mut g, mut moved) = (vec![0.0; kernel.element], mu.as_slice().to_vec());
+        G::write(&phase.group_element, &mut g);
+        advance(&mut phase, START, 40);
+        // Times are set for each step.
+        let clock = step.kernel().clock();
+        let calls = if clock.is_some() { 40 } else { 1 };
+        for call in 0..calls {
+            for (at, part) in clock.iter().flat_map(|clock| clock.times.iter().enumerate()) {
+                let now = START + call as f64 * H;
+                let time = if fused { part.mul_add(H, now) } else { part * H + now };
+                slots[step.radius_at() + 1 + at] = time;
+            }
+            let made = kernel.advance(&slots, &mut g, &mut moved, 40 / calls);
+            assert_eq!(made.steps, 40 / calls, "{name}");
+        }
+        let mut own = vec![0.0; G::COUNT];
+        G::write(&phase.group_element, &mut own);
+        assert_eq!(phase.momentum.as_slice(), moved, "{name}");
+        assert_eq!(own, g[..G::COUNT], "{name}");
+    }
+}
+
+#[test]
+fn emitted_steps_have_the_bits_of_kernels() -> Result<(), StepError> {
+    let step = rigid_body::RigidBody::new(H)?;
+    has_the_bits_of_its_kernel::<SO3, 3>(emitted::RIGID_BODY, &[], |phase, _, count| {
+        step.advance_by(phase, count).unwrap();
+    });
+    let step = comoving_body::ComovingBody::new(H, [1.5, 0.8], [0.9, 1.4])?;
+    let parameters = [1.5, 0.8, 0.9, 1.4];
+    has_the_bits_of_its_kernel::<SE3, 6>(emitted::COMOVING_BODY, &parameters, |phase, _, count| {
+        step.advance_by(phase, count).unwrap();
+    });
+    let step = three_wave::ThreeWave::new(H, 0.7)?;
+    has_the_bits_of_its_kernel::<SL2, 3>(emitted::THREE_WAVE, &[0.7], |phase, _, count| {
+        step.advance_by(phase, count).unwrap();
+    });
+    let step = relativistic::Relativistic::new(H, [1.5, 2.0, 2.5])?;
+    let parameters = [1.5, 2.0, 2.5];
+    has_the_bits_of_its_kernel::<SO3, 3>(emitted::RELATIVISTIC, &parameters, |phase, _, count| {
+        step.advance_by(phase, count).unwrap();
+    });
+    let step = six_variables::SixVariables::new(H, 0.7)?;
+    has_the_bits_of_its_kernel::<SE3, 6>(emitted::SIX_VARIABLES, &[0.7], |phase, _, count| {
+        step.advance_by(phase, count).unwrap();
+    });
+    let step = tables::Tables::new(H)?;
+    has_the_bits_of_its_kernel::<tables::TablesGroup, 3>(emitted::TABLES, &[], |phase, _, count| {
+        step.advance_by(phase, count).unwrap();
+    });
+    let step = twist::Twist::new(H, 0.3)?;
+    has_the_bits_of_its_kernel::<SO3, 3>(emitted::TWIST, &[0.3], |phase, time, count| {
+        step.advance_by(phase, time, count).unwrap();
+    });
     Ok(())
 }
 

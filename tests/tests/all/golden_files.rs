@@ -29,9 +29,10 @@ fn the_module_of_a_learned_model_is_the_committed_one() {
 fn emission_is_deterministic() {
     let earlier = |name: &str| std::fs::read_to_string(format!("{}/{name}.rs", env!("OUT_DIR")));
     for source in emitted::SYSTEMS {
-        let integrator = emitted::from_function(source).unwrap();
-        let name = &integrator.problem.name;
-        let text = emit::file(emit::items(&integrator, &emit::Options::for_problem(name)));
+        let origin = emitted::origin(source).unwrap();
+        let name = origin.facts().name;
+        let items = emit::items_of(&origin, &emit::Options::for_problem(name));
+        let text = emit::file(items.unwrap());
         assert!(earlier(&format!("emitted/{name}")).unwrap() == text, "{name}");
     }
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("weighted_body.rs");

@@ -2,8 +2,10 @@
 #![allow(clippy::unwrap_used)]
 
 use coadjoint::collocation::Collocation;
-use coadjoint::nalgebra::{Vector3, Vector6};
+use coadjoint::lanes::{F64x4, ensemble::advance_all};
+use coadjoint::nalgebra::{SimdValue, Vector3, Vector6};
 use coadjoint::{Phase, SE3, SO3, StepError, lie_poisson};
+use coadjoint_tests::stress::Random;
 
 /// A body at speeds near that of light.
 #[lie_poisson(group = SO3)]
@@ -42,7 +44,7 @@ fn twist(mu: [f64; 3], s: f64, rate: f64) -> f64 {
 #[test]
 fn the_time_is_an_argument_of_steps() {
     let (rate, start) = (0.3, [0.8, -0.5, 1.2]);
-    let mut steps = Twist::new(0.1, rate).unwrap();
+    let steps = Twist::new(0.1, rate).unwrap();
     let mut phase = Phase::<SO3>::at_identity(start);
     steps.advance_by(&mut phase, 0.0, 30).unwrap();
     steps.advance(&mut phase, 3.0).unwrap();
@@ -64,8 +66,8 @@ fn steps_are_those_of_closures() {
         move |_: f64, mu: &Vector3<f64>| mu.component_mul(&omega) / root(mu),
     );
     let mut expected = Collocation::<_, _, 4>::new(SO3::new(), energy, 0.2).unwrap();
-    let mut steps = Relativistic::new(0.2, inertia).unwrap();
-    assert_eq!((Relativistic::ORDER, Relativistic::TRUNCATION), (8, 7));
+    let steps = Relativistic::new(0.2, inertia).unwrap();
+    assert_eq!((Relativistic::<f64>::ORDER, Relativistic::<f64>::TRUNCATION), (8, 7));
     let start = Phase::<SO3>::at_identity([2.0, 0.5, 1.0]);
     let (mut phase, mut other) = (start.clone(), start.clone());
     let before = steps.energy(&phase.momentum);
@@ -74,7 +76,7 @@ fn steps_are_those_of_closures() {
     expected.advance_by(&mut other, 0.0, 500).unwrap();
     assert!((phase.momentum - other.momentum).norm() < 1e-12);
     let [a, b, c] = inertia;
-    let (mut steps, mut other) = (fast_body::FastBody::new(0.2, a, b, c).unwrap(), start.clone());
+    let (steps, mut other) = (fast_body::FastBody::new(0.2, a, b, c).unwrap(), start.clone());
     steps.advance_by(&mut other, 500).unwrap();
     assert!((phase.momentum - other.momentum).norm() < 1e-12);
     assert!((steps.energy(&phase.momentum) - before).abs() < 1e-11);
@@ -85,7 +87,7 @@ fn steps_are_those_of_closures() {
 #[test]
 fn order_is_the_truncation_and_one() {
     let end = |steps: u64| {
-        let mut step = SixVariables::new(2.0 / steps as f64, 0.7).unwrap();
+        let step = SixVariables::new(2.0 / steps as f64, 0.7).unwrap();
         let mut phase = Phase::<SE3>::at_identity([0.4, -0.5, 1.1, 0.3, 0.2, -0.9]);
         step.advance_by(&mut phase, steps).unwrap();
         phase.momentum
@@ -93,12 +95,12 @@ fn order_is_the_truncation_and_one() {
     let exact: Vector6<f64> = end(64);
     let errors = [4, 8].map(|steps| (end(steps) - exact).norm());
     let order = (errors[0] / errors[1]).log2();
-    assert!((order - SixVariables::ORDER as f64).abs() < 0.5, "{order}");
+    assert!((order - SixVariables::<f64>::ORDER as f64).abs() < 0.5, "{order}");
 }
 
 #[test]
 fn refusals_name_the_expression_and_leave_the_state() {
-    let mut steps = Well::new(0.1, 1.0).unwrap();
+    let steps = Well::new(0.1, 1.0).unwrap();
     let start = Phase::<SO3>::at_identity([1.5, 0.2, 0.3]);
     let mut phase = start.clone();
     match steps.advance(&mut phase).unwrap_err() {
@@ -113,4 +115,75 @@ fn refusals_name_the_expression_and_leave_the_state() {
     assert!(matches!(infinite, StepError::InvalidParameter { name: "height", .. }), "{infinite}");
     let still = Well::new(0.0, 1.0).map(|_| ()).unwrap_err();
     assert!(matches!(still, StepError::InvalidStep { .. }), "{still}");
+}
+
+/// Steps longer than programs take are made by the runtime: those of closures to the bit, in each kind of number.
+#[test]
+fn refused_steps_are_those_of_the_runtime() {
+    let inertia = [1.5, 2.0, 2.5];
+    let omega = Vector3::from(inertia).map(|inertia| 1.0 / inertia);
+    let root = move |mu: &Vector3<f64>| (1.0 + mu.dot(&mu.component_mul(&omega))).sqrt();
+    let energy = (
+        move |_: f64, mu: &Vector3<f64>| root(mu),
+        move |_: f64, mu: &Vector3<f64>| mu.component_mul(&omega) / root(mu),
+    );
+    let start = Phase::<SO3>::at_identity([2.0, 0.5, 1.0]);
+    let (mut phase, mut other) = (start.clone(), start.clone());
+    Relativistic::new(2.6, inertia).unwrap().advance(&mut phase).unwrap();
+    let mut expected = Collocation::<_, _, 4>::new(SO3::new(), energy, 2.6).unwrap();
+    expected.advance(&mut other, 0.0).unwrap();
+    assert!((phase.momentum - other.momentum).norm() < 1e-13);
+
+    let mut single = Phase::<SO3<f32>>::at_identity([2.0, 0.5, 1.0]);
+    let steps = Relativistic::<f32>::new(2.6, inertia.map(|i| i as f32)).unwrap();
+    steps.advance(&mut single).unwrap();
+    assert!((single.momentum.cast::<f64>() - phase.momentum).norm() < 1e-6);
+
+    let four = |value: f64| F64x4::splat(value);
+    let mut lanes = Phase::<SO3<F64x4>>::at_identity([2.0, 0.5, 1.0].map(four));
+    let steps = Relativistic::<F64x4>::new(four(2.6), inertia.map(four)).unwrap();
+    steps.advance(&mut lanes).unwrap();
+    let lane = lanes.momentum.map(|entry| entry.extract(3));
+    assert_eq!(lane, phase.momentum);
+
+    // No step is that long; a shorter one is named.
+    let error = Relativistic::new(50.0, inertia).unwrap().advance(&mut phase).unwrap_err();
+    let usable = error.circumstances().unwrap().usable_step.unwrap();
+    Relativistic::new(usable, inertia).unwrap().advance(&mut phase).unwrap();
+}
+
+#[test]
+fn numbers_of_32_bits_keep_momentum_to_their_rounding() {
+    let steps = SixVariables::<f32>::new(0.1, 0.7).unwrap();
+    let mut phase = Phase::<SE3<f32>>::at_identity([0.4, -0.5, 1.1, 0.3, 0.2, -0.9]);
+    let spatial = phase.spatial_momentum(&SE3::new());
+    let energy = steps.energy(&phase.momentum);
+    steps.advance_by(&mut phase, 200).unwrap();
+    assert!((phase.spatial_momentum(&SE3::new()) - spatial).norm() < 3e-5);
+    assert!((steps.energy(&phase.momentum) - energy).abs() < 1e-4);
+    let mut double = Phase::<SE3>::at_identity([0.4, -0.5, 1.1, 0.3, 0.2, -0.9]);
+    SixVariables::new(0.1, 0.7).unwrap().advance_by(&mut double, 200).unwrap();
+    let apart = phase.momentum.cast::<f64>() - double.momentum;
+    assert!(apart.norm() > 0.0 && apart.norm() < 1e-3, "{apart}");
+}
+
+/// Also those beside a trajectory that is refused.
+#[test]
+fn ensembles_have_the_bits_of_trajectories() {
+    let steps = Relativistic::new(0.3, [1.5, 2.0, 2.5]).unwrap();
+    let mut random = Random::new(7);
+    let mut draw = || Vector3::from_fn(|_, _| random.between(-2.0, 2.0));
+    let mut states: Vec<_> = (0..21).map(|_| Phase::<SO3>::at_identity(draw())).collect();
+    states[9].momentum.x = f64::NAN;
+    let mut alone = states.clone();
+    let failures = advance_all(&steps, &mut states, 600);
+    assert_eq!(failures.iter().map(|failure| failure.index).collect::<Vec<_>>(), [9]);
+    for (index, (state, alone)) in states.iter().zip(&mut alone).enumerate() {
+        let made = steps.advance_by(alone, 600);
+        assert_eq!(made.is_ok(), index != 9);
+        if index != 9 {
+            assert_eq!(state.momentum, alone.momentum, "{index}");
+            assert_eq!(state.group_element, alone.group_element, "{index}");
+        }
+    }
 }
