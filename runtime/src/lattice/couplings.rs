@@ -1,0 +1,199 @@
+//! Energies as numbers: the fields of neighbours, and matrices in parts whose flows are rotations.
+
+use alloc::vec::Vec;
+
+use coadjoint_geometry::number::Number;
+use coadjoint_geometry::vector::{V3, plus_by};
+use nalgebra::{Matrix3, Vector3};
+
+use super::colours;
+use super::graph::Edge;
+use super::lanes::Pack;
+use super::layout::{Adjacency, Neighbours, Numbers, Places};
+
+/// The energies of a lattice.
+#[derive(Clone, Debug, Default)]
+pub struct Energies {
+    /// Edges (a, b) with the energy a·M b.
+    pub bonds: Vec<(Vec<Edge>, Matrix3<f64>)>,
+    /// Of each site s: f·s
+    pub field: Vector3<f64>,
+    /// Of each site s: s·A s
+    pub anisotropy: Matrix3<f64>,
+}
+
+/// A matrix of a coupling, in the way that is cheapest to apply.
+#[derive(Clone, Copy)]
+enum Applied {
+    Isotropic(f64),
+    Diagonal([f64; 3]),
+    Full([[f64; 3]; 3]),
+}
+
+/// Neighbours whose spins have one matrix before them in the field.
+struct Group {
+    matrix: Matrix3<f64>,
+    applied: Applied,
+    neighbours: Neighbours,
+}
+
+/// The neighbours of sites, and the fields they make.
+pub struct Couplings {
+    groups: Vec<Group>,
+    pub places: Places,
+}
+
+impl Couplings {
+    pub fn new(sites: usize, bonds: &[(Vec<Edge>, Matrix3<f64>)]) -> Self {
+        let turned = |[a, b]: Edge| [b, a];
+        let edges = || bonds.iter().flat_map(|(edges, _)| edges);
+        let all = Adjacency::new(sites, || edges().flat_map(|edge| [*edge, turned(*edge)]));
+        let (colours, count) = colours::sites(&all);
+        let places = Places::new(&colours, count);
+        let mut matrices: Vec<Matrix3<f64>> = Vec::new();
+        for (_, matrix) in bonds {
+            for matrix in [*matrix, matrix.transpose()] {
+                if !matrices.contains(&matrix) {
+                    matrices.push(matrix);
+                }
+            }
+        }
+        let group = |matrix: Matrix3<f64>| {
+            let directed = || {
+                bonds.iter().flat_map(|(edges, own)| {
+                    let ahead = (*own == matrix).then_some(edges).into_iter().flatten();
+                    let back = (own.transpose() == matrix).then_some(edges).into_iter().flatten();
+                    ahead.copied().chain(back.map(|edge| turned(*edge)))
+                })
+            };
+            let neighbours = Neighbours::new(&places, &Adjacency::new(sites, directed));
+            let diagonal = Matrix3::from_diagonal(&matrix.diagonal()) == matrix;
+            let applied = match <[f64; 3]>::from(matrix.diagonal()) {
+                [x, y, z] if diagonal && x == y && y == z => Applied::Isotropic(x),
+                list if diagonal => Applied::Diagonal(list),
+                _ => Applied::Full([0, 1, 2].map(|i| [0, 1, 2].map(|j| matrix[(i, j)]))),
+            };
+            Group { matrix, applied, neighbours }
+        };
+        Self { groups: matrices.into_iter().map(group).collect(), places }
+    }
+
+    /// The matrices, in the order of the weights of [`Couplings::along`].
+    pub fn matrices(&self) -> impl Iterator<Item = &Matrix3<f64>> {
+        self.groups.iter().map(|group| &group.matrix)
+    }
+
+    /// `field` and that of the neighbours of a pack of sites, whose spins are read from `spins`.
+    #[inline(always)]
+    pub fn field<N: Numbers>(&self, mut field: V3<Pack>, spins: [N; 3], pack: usize) -> V3<Pack> {
+        for group in &self.groups {
+            let packs = &group.neighbours.packs;
+            let mut sum = [Pack::of(0.0); 3];
+            for &code in group.neighbours.of(pack) {
+                for axis in 0..3 {
+                    sum[axis] = sum[axis] + packs.read(spins[axis], code);
+                }
+            }
+            match group.applied {
+                Applied::Isotropic(factor) => field = plus_by(field, factor, sum),
+                Applied::Diagonal(factors) => {
+                    for axis in 0..3 {
+                        field[axis] = sum[axis].by_plus(factors[axis], field[axis]);
+                    }
+                }
+                Applied::Full(matrix) => field = multiplied(field, &matrix, sum),
+            }
+        }
+        field
+    }
+
+    /// The sum of one number of each neighbour of a pack of sites, those of each matrix by its weight.
+    #[inline(always)]
+    pub fn along(&self, weights: &[f64], numbers: &[f64], pack: usize) -> Pack {
+        let mut total = Pack::of(0.0);
+        for (group, weight) in self.groups.iter().zip(weights) {
+            let mut sum = Pack::of(0.0);
+            for &code in group.neighbours.of(pack) {
+                sum = sum + group.neighbours.packs.read(numbers, code);
+            }
+            total = sum.by_plus(*weight, total);
+        }
+        total
+    }
+}
+
+/// constant + matrix·v
+#[inline(always)]
+pub fn multiplied(mut constant: V3<Pack>, matrix: &[[f64; 3]; 3], v: V3<Pack>) -> V3<Pack> {
+    for i in 0..3 {
+        for j in 0..3 {
+            constant[i] = v[j].by_plus(matrix[i][j], constant[i]);
+        }
+    }
+    constant
+}
+
+/// The energy factor (left·a)(right·b), of unit vectors: a turns about `left`, b about `right`.
+#[derive(Clone, Copy, Debug)]
+pub struct Dyad {
+    pub factor: f64,
+    pub left: [f64; 3],
+    pub right: [f64; 3],
+}
+
+/// Entries below this multiple of the largest one are rounding.
+const ROUNDING: f64 = 1e-14;
+
+/// A matrix as isotropic + Σ dyads, with the fewest dyads.
+pub fn dyads(matrix: &Matrix3<f64>) -> (f64, Vec<Dyad>) {
+    let symmetric = (matrix + matrix.transpose()) * 0.5;
+    // For matrices that are diagonal already these are exact.
+    let values: [f64; 3] = match Matrix3::from_diagonal(&symmetric.diagonal()) == symmetric {
+        true => symmetric.diagonal().into(),
+        false => symmetric.symmetric_eigenvalues().into(),
+    };
+    let rest = |isotropic: f64| {
+        let mut rest = matrix - Matrix3::identity() * isotropic;
+        rest.iter_mut().filter(|v| v.abs() <= ROUNDING * matrix.amax()).for_each(|v| *v = 0.0);
+        let parts = rest.svd(true, true);
+        let mut list = Vec::new();
+        for at in 0..3 {
+            let factor = parts.singular_values[at];
+            if let (Some(left), Some(right)) = (&parts.u, &parts.v_t)
+                && factor > ROUNDING * matrix.amax()
+            {
+                let (left, right) = (left.column(at), right.row(at));
+                list.push(Dyad {
+                    factor,
+                    left: [left[0], left[1], left[2]],
+                    right: [right[0], right[1], right[2]],
+                });
+            }
+        }
+        (isotropic, list)
+    };
+    let tried = values.into_iter().chain([0.0]).map(rest);
+    tried
+        .min_by_key(|(isotropic, list)| 2 * list.len() + usize::from(*isotropic != 0.0))
+        .unwrap_or_default()
+}
+
+/// Directions in whose squares every symmetric matrix is a sum: the axes, and those halfway between two of them.
+pub fn directions() -> [[f64; 3]; 6] {
+    const HALF: f64 = core::f64::consts::FRAC_1_SQRT_2;
+    [
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, 1.0],
+        [HALF, HALF, 0.0],
+        [0.0, HALF, HALF],
+        [HALF, 0.0, HALF],
+    ]
+}
+
+/// A symmetric matrix as Σ cₖ dₖ dₖᵀ over the [`directions`].
+pub fn by_directions(matrix: &Matrix3<f64>) -> [f64; 6] {
+    let [xy, yz, xz] = [matrix[(0, 1)], matrix[(1, 2)], matrix[(0, 2)]];
+    let [x, y, z]: [f64; 3] = matrix.diagonal().into();
+    [x - xy - xz, y - xy - yz, z - yz - xz, 2.0 * xy, 2.0 * yz, 2.0 * xz]
+}

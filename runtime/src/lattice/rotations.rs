@@ -1,0 +1,334 @@
+//! Steps composed of exact rotations.
+
+use alloc::vec::Vec;
+use core::fmt;
+
+use coadjoint_geometry::angle::{Angle, Length};
+use coadjoint_geometry::number::Number;
+use coadjoint_geometry::rotation::Turn;
+use coadjoint_geometry::vector::{V3, cross, dot, each, plus, scaled, sum};
+use nalgebra::{Matrix3, Vector3};
+
+use super::colours;
+use super::composition::Order;
+use super::couplings::{Couplings, Dyad, Energies, by_directions, directions, dyads};
+use super::error::{LatticeError, check_spins, check_step};
+use super::family::Family;
+use super::lanes::{LANES, Pack};
+use super::layout::{Column, Numbers, Packs, Piece, Spins, pieces, split, store};
+use super::threads;
+
+/// Steps of a lattice of spins, composed of exact rotations: the length of each spin is kept to rounding.
+///
+/// ```
+/// use coadjoint::lattice::{Family, Graph, Lattice, Order};
+/// use nalgebra::Matrix3;
+///
+/// let ferromagnet = Lattice::new(Graph::cubic([4; 3])?).nearest(-Matrix3::identity())?;
+/// let mut spins: Vec<[f64; 3]> = (0..64).map(|i| [(f64::from(i)).sin(), (f64::from(i)).cos(), 0.5]).collect();
+/// let before = ferromagnet.energy(&spins)?;
+/// let mut step = ferromagnet.rotations(Family::Bonds, Order::Six, 0.1)?;
+/// step.advance_by(&mut spins, 100)?;
+/// assert!((ferromagnet.energy(&spins)? - before).abs() < 1e-5);
+/// # Ok::<(), coadjoint::lattice::LatticeError>(())
+/// ```
+pub struct RotationStep {
+    couplings: Couplings,
+    parts: Vec<Part>,
+    /// The parts of a step with their lengths in time.
+    sequence: Vec<(usize, f64)>,
+    spins: Spins,
+    /// The components of spins along a direction that is no axis.
+    along: Column,
+}
+
+/// An energy whose flow is known.
+enum Part {
+    Axis(Axis),
+    Pairs([Packs; 2], Exchange),
+    /// The sites of a colour in the field of the others.
+    Colour(usize, [f64; 3]),
+    Sites(Site),
+}
+
+/// Energies of the components along a direction, of all sites.
+struct Axis {
+    direction: Site,
+    /// The number of the axis, if it is one.
+    axis: Option<usize>,
+    /// The weights of couplings.
+    weights: Vec<f64>,
+}
+
+/// An energy of pairs of sites.
+#[derive(Clone, Copy)]
+enum Exchange {
+    Isotropic(f64),
+    Dyad(Dyad),
+}
+
+/// The energy linear·c + ½ square·c² of each site, c its component along a direction.
+#[derive(Clone, Copy)]
+struct Site {
+    direction: [f64; 3],
+    linear: f64,
+    square: f64,
+}
+
+impl fmt::Debug for RotationStep {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (parts, flows) = (self.parts.len(), self.sequence.len());
+        write!(f, "RotationStep {{ parts: {parts}, flows: {flows} }}")
+    }
+}
+
+impl RotationStep {
+    pub(super) fn new(
+        sites: usize,
+        energies: &Energies,
+        family: Family,
+        order: Order,
+        step: f64,
+    ) -> Result<Self, LatticeError> {
+        check_step(step)?;
+        let couplings = Couplings::new(sites, &energies.bonds);
+        let parts = match family {
+            Family::Axes { shift } => axes(&couplings, energies, shift)?,
+            Family::Bonds => {
+                let mut parts = pairs(sites, &couplings, energies);
+                parts.extend(single(energies, true));
+                parts
+            }
+            Family::Sublattices => {
+                let mut sites = single(energies, false);
+                let held = if sites.is_empty() { energies.field } else { Vector3::zeros() };
+                if !sites.is_empty() {
+                    sites = single(energies, true);
+                }
+                let colours = 0..couplings.places.colours.len();
+                let colours = colours.map(|colour| Part::Colour(colour, held.into()));
+                colours.chain(sites).collect()
+            }
+        };
+        let sequence = order.sequence(parts.len());
+        let sequence = sequence.into_iter().map(|(part, length)| (part, length * step)).collect();
+        let (spins, along) = (Spins::new(&couplings.places), Column::new(&couplings.places));
+        Ok(Self { couplings, parts, sequence, spins, along })
+    }
+
+    /// Advances the spins, in the order of the graph's sites, by `steps` steps.
+    ///
+    /// # Errors
+    /// [`LatticeError::Sites`] and [`LatticeError::NonFinite`]; the spins are then as they were.
+    pub fn advance_by(&mut self, spins: &mut [[f64; 3]], steps: u64) -> Result<(), LatticeError> {
+        check_spins(self.couplings.places.sites(), spins)?;
+        self.couplings.places.scatter(spins, &mut self.spins);
+        for _ in 0..steps {
+            for at in 0..self.sequence.len() {
+                let (part, time) = self.sequence[at];
+                self.flow(part, time);
+            }
+        }
+        self.couplings.places.gather(&self.spins, spins);
+        Ok(())
+    }
+
+    /// The flow of a part of the energy.
+    fn flow(&mut self, part: usize, time: f64) {
+        let Self { couplings, spins, along, .. } = self;
+        let places = couplings.places.len();
+        match &self.parts[part] {
+            Part::Axis(part) => match part.axis {
+                Some(axis) => about_axis(couplings, part, axis, time, spins),
+                None => {
+                    for (at, own) in along.all_mut().iter_mut().enumerate() {
+                        let [x, y, z] = spins.all().map(|column| column.one(at));
+                        *own = dot([x, y, z], part.direction.direction);
+                    }
+                    let along = along.all();
+                    each_pack(spins.all_mut(), places, |pack, spin| {
+                        let field = part.rate(couplings, along, pack);
+                        about(part.direction.direction, field.by(time), spin)
+                    });
+                }
+            },
+            Part::Pairs(ends, exchange) => {
+                let columns = spins.all_mut();
+                threads::wide(|| exchange_all(ends, *exchange, time, columns));
+            }
+            Part::Colour(colour, field) => {
+                let range = &couplings.places.colours[*colour];
+                let (around, own) = split(spins, range);
+                let first = range.start / LANES;
+                each_pack(own, range.len(), |pack, spin| {
+                    let field = each(|axis| Pack::of(field[axis]));
+                    let field = couplings.field(field, around, first + pack);
+                    let x = scaled(Pack::of(time), field);
+                    turn(x).back(spin)
+                });
+            }
+            Part::Sites(site) => {
+                each_pack(spins.all_mut(), places, |_, spin| {
+                    let along = dot(spin, each(|axis| Pack::of(site.direction[axis])));
+                    about(site.direction, site.rate(along).by(time), spin)
+                });
+            }
+        }
+    }
+}
+
+impl Site {
+    /// The speed of rotation about the direction.
+    #[inline(always)]
+    fn rate(&self, along: Pack) -> Pack {
+        along.by_plus(self.square, Pack::of(self.linear))
+    }
+}
+
+impl Axis {
+    /// The speed of rotation of a pack about the direction, along which all spins have these components.
+    #[inline(always)]
+    fn rate(&self, couplings: &Couplings, along: &[f64], pack: usize) -> Pack {
+        self.direction.rate(along.row(pack * LANES)) + couplings.along(&self.weights, along, pack)
+    }
+}
+
+/// The rotation by a vector.
+#[inline(always)]
+fn turn(x: V3<Pack>) -> Turn<Pack> {
+    let angle = Angle::new(x, Length::Any);
+    Turn { w: angle.half_cosine, s: angle.half_sine, x }
+}
+
+/// Spins turned about a unit vector.
+#[inline(always)]
+fn about(direction: [f64; 3], by: Pack, spin: V3<Pack>) -> V3<Pack> {
+    let angle = Angle::new([by], Length::Any);
+    let x = each(|axis| Pack::of(direction[axis]));
+    Turn { w: angle.half_cosine, s: angle.half_sine * by, x }.back(spin)
+}
+
+/// Replaces the spins of every pack of some columns.
+#[inline(always)]
+fn each_pack(columns: Piece<'_>, places: usize, work: impl Fn(usize, V3<Pack>) -> V3<Pack> + Sync) {
+    threads::each(pieces([columns], places), |(first, [[x, y, z]])| {
+        for at in (0..x.len()).step_by(LANES) {
+            let spin = [(&*x).row(at), (&*y).row(at), (&*z).row(at)];
+            let [a, b, c] = work((first + at) / LANES, spin);
+            store(x, at, a);
+            store(y, at, b);
+            store(z, at, c);
+        }
+    });
+}
+
+/// The flow of the energies along an axis, in which the other two components turn.
+fn about_axis(couplings: &Couplings, part: &Axis, axis: usize, time: f64, spins: &mut Spins) {
+    let [x, y, z] = &mut spins.0;
+    let (along, u, v) = match axis {
+        0 => (x, y, z),
+        1 => (y, z, x),
+        _ => (z, x, y),
+    };
+    let along = along.all();
+    let columns = [u.all_mut(), v.all_mut(), &mut []];
+    each_pack(columns, couplings.places.len(), |pack, [u, v, rest]| {
+        let by = part.rate(couplings, along, pack).by(time);
+        let angle = Angle::new([by], Length::Any);
+        let half = angle.half_sine * by;
+        let sine = (half * angle.half_cosine).by(2.0);
+        let cosine = half.by_plus(-2.0, Pack::of(0.0)).times_plus(half, Pack::of(1.0));
+        [u.times_plus(cosine, v * sine), v.times_plus(cosine, -u * sine), rest]
+    });
+}
+
+/// The flow of energies of pairs, none of which share a site.
+#[inline(always)]
+fn exchange_all(ends: &[Packs; 2], exchange: Exchange, time: f64, columns: Piece<'_>) {
+    let [a, b] = ends;
+    for (&at, &to) in a.codes().iter().zip(b.codes()) {
+        let columns_read = columns.each_ref().map(|column| &**column);
+        let s = columns_read.map(|column| a.read(column, at));
+        let t = columns_read.map(|column| b.read(column, to));
+        let [s, t] = match exchange {
+            Exchange::Isotropic(factor) => {
+                // Both turn about their sum, by opposite changes.
+                let turn = turn(scaled(Pack::of(factor * time), sum(s, t)));
+                let once = cross(s, turn.x);
+                let doubled = turn.s.by(2.0);
+                let change =
+                    plus(scaled(doubled * turn.w, once), doubled * turn.s, cross(once, turn.x));
+                [sum(s, change), plus(t, Pack::of(-1.0), change)]
+            }
+            Exchange::Dyad(Dyad { factor, left, right }) => {
+                let left_component = dot(s, each(|axis| Pack::of(left[axis])));
+                let right_component = dot(t, each(|axis| Pack::of(right[axis])));
+                [
+                    about(left, right_component.by(factor * time), s),
+                    about(right, left_component.by(factor * time), t),
+                ]
+            }
+        };
+        for axis in 0..3 {
+            a.write(columns[axis], at, s[axis]);
+            b.write(columns[axis], to, t[axis]);
+        }
+    }
+}
+
+/// The parts of the energy that depend on one component of all spins each.
+fn axes(couplings: &Couplings, energies: &Energies, shift: f64) -> Result<Vec<Part>, LatticeError> {
+    if couplings.matrices().any(|matrix| *matrix != matrix.transpose()) {
+        return Err(LatticeError::NotAdmitted { family: Family::Axes { shift } });
+    }
+    let weights: Vec<[f64; 6]> = couplings.matrices().map(by_directions).collect();
+    let squares = by_directions(&(2.0 * energies.anisotropy - Matrix3::identity() * shift));
+    let part = |(at, direction): (usize, [f64; 3])| {
+        let axis = (at < 3).then_some(at);
+        let linear = axis.map_or(0.0, |axis| energies.field[axis]);
+        let weights: Vec<f64> = weights.iter().map(|list| list[at]).collect();
+        let none = linear == 0.0 && squares[at] == 0.0 && weights.iter().all(|w| *w == 0.0);
+        let direction = Site { direction, linear, square: squares[at] };
+        (!none).then_some(Part::Axis(Axis { direction, axis, weights }))
+    };
+    Ok(directions().into_iter().enumerate().filter_map(part).collect())
+}
+
+/// The energies of the edges of each bond and colour.
+fn pairs(sites: usize, couplings: &Couplings, energies: &Energies) -> Vec<Part> {
+    let mut parts = Vec::new();
+    for (edges, matrix) in &energies.bonds {
+        let (isotropic, dyads) = dyads(matrix);
+        let isotropic = (isotropic != 0.0).then_some(Exchange::Isotropic(isotropic));
+        let exchanges = isotropic.into_iter().chain(dyads.into_iter().map(Exchange::Dyad));
+        for exchange in exchanges {
+            for colour in colours::edges(sites, edges) {
+                parts.push(Part::Pairs(Packs::pairs(&couplings.places, &colour), exchange));
+            }
+        }
+    }
+    parts
+}
+
+/// The energies of single sites, with the field or without.
+fn single(energies: &Energies, with_field: bool) -> Vec<Part> {
+    // The isotropic part is a multiple of |s|² and moves nothing.
+    let (_, dyads) = dyads(&energies.anisotropy);
+    let mut field = if with_field { energies.field } else { Vector3::zeros() };
+    let mut sites = Vec::new();
+    for Dyad { factor, left, right } in dyads {
+        let axis = Vector3::from(left);
+        let sign = axis.dot(&Vector3::from(right)).signum();
+        let mut linear = 0.0;
+        if field.cross(&axis).norm() <= 1e-15 * field.norm() {
+            linear = field.dot(&axis);
+            field = Vector3::zeros();
+        }
+        sites.push(Site { direction: left, linear, square: 2.0 * sign * factor });
+    }
+    let size = field.norm();
+    if size > 0.0 {
+        sites.push(Site { direction: (field / size).into(), linear: size, square: 0.0 });
+    }
+    sites.into_iter().map(Part::Sites).collect()
+}
