@@ -9,7 +9,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::colours;
 use super::graph::Edge;
 use super::lanes::Pack;
-use super::layout::{Adjacency, Neighbours, Numbers, Places};
+use super::layout::{Adjacency, Copies, Neighbours, Places, Vectors, row};
 
 /// The energies of a lattice.
 #[derive(Clone, Debug, Default)]
@@ -41,6 +41,7 @@ struct Group {
 pub struct Couplings {
     groups: Vec<Group>,
     pub places: Places,
+    pub copies: Copies,
 }
 
 impl Couplings {
@@ -58,15 +59,18 @@ impl Couplings {
                 }
             }
         }
-        let group = |matrix: Matrix3<f64>| {
+        let adjacency = matrices.iter().map(|matrix| {
             let directed = || {
                 bonds.iter().flat_map(|(edges, own)| {
-                    let ahead = (*own == matrix).then_some(edges).into_iter().flatten();
-                    let back = (own.transpose() == matrix).then_some(edges).into_iter().flatten();
+                    let ahead = (own == matrix).then_some(edges).into_iter().flatten();
+                    let back = (own.transpose() == *matrix).then_some(edges).into_iter().flatten();
                     ahead.copied().chain(back.map(|edge| turned(*edge)))
                 })
             };
-            let neighbours = Neighbours::new(&places, &Adjacency::new(sites, directed));
+            Adjacency::new(sites, directed)
+        });
+        let (copies, neighbours) = Copies::new(&places, &adjacency.collect::<Vec<_>>());
+        let group = |(matrix, neighbours): (Matrix3<f64>, Neighbours)| {
             let diagonal = Matrix3::from_diagonal(&matrix.diagonal()) == matrix;
             let applied = match <[f64; 3]>::from(matrix.diagonal()) {
                 [x, y, z] if diagonal && x == y && y == z => Applied::Isotropic(x),
@@ -75,7 +79,7 @@ impl Couplings {
             };
             Group { matrix, applied, neighbours }
         };
-        Self { groups: matrices.into_iter().map(group).collect(), places }
+        Self { groups: matrices.into_iter().zip(neighbours).map(group).collect(), places, copies }
     }
 
     /// The matrices, in the order of the weights of [`Couplings::along`].
@@ -83,17 +87,21 @@ impl Couplings {
         self.groups.iter().map(|group| &group.matrix)
     }
 
+    /// The most neighbours of a site that have each matrix, in the same order.
+    pub fn most(&self) -> impl Iterator<Item = f64> {
+        self.groups.iter().map(|group| f64::from(group.neighbours.most()))
+    }
+
     /// `field` and that of the neighbours of a pack of sites, whose spins are read from `spins`.
     #[inline(always)]
-    pub fn field<N: Numbers>(&self, mut field: V3<Pack>, spins: [N; 3], pack: usize) -> V3<Pack> {
+    pub fn field(&self, mut field: V3<Pack>, spins: impl Vectors, pack: usize) -> V3<Pack> {
         for group in &self.groups {
-            let packs = &group.neighbours.packs;
-            let mut sum = [Pack::of(0.0); 3];
-            for &code in group.neighbours.of(pack) {
-                for axis in 0..3 {
-                    sum[axis] = sum[axis] + packs.read(spins[axis], code);
-                }
+            let [mut x, mut y, mut z] = [Pack::of(0.0); 3];
+            for &start in group.neighbours.of(pack) {
+                let [u, v, w] = spins.row(start as usize);
+                (x, y, z) = (x + u, y + v, z + w);
             }
+            let sum = [x, y, z];
             match group.applied {
                 Applied::Isotropic(factor) => field = plus_by(field, factor, sum),
                 Applied::Diagonal(factors) => {
@@ -111,12 +119,12 @@ impl Couplings {
     #[inline(always)]
     pub fn along(&self, weights: &[f64], numbers: &[f64], pack: usize) -> Pack {
         let mut total = Pack::of(0.0);
-        for (group, weight) in self.groups.iter().zip(weights) {
+        for (at, group) in self.groups.iter().enumerate() {
             let mut sum = Pack::of(0.0);
-            for &code in group.neighbours.of(pack) {
-                sum = sum + group.neighbours.packs.read(numbers, code);
+            for &start in group.neighbours.of(pack) {
+                sum = sum + row(numbers, start as usize);
             }
-            total = sum.by_plus(*weight, total);
+            total = sum.by_plus(weights[at], total);
         }
         total
     }

@@ -16,7 +16,7 @@ use coadjoint_program::collocation::{MAX_SWEEPS, Nodes, ROUNDING, SOLVED};
 use super::couplings::{Couplings, Energies, multiplied};
 use super::error::{LatticeError, check_spins, check_step};
 use super::lanes::{LANES, Pack, larger};
-use super::layout::{Numbers, Piece, Spins, pieces, split, store};
+use super::layout::{Piece, Spins, Vectors, pieces, split, store};
 use super::threads;
 use crate::error::{Circumstances, StepError, Stopped};
 
@@ -96,7 +96,7 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
             };
             (from_fn(of), of(M))
         });
-        let spins = Spins::new(&couplings.places);
+        let spins = Spins::new(couplings.places.len() + LANES, 0);
         let twice = 2.0 * energies.anisotropy;
         let anisotropic = energies.anisotropy.iter().any(|entry| *entry != 0.0);
         Ok(Self {
@@ -105,7 +105,7 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
             matrix: from_fn(|i| from_fn(|j| 0.5 * step * (matrix[j][i] + 0.5 * weights[j]))),
             weights: weights.map(|weight| 0.5 * step * weight),
             guess,
-            nodes: from_fn(|_| spins.clone()),
+            nodes: from_fn(|i| Spins::new(couplings.copies.length(), 1 + i)),
             further: gradient.is_some().then(|| from_fn(|_| spins.clone())),
             now: spins,
             couplings,
@@ -159,8 +159,11 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
         let columns = nodes.each_mut().map(Spins::all_mut);
         threads::each(pieces(columns, places), |(first, mut nodes)| {
             for at in (0..nodes[0][0].len()).step_by(LANES) {
-                let start = read(now, first + at);
-                let before: [_; M] = from_fn(|i| own(&nodes[i], at));
+                let start = now.row(first + at);
+                let mut before = [[Pack::of(0.0); 3]; M];
+                for i in 0..M {
+                    before[i] = own(&nodes[i], at);
+                }
                 for i in 0..M {
                     let mut spin = start;
                     if goes_on {
@@ -187,7 +190,8 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
                 let found = self.pass(colour);
                 (change, speed) = (larger(change, found[0]), larger(speed, found[1]));
             }
-            angle = speed.sqrt() * self.step.abs();
+            change = change.sqrt();
+            angle = (speed / M as f64).sqrt() * self.step.abs();
             let rate = if sweep == 0 { 0.5 } else { (change / before).min(0.5) };
             let rounding = change >= before && change <= ROUNDING * size;
             if change * rate <= SOLVED * size || rounding {
@@ -222,12 +226,16 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
         }
     }
 
-    /// One sweep over the sites of a colour: the largest change of a component, and the largest |ω|².
+    /// One sweep over the sites of a colour: the largest changes of a site and speeds, as squares summed over nodes.
     fn pass(&mut self, colour: usize) -> [f64; 2] {
         let Self { nodes, now, couplings, further, .. } = self;
         let range = couplings.places.colours[colour].clone();
         let now = now.all();
         let further = further.as_ref().map(|nodes| nodes.each_ref().map(Spins::all));
+        let lists = &couplings.copies.of_colour[colour];
+        for column in nodes.each_mut().into_iter().flat_map(Spins::all_mut) {
+            couplings.copies.refresh(column, lists.clone());
+        }
         let parts = nodes.each_mut().map(|node| split(node, &range));
         let around = parts.each_ref().map(|part| part.0);
         let columns = parts.map(|part| part.1);
@@ -235,27 +243,31 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
         let matrix = &self.matrix;
         let pieces = pieces(columns, range.len());
         let changes = threads::each(pieces, |(first, mut nodes)| {
-            let [mut change, mut speed] = [Pack::of(0.0); 2];
+            let [mut change, mut speed, mut all] = [Pack::of(0.0); 3];
             for at in (0..nodes[0][0].len()).step_by(LANES) {
                 let place = first_place + first + at;
-                let spins: [_; M] = from_fn(|i| own(&nodes[i], at));
-                let mut rates = [[Pack::of(0.0); 3]; M];
+                let [mut spins, mut rates] = [[[Pack::of(0.0); 3]; M]; 2];
                 for i in 0..M {
-                    let further = further.map(|nodes| read(nodes[i], place));
-                    rates[i] = equation.rate(couplings, around[i], place, spins[i], further);
-                    speed = speed.larger(dot(rates[i], rates[i]));
+                    spins[i] = own(&nodes[i], at);
+                    let further = further.as_ref().map(|nodes| nodes[i].row(place));
+                    rates[i] = equation.rate(couplings, &around[i], place, spins[i], further);
                 }
                 let turns = solved(matrix, &rates);
-                let start = read(now, place);
+                let start = now.row(place);
+                let [mut gaps, mut squares] = [Pack::of(0.0); 2];
                 for i in 0..M {
                     let (spin, _) = turned(turns[i], start);
-                    for gap in difference(spin, spins[i]) {
-                        change = change.larger(gap.abs());
-                    }
+                    let gap = difference(spin, spins[i]);
+                    gaps = gaps + dot(gap, gap);
+                    squares = squares + dot(rates[i], rates[i]);
                     write(&mut nodes[i], at, spin);
                 }
+                change = change.larger(gaps);
+                all = all + gaps;
+                speed = speed.larger(squares);
             }
-            [change.largest(), speed.largest()]
+            // The sum is not finite where a change is not a number, which the larger of two may lose.
+            [(change + all.by(0.0)).largest(), speed.largest()]
         });
         let largest = |a: [f64; 2], b: [f64; 2]| [larger(a[0], b[0]), larger(a[1], b[1])];
         changes.into_iter().fold([0.0; 2], largest)
@@ -266,6 +278,9 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
         let Self { nodes, now, couplings, further, .. } = self;
         let equation = Equation::new(self.constant, self.anisotropy);
         let (matrix, weights) = (&self.matrix, &self.weights);
+        for column in nodes.each_mut().into_iter().flat_map(Spins::all_mut) {
+            couplings.copies.refresh(column, couplings.copies.all());
+        }
         let nodes = nodes.each_ref().map(Spins::all);
         let further = further.as_ref().map(|nodes| nodes.each_ref().map(Spins::all));
         let pieces = pieces([now.all_mut()], couplings.places.len());
@@ -274,12 +289,12 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
                 let place = first + at;
                 let mut rates = [[Pack::of(0.0); 3]; M];
                 for i in 0..M {
-                    let spin = read(nodes[i], place);
-                    let further = further.map(|nodes| read(nodes[i], place));
+                    let spin = nodes[i].row(place);
+                    let further = further.as_ref().map(|nodes| nodes[i].row(place));
                     rates[i] = equation.rate(couplings, nodes[i], place, spin, further);
                 }
                 let turns = solved(matrix, &rates);
-                let mut turn = ONE.map(Pack::of);
+                let mut turn = one();
                 for j in 0..M {
                     let part =
                         product([Pack::of(0.0), rates[j][0], rates[j][1], rates[j][2]], turns[j]);
@@ -304,10 +319,10 @@ impl Equation {
     }
 
     #[inline(always)]
-    fn rate<N: Numbers>(
+    fn rate(
         &self,
         couplings: &Couplings,
-        around: [N; 3],
+        around: impl Vectors,
         place: usize,
         own: V3<Pack>,
         further: Option<V3<Pack>>,
@@ -324,13 +339,8 @@ impl Equation {
 }
 
 #[inline(always)]
-fn read<N: Numbers>(columns: [N; 3], place: usize) -> V3<Pack> {
-    [columns[0].row(place), columns[1].row(place), columns[2].row(place)]
-}
-
-#[inline(always)]
 fn own(columns: &Piece<'_>, at: usize) -> V3<Pack> {
-    [(&*columns[0]).row(at), (&*columns[1]).row(at), (&*columns[2]).row(at)]
+    [&*columns[0], &*columns[1], &*columns[2]].row(at)
 }
 
 #[inline(always)]
@@ -343,7 +353,11 @@ fn write(columns: &mut Piece<'_>, at: usize, [x, y, z]: V3<Pack>) {
 /// A quaternion (w, i, j, k).
 type Quaternion = [Pack; 4];
 
-const ONE: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
+#[inline(always)]
+fn one() -> Quaternion {
+    let zero = Pack::of(0.0);
+    [Pack::of(1.0), zero, zero, zero]
+}
 
 #[inline(always)]
 fn product([a, i, j, k]: Quaternion, [b, p, q, r]: Quaternion) -> Quaternion {
@@ -371,14 +385,14 @@ fn turned([w, x, y, z]: Quaternion, v: V3<Pack>) -> (V3<Pack>, Pack) {
 /// The solution of Qᵢ + Σ aᵢⱼ ωⱼ Qⱼ = 1, by elimination over the quaternions.
 #[inline(always)]
 fn solved<const M: usize>(matrix: &[[f64; M]; M], rates: &[V3<Pack>; M]) -> [Quaternion; M] {
-    let mut rows = [[ONE.map(Pack::of); M]; M];
+    let mut rows = [[one(); M]; M];
     for i in 0..M {
         for j in 0..M {
             let [x, y, z] = scaled(Pack::of(matrix[i][j]), rates[j]);
             rows[i][j] = [Pack::of(if i == j { 1.0 } else { 0.0 }), x, y, z];
         }
     }
-    let mut right = [ONE.map(Pack::of); M];
+    let mut right = [one(); M];
     let mut inverses = right;
     for k in 0..M {
         inverses[k] = inverse(rows[k][k]);

@@ -28,10 +28,14 @@ impl Pack {
         Self(list)
     }
 
-    /// The larger number of two in each lane; not a number where one of them is none.
+    /// The larger number of two in each lane; `other` where one of them is not a number.
     #[inline(always)]
     pub fn larger(self, other: Self) -> Self {
-        self.with(other, larger)
+        self.with(
+            other,
+            #[inline(always)]
+            |a, b| if a > b { a } else { b },
+        )
     }
 
     /// The largest number; not a number where one of them is none.
@@ -101,10 +105,10 @@ impl Number for Pack {
     }
     #[inline(always)]
     fn known_at_most(self, limit: f64) -> Option<bool> {
-        let mut beyond = 0.0;
+        let mut within = true;
         for lane in 0..LANES {
-            beyond += if self.0[lane] <= limit { 0.0 } else { 1.0 };
+            within &= self.0[lane] <= limit;
         }
-        if beyond == 0.0 { Some(true) } else { None }
+        within.then_some(true)
     }
 }

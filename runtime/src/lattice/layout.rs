@@ -1,15 +1,17 @@
 //! The order of sites in memory, and lists of the places that a pack of sites reads.
 //!
 //! Sites stand in the order of their colours, each colour from a multiple of [`LANES`] on, so that those of one colour are
-//! one piece of memory. On lattices most neighbours of eight sites in a row are eight sites in a row, too: then the list
-//! has the first of them, else all eight.
+//! one piece of memory. On lattices most neighbours of eight sites in a row are eight sites in a row, too, and are read where
+//! they stand; others are copied into a row first.
 
 use alloc::vec::Vec;
 use core::ops::Range;
 
+use coadjoint_geometry::vector::V3;
+
 use super::graph::Edge;
 use super::lanes::{LANES, Pack};
-use super::threads::share;
+use super::threads::{self, share};
 
 /// A list of sites for each site.
 pub struct Adjacency {
@@ -101,164 +103,221 @@ impl Places {
     }
 }
 
-/// Eight places in memory.
-const LISTED: u32 = 1 << 31;
-
-/// Packs of places.
+/// The places of the neighbours of each pack of sites: as many packs as the site with the most neighbours has.
 #[derive(Default)]
-pub struct Packs {
-    /// The first of eight places in a row, or the number of a list and [`LISTED`].
-    codes: Vec<u32>,
-    lists: Vec<[u32; LANES]>,
-}
-
-impl Packs {
-    fn push(&mut self, places: [u32; LANES]) {
-        let row = (0..).zip(places).all(|(lane, place)| place == places[0] + lane);
-        if row {
-            self.codes.push(places[0]);
-        } else {
-            self.codes.push(LISTED | self.lists.len() as u32);
-            self.lists.push(places);
-        }
-    }
-
-    pub fn codes(&self) -> &[u32] {
-        &self.codes
-    }
-
-    /// The numbers at the places of a code.
-    #[inline(always)]
-    pub fn read(&self, numbers: impl Numbers, code: u32) -> Pack {
-        if code & LISTED == 0 {
-            return numbers.row(code as usize);
-        }
-        let list = self.list(code);
-        let mut pack = [0.0; LANES];
-        for lane in 0..LANES {
-            pack[lane] = numbers.one(list[lane] as usize);
-        }
-        Pack(pack)
-    }
-
-    /// Writes numbers to the places of a code.
-    #[inline(always)]
-    pub fn write(&self, numbers: &mut [f64], code: u32, pack: Pack) {
-        if code & LISTED == 0 {
-            return store(numbers, code as usize, pack);
-        }
-        let list = self.list(code);
-        for lane in 0..LANES {
-            if let Some(number) = numbers.get_mut(list[lane] as usize) {
-                *number = pack.0[lane];
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn list(&self, code: u32) -> [u32; LANES] {
-        self.lists.get((code & !LISTED) as usize).copied().unwrap_or_default()
-    }
-
-    /// The two ends of edges side by side, those without an edge empty.
-    pub fn pairs(places: &Places, edges: &[Edge]) -> [Self; 2] {
-        let mut sorted: Vec<Edge> = edges.iter().map(|edge| edge.map(|s| places.of(s))).collect();
-        sorted.sort_unstable();
-        let mut ends = [Self::default(), Self::default()];
-        for edges in sorted.chunks(LANES) {
-            let mut lists = [[places.len() as u32; LANES]; 2];
-            for (lane, edge) in edges.iter().enumerate() {
-                lists[0][lane] = edge[0];
-                lists[1][lane] = edge[1];
-            }
-            ends[0].push(lists[0]);
-            ends[1].push(lists[1]);
-        }
-        ends
-    }
-}
-
-/// The neighbours of packs of sites: as many packs for each as the site with the most neighbours has.
 pub struct Neighbours {
-    /// Where the codes of each pack begin.
-    first: Vec<u32>,
-    pub packs: Packs,
+    /// The first place of each pack of neighbours, and where those of each pack of sites begin.
+    starts: Vec<u32>,
+    begin: Vec<u32>,
 }
 
 impl Neighbours {
-    pub fn new(places: &Places, adjacency: &Adjacency) -> Self {
-        let mut sites = alloc::vec![u32::MAX; places.len()];
-        for (site, place) in (0..).zip(&places.of) {
-            sites[*place as usize] = site;
-        }
-        let (mut first, mut packs) = (alloc::vec![0], Packs::default());
-        for pack in sites.chunks_exact(LANES) {
-            let of = |site: &u32| match *site {
-                u32::MAX => &[],
-                site => adjacency.of(site as usize),
-            };
-            let most = pack.iter().map(|site| of(site).len()).max().unwrap_or_default();
-            for slot in 0..most {
-                let mut list = [places.len() as u32; LANES];
-                for (place, site) in list.iter_mut().zip(pack) {
-                    if let Some(other) = of(site).get(slot) {
-                        *place = places.of(*other);
-                    }
-                }
-                packs.push(list);
-            }
-            first.push(packs.codes.len() as u32);
-        }
-        Self { first, packs }
+    /// The most neighbours of a pack.
+    pub fn most(&self) -> u32 {
+        let counts = self.begin.windows(2).map(|pair| pair[1] - pair[0]);
+        counts.max().unwrap_or_default()
     }
 
-    /// The codes of a pack.
+    /// The neighbours of a pack, each by the first place of a pack.
     #[inline(always)]
     pub fn of(&self, pack: usize) -> &[u32] {
-        let (Some(&from), Some(&to)) = (self.first.get(pack), self.first.get(pack + 1)) else {
+        let (Some(&from), Some(&to)) = (self.begin.get(pack), self.begin.get(pack + 1)) else {
             return &[];
         };
-        self.packs.codes.get(from as usize..to as usize).unwrap_or_default()
+        self.starts.get(from as usize..to as usize).unwrap_or_default()
     }
 }
 
-/// Numbers of places.
-pub trait Numbers: Copy {
+/// Packs of neighbours that do not stand in a row: columns have copies of their numbers behind the places.
+pub struct Copies {
+    lists: Vec<[u32; LANES]>,
+    /// The lists that each colour reads.
+    pub of_colour: Vec<Range<usize>>,
+    /// The place of the first copy.
+    start: usize,
+}
+
+impl Copies {
+    /// The neighbours of all packs of sites, for each of some lists of neighbours, and what must be copied.
+    pub fn new(places: &Places, adjacency: &[Adjacency]) -> (Self, Vec<Neighbours>) {
+        let mut sites = alloc::vec![None; places.len()];
+        for (site, place) in places.of.iter().enumerate() {
+            sites[*place as usize] = Some(site);
+        }
+        let mut found: Vec<_> = adjacency.iter().map(|_| Neighbours::default()).collect();
+        let start = places.len() + LANES;
+        let mut copies = Self { lists: Vec::new(), of_colour: Vec::new(), start };
+        let mut begun = 0;
+        for colour in &places.colours {
+            for pack in sites[colour.clone()].chunks_exact(LANES) {
+                for (neighbours, adjacency) in found.iter_mut().zip(adjacency) {
+                    neighbours.begin.push(neighbours.starts.len() as u32);
+                    let of = |site: &Option<usize>| site.map_or(&[][..], |site| adjacency.of(site));
+                    let most = pack.iter().map(|site| of(site).len()).max().unwrap_or_default();
+                    for slot in 0..most {
+                        let place = |site| of(site).get(slot).map(|other| places.of(*other));
+                        let list = core::array::from_fn(|lane| {
+                            place(&pack[lane]).unwrap_or(places.len() as u32)
+                        });
+                        neighbours.starts.push(copies.start_of(list));
+                    }
+                }
+            }
+            copies.of_colour.push(begun..copies.lists.len());
+            begun = copies.lists.len();
+        }
+        for neighbours in &mut found {
+            neighbours.begin.push(neighbours.starts.len() as u32);
+        }
+        (copies, found)
+    }
+
+    /// The first of eight places in a row, or that of a copy.
+    fn start_of(&mut self, list: [u32; LANES]) -> u32 {
+        if is_row(list) {
+            return list[0];
+        }
+        self.lists.push(list);
+        (self.start + (self.lists.len() - 1) * LANES) as u32
+    }
+
+    /// The length of a column with copies.
+    pub fn length(&self) -> usize {
+        self.start + self.lists.len() * LANES
+    }
+
+    pub fn all(&self) -> Range<usize> {
+        0..self.lists.len()
+    }
+
+    /// Copies the numbers of some lists.
+    pub fn refresh(&self, column: &mut [f64], lists: Range<usize>) {
+        let (sites, copies) = column.split_at_mut(self.start);
+        let sites = &*sites;
+        let copies = &mut copies[lists.start * LANES..lists.end * LANES];
+        let count = copies.len();
+        threads::each(pieces([[copies]], count), |(first, [[copies]])| {
+            let lists = &self.lists[lists.start + first / LANES..];
+            for (copy, list) in copies.as_chunks_mut::<LANES>().0.iter_mut().zip(lists) {
+                for lane in 0..LANES {
+                    copy[lane] = sites[list[lane] as usize];
+                }
+            }
+        });
+    }
+}
+
+/// True for eight places in a row.
+fn is_row(list: [u32; LANES]) -> bool {
+    (0..).zip(list).all(|(lane, place)| place == list[0] + lane)
+}
+
+/// Edges, none of which share a site.
+#[derive(Default)]
+pub struct Pairs {
+    /// The first places of eight edges whose ends stand in rows.
+    rows: Vec<[u32; 2]>,
+    /// The places of eight edges; that after all sites where there is no edge.
+    lists: Vec<[[u32; LANES]; 2]>,
+}
+
+impl Pairs {
+    pub fn new(places: &Places, edges: &[Edge]) -> Self {
+        let mut sorted: Vec<Edge> = edges.iter().map(|edge| edge.map(|s| places.of(s))).collect();
+        sorted.sort_unstable();
+        let mut pairs = Self::default();
+        for edges in sorted.chunks(LANES) {
+            let mut lists = [[places.len() as u32; LANES]; 2];
+            for (lane, edge) in edges.iter().enumerate() {
+                (lists[0][lane], lists[1][lane]) = (edge[0], edge[1]);
+            }
+            match lists.into_iter().all(is_row) {
+                true => pairs.rows.push(lists.map(|list| list[0])),
+                false => pairs.lists.push(lists),
+            }
+        }
+        pairs
+    }
+
+    /// Replaces the spins at both ends of all edges.
+    #[inline(always)]
+    pub fn replace(
+        &self,
+        [x, y, z]: Piece<'_>,
+        change: impl Fn(V3<Pack>, V3<Pack>) -> [V3<Pack>; 2],
+    ) {
+        for [a, b] in &self.rows {
+            let [a, b] = [*a as usize, *b as usize];
+            let read = |at: usize| [row(x, at), row(y, at), row(z, at)];
+            let [s, t] = change(read(a), read(b));
+            for (at, [u, v, w]) in [(a, s), (b, t)] {
+                store(x, at, u);
+                store(y, at, v);
+                store(z, at, w);
+            }
+        }
+        for ends in &self.lists {
+            let mut spins = [[Pack([0.0; LANES]); 3]; 2];
+            for end in 0..2 {
+                for lane in 0..LANES {
+                    let place = ends[end][lane] as usize;
+                    spins[end][0].0[lane] = x[place];
+                    spins[end][1].0[lane] = y[place];
+                    spins[end][2].0[lane] = z[place];
+                }
+            }
+            let spins = change(spins[0], spins[1]);
+            for end in 0..2 {
+                for lane in 0..LANES {
+                    let place = ends[end][lane] as usize;
+                    x[place] = spins[end][0].0[lane];
+                    y[place] = spins[end][1].0[lane];
+                    z[place] = spins[end][2].0[lane];
+                }
+            }
+        }
+    }
+}
+
+/// Vectors of places.
+pub trait Vectors: Copy {
     /// Those of eight places in a row.
-    fn row(self, place: usize) -> Pack;
-    /// That of one place; zero where there is none.
-    fn one(self, place: usize) -> f64;
+    fn row(self, place: usize) -> V3<Pack>;
 }
 
-impl Numbers for &[f64] {
+impl Vectors for [&[f64]; 3] {
     #[inline(always)]
-    fn row(self, place: usize) -> Pack {
-        let row = self.get(place..).and_then(<[f64]>::first_chunk);
-        row.map_or(Pack([0.0; LANES]), |row| Pack(*row))
-    }
-    #[inline(always)]
-    fn one(self, place: usize) -> f64 {
-        self.get(place).copied().unwrap_or_default()
+    fn row(self, place: usize) -> V3<Pack> {
+        [row(self[0], place), row(self[1], place), row(self[2], place)]
     }
 }
 
-/// The numbers of all places outside a range, which others may write.
+/// Eight numbers in a row.
+#[inline(always)]
+pub fn row(numbers: &[f64], place: usize) -> Pack {
+    let numbers = &numbers[place..place + LANES];
+    let mut pack = [0.0; LANES];
+    for lane in 0..LANES {
+        pack[lane] = numbers[lane];
+    }
+    Pack(pack)
+}
+
+/// The vectors of all places outside a range, which others may write.
 #[derive(Clone, Copy)]
 pub struct Around<'a> {
-    before: &'a [f64],
-    after: &'a [f64],
+    before: [&'a [f64]; 3],
+    after: [&'a [f64]; 3],
     /// The end of the range.
     end: usize,
 }
 
-impl Numbers for Around<'_> {
+impl Vectors for &Around<'_> {
     #[inline(always)]
-    fn row(self, place: usize) -> Pack {
-        if place < self.end { self.before.row(place) } else { self.after.row(place - self.end) }
-    }
-    #[inline(always)]
-    fn one(self, place: usize) -> f64 {
-        if place < self.end { self.before.one(place) } else { self.after.one(place - self.end) }
+    fn row(self, place: usize) -> V3<Pack> {
+        let ahead = place < self.end;
+        let columns = if ahead { &self.before } else { &self.after };
+        columns.row(if ahead { place } else { place - self.end })
     }
 }
 
@@ -270,23 +329,26 @@ pub fn store(numbers: &mut [f64], place: usize, pack: Pack) {
     }
 }
 
-/// A number for each place, and zeros in the place after them.
+/// A number for each place, zeros after them, and copies.
 #[derive(Clone, Debug)]
 pub struct Column {
     numbers: Vec<f64>,
     /// The first number used, at the start of a line of the processor's memory.
     start: usize,
+    length: usize,
 }
 
 impl Column {
-    pub fn new(places: &Places) -> Self {
-        let numbers = alloc::vec![0.0; places.len() + 2 * LANES];
-        let start = numbers.as_ptr().align_offset(64).min(LANES);
-        Self { numbers, start }
+    /// Columns that are read together have different numbers: else those of one place share a set of the processor's cache.
+    pub fn new(length: usize, number: usize) -> Self {
+        let ahead = 7 * LANES * (number % 32);
+        let numbers = alloc::vec![0.0; length + LANES + ahead];
+        let start = numbers.as_ptr().align_offset(64).min(LANES) + ahead;
+        Self { numbers, start, length }
     }
 
     fn range(&self) -> Range<usize> {
-        self.start..self.start + self.numbers.len() - LANES
+        self.start..self.start + self.length
     }
 
     pub fn all(&self) -> &[f64] {
@@ -303,12 +365,13 @@ impl Column {
 #[derive(Clone, Debug)]
 pub struct Spins(pub [Column; 3]);
 
-/// Pieces of three columns that one thread writes.
-pub type Piece<'a> = [&'a mut [f64]; 3];
+/// Pieces of columns that one thread writes.
+pub type Piece<'a, const K: usize = 3> = [&'a mut [f64]; K];
 
 impl Spins {
-    pub fn new(places: &Places) -> Self {
-        Self([0; 3].map(|_| Column::new(places)))
+    /// Columns of this length, at least a pack longer than places, with different numbers for vectors that are read together.
+    pub fn new(length: usize, number: usize) -> Self {
+        Self([0, 1, 2].map(|axis| Column::new(length, 3 * number + axis)))
     }
 
     pub fn all(&self) -> [&[f64]; 3] {
@@ -321,10 +384,10 @@ impl Spins {
 }
 
 /// The columns in parts for threads, with the first place of each part.
-pub fn pieces<'a, const M: usize>(
-    mut columns: [Piece<'a>; M],
+pub fn pieces<'a, const K: usize, const M: usize>(
+    mut columns: [Piece<'a, K>; M],
     places: usize,
-) -> Vec<(usize, [Piece<'a>; M])> {
+) -> Vec<(usize, [Piece<'a, K>; M])> {
     let share = share(places);
     let take = |column: &mut &'a mut [f64], count: usize| {
         let list = core::mem::take(column);
@@ -341,12 +404,14 @@ pub fn pieces<'a, const M: usize>(
     (0..places).step_by(share).map(part).collect()
 }
 
-/// Columns as one range of places is written: the numbers around it to read, and the range.
-pub fn split<'a>(spins: &'a mut Spins, range: &Range<usize>) -> ([Around<'a>; 3], Piece<'a>) {
+/// Columns as one range of places is written: the vectors around it to read, and the range.
+pub fn split<'a>(spins: &'a mut Spins, range: &Range<usize>) -> (Around<'a>, Piece<'a>) {
     let parts = spins.0.each_mut().map(|column| {
         let (before, rest) = column.all_mut().split_at_mut(range.start);
         let (own, after) = rest.split_at_mut(range.len());
-        (Around { before, after, end: range.end }, own)
+        (&*before, own, &*after)
     });
-    (parts.each_ref().map(|part| part.0), parts.map(|part| part.1))
+    let [x, y, z] = parts;
+    let (before, after) = ([x.0, y.0, z.0], [x.2, y.2, z.2]);
+    (Around { before, after, end: range.end }, [x.1, y.1, z.1])
 }

@@ -6,7 +6,7 @@ use core::fmt;
 use coadjoint_geometry::angle::{Angle, Length};
 use coadjoint_geometry::number::Number;
 use coadjoint_geometry::rotation::Turn;
-use coadjoint_geometry::vector::{V3, cross, dot, each, plus, scaled, sum};
+use coadjoint_geometry::vector::{V3, cross, difference, dot, each, plus, scaled, sum};
 use nalgebra::{Matrix3, Vector3};
 
 use super::colours;
@@ -15,7 +15,7 @@ use super::couplings::{Couplings, Dyad, Energies, by_directions, directions, dya
 use super::error::{LatticeError, check_spins, check_step};
 use super::family::Family;
 use super::lanes::{LANES, Pack};
-use super::layout::{Column, Numbers, Packs, Piece, Spins, pieces, split, store};
+use super::layout::{Column, Pairs, Piece, Spins, pieces, row, split};
 use super::threads;
 
 /// Steps of a lattice of spins, composed of exact rotations: the length of each spin is kept to rounding.
@@ -37,6 +37,8 @@ pub struct RotationStep {
     parts: Vec<Part>,
     /// The parts of a step with their lengths in time.
     sequence: Vec<(usize, f64)>,
+    /// The largest speed of each part for spins of length zero, and by how much it grows with the largest length.
+    speeds: Vec<[f64; 2]>,
     spins: Spins,
     /// The components of spins along a direction that is no axis.
     along: Column,
@@ -45,7 +47,7 @@ pub struct RotationStep {
 /// An energy whose flow is known.
 enum Part {
     Axis(Axis),
-    Pairs([Packs; 2], Exchange),
+    Pairs(Pairs, Exchange),
     /// The sites of a colour in the field of the others.
     Colour(usize, [f64; 3]),
     Sites(Site),
@@ -110,10 +112,12 @@ impl RotationStep {
                 colours.chain(sites).collect()
             }
         };
+        let speeds = parts.iter().map(|part| speed(part, &couplings)).collect();
         let sequence = order.sequence(parts.len());
         let sequence = sequence.into_iter().map(|(part, length)| (part, length * step)).collect();
-        let (spins, along) = (Spins::new(&couplings.places), Column::new(&couplings.places));
-        Ok(Self { couplings, parts, sequence, spins, along })
+        let length = couplings.copies.length();
+        let (spins, along) = (Spins::new(length, 0), Column::new(length, 3));
+        Ok(Self { couplings, parts, sequence, speeds, spins, along })
     }
 
     /// Advances the spins, in the order of the graph's sites, by `steps` steps.
@@ -123,54 +127,65 @@ impl RotationStep {
     pub fn advance_by(&mut self, spins: &mut [[f64; 3]], steps: u64) -> Result<(), LatticeError> {
         check_spins(self.couplings.places.sites(), spins)?;
         self.couplings.places.scatter(spins, &mut self.spins);
+        let squares = spins.iter().map(|[x, y, z]| x * x + y * y + z * z);
+        let length = squares.fold(0.0, f64::max).sqrt();
         for _ in 0..steps {
             for at in 0..self.sequence.len() {
                 let (part, time) = self.sequence[at];
-                self.flow(part, time);
+                let [least, slope] = self.speeds[part];
+                match (time * slope.times_plus(length, least)).abs() <= SHORT_TURN {
+                    true => self.flow::<true>(part, time),
+                    false => self.flow::<false>(part, time),
+                }
             }
         }
         self.couplings.places.gather(&self.spins, spins);
         Ok(())
     }
 
-    /// The flow of a part of the energy.
-    fn flow(&mut self, part: usize, time: f64) {
+    /// The flow of a part of the energy, in which all spins turn by a short angle, or by any.
+    fn flow<const SHORT: bool>(&mut self, part: usize, time: f64) {
         let Self { couplings, spins, along, .. } = self;
         let places = couplings.places.len();
         match &self.parts[part] {
             Part::Axis(part) => match part.axis {
-                Some(axis) => about_axis(couplings, part, axis, time, spins),
+                Some(axis) => about_axis::<SHORT>(couplings, part, axis, time, spins),
                 None => {
-                    for (at, own) in along.all_mut().iter_mut().enumerate() {
-                        let [x, y, z] = spins.all().map(|column| column.one(at));
-                        *own = dot([x, y, z], part.direction.direction);
+                    let [x, y, z] = spins.all();
+                    for (at, own) in along.all_mut()[..places].iter_mut().enumerate() {
+                        *own = dot([x[at], y[at], z[at]], part.direction.direction);
                     }
+                    couplings.copies.refresh(along.all_mut(), couplings.copies.all());
                     let along = along.all();
                     each_pack(spins.all_mut(), places, |pack, spin| {
                         let field = part.rate(couplings, along, pack);
-                        about(part.direction.direction, field.by(time), spin)
+                        about::<SHORT>(part.direction.direction, field.by(time), spin)
                     });
                 }
             },
-            Part::Pairs(ends, exchange) => {
+            Part::Pairs(pairs, exchange) => {
                 let columns = spins.all_mut();
-                threads::wide(|| exchange_all(ends, *exchange, time, columns));
+                threads::wide(|| exchange_all::<SHORT>(pairs, *exchange, time, columns));
             }
             Part::Colour(colour, field) => {
                 let range = &couplings.places.colours[*colour];
+                let lists = couplings.copies.of_colour[*colour].clone();
+                for column in spins.all_mut() {
+                    couplings.copies.refresh(column, lists.clone());
+                }
                 let (around, own) = split(spins, range);
                 let first = range.start / LANES;
                 each_pack(own, range.len(), |pack, spin| {
                     let field = each(|axis| Pack::of(field[axis]));
-                    let field = couplings.field(field, around, first + pack);
+                    let field = couplings.field(field, &around, first + pack);
                     let x = scaled(Pack::of(time), field);
-                    turn(x).back(spin)
+                    turn::<SHORT>(x).back(spin)
                 });
             }
             Part::Sites(site) => {
                 each_pack(spins.all_mut(), places, |_, spin| {
                     let along = dot(spin, each(|axis| Pack::of(site.direction[axis])));
-                    about(site.direction, site.rate(along).by(time), spin)
+                    about::<SHORT>(site.direction, site.rate(along).by(time), spin)
                 });
             }
         }
@@ -189,90 +204,117 @@ impl Axis {
     /// The speed of rotation of a pack about the direction, along which all spins have these components.
     #[inline(always)]
     fn rate(&self, couplings: &Couplings, along: &[f64], pack: usize) -> Pack {
-        self.direction.rate(along.row(pack * LANES)) + couplings.along(&self.weights, along, pack)
+        self.direction.rate(row(along, pack * LANES)) + couplings.along(&self.weights, along, pack)
     }
+}
+
+/// Angles up to which rotations have a short series: less than a quarter turn.
+const SHORT_TURN: f64 = 1.5;
+
+#[inline(always)]
+fn reach(short: bool) -> Length {
+    if short { Length::Short } else { Length::Any }
 }
 
 /// The rotation by a vector.
 #[inline(always)]
-fn turn(x: V3<Pack>) -> Turn<Pack> {
-    let angle = Angle::new(x, Length::Any);
+fn turn<const SHORT: bool>(x: V3<Pack>) -> Turn<Pack> {
+    let angle = Angle::new(x, reach(SHORT));
     Turn { w: angle.half_cosine, s: angle.half_sine, x }
 }
 
 /// Spins turned about a unit vector.
 #[inline(always)]
-fn about(direction: [f64; 3], by: Pack, spin: V3<Pack>) -> V3<Pack> {
-    let angle = Angle::new([by], Length::Any);
+fn about<const SHORT: bool>(direction: [f64; 3], by: Pack, spin: V3<Pack>) -> V3<Pack> {
+    let angle = Angle::new([by], reach(SHORT));
     let x = each(|axis| Pack::of(direction[axis]));
     Turn { w: angle.half_cosine, s: angle.half_sine * by, x }.back(spin)
 }
 
-/// Replaces the spins of every pack of some columns.
+/// Replaces every pack of some columns.
 #[inline(always)]
-fn each_pack(columns: Piece<'_>, places: usize, work: impl Fn(usize, V3<Pack>) -> V3<Pack> + Sync) {
-    threads::each(pieces([columns], places), |(first, [[x, y, z]])| {
-        for at in (0..x.len()).step_by(LANES) {
-            let spin = [(&*x).row(at), (&*y).row(at), (&*z).row(at)];
-            let [a, b, c] = work((first + at) / LANES, spin);
-            store(x, at, a);
-            store(y, at, b);
-            store(z, at, c);
+fn each_pack<const K: usize>(
+    columns: Piece<'_, K>,
+    places: usize,
+    work: impl Fn(usize, [Pack; K]) -> [Pack; K] + Sync,
+) {
+    threads::each(pieces([columns], places), |(first, [columns])| {
+        let [first, count] = [first, columns[0].len()].map(|places| places / LANES);
+        // Packs by number, in plain loops: iterators over several columns stay calls.
+        let columns = columns.map(|column| column.as_chunks_mut::<LANES>().0);
+        for at in 0..count {
+            let mut packs = [Pack::of(0.0); K];
+            for k in 0..K {
+                packs[k] = Pack(columns[k][at]);
+            }
+            let packs = work(first + at, packs);
+            for k in 0..K {
+                columns[k][at] = packs[k].0;
+            }
         }
     });
 }
 
 /// The flow of the energies along an axis, in which the other two components turn.
-fn about_axis(couplings: &Couplings, part: &Axis, axis: usize, time: f64, spins: &mut Spins) {
+fn about_axis<const SHORT: bool>(
+    couplings: &Couplings,
+    part: &Axis,
+    axis: usize,
+    time: f64,
+    spins: &mut Spins,
+) {
     let [x, y, z] = &mut spins.0;
     let (along, u, v) = match axis {
         0 => (x, y, z),
         1 => (y, z, x),
         _ => (z, x, y),
     };
+    couplings.copies.refresh(along.all_mut(), couplings.copies.all());
     let along = along.all();
-    let columns = [u.all_mut(), v.all_mut(), &mut []];
-    each_pack(columns, couplings.places.len(), |pack, [u, v, rest]| {
+    each_pack([u.all_mut(), v.all_mut()], couplings.places.len(), |pack, [u, v]| {
         let by = part.rate(couplings, along, pack).by(time);
-        let angle = Angle::new([by], Length::Any);
+        let angle = Angle::new([by], reach(SHORT));
         let half = angle.half_sine * by;
         let sine = (half * angle.half_cosine).by(2.0);
         let cosine = half.by_plus(-2.0, Pack::of(0.0)).times_plus(half, Pack::of(1.0));
-        [u.times_plus(cosine, v * sine), v.times_plus(cosine, -u * sine), rest]
+        [u.times_plus(cosine, v * sine), v.times_plus(cosine, -u * sine)]
     });
 }
 
 /// The flow of energies of pairs, none of which share a site.
 #[inline(always)]
-fn exchange_all(ends: &[Packs; 2], exchange: Exchange, time: f64, columns: Piece<'_>) {
-    let [a, b] = ends;
-    for (&at, &to) in a.codes().iter().zip(b.codes()) {
-        let columns_read = columns.each_ref().map(|column| &**column);
-        let s = columns_read.map(|column| a.read(column, at));
-        let t = columns_read.map(|column| b.read(column, to));
-        let [s, t] = match exchange {
-            Exchange::Isotropic(factor) => {
-                // Both turn about their sum, by opposite changes.
-                let turn = turn(scaled(Pack::of(factor * time), sum(s, t)));
+fn exchange_all<const SHORT: bool>(
+    pairs: &Pairs,
+    exchange: Exchange,
+    time: f64,
+    columns: Piece<'_>,
+) {
+    match exchange {
+        // Both turn about their sum, by opposite changes.
+        Exchange::Isotropic(factor) => pairs.replace(
+            columns,
+            #[inline(always)]
+            |s, t| {
+                let turn = turn::<SHORT>(scaled(Pack::of(factor * time), sum(s, t)));
                 let once = cross(s, turn.x);
                 let doubled = turn.s.by(2.0);
                 let change =
                     plus(scaled(doubled * turn.w, once), doubled * turn.s, cross(once, turn.x));
-                [sum(s, change), plus(t, Pack::of(-1.0), change)]
-            }
-            Exchange::Dyad(Dyad { factor, left, right }) => {
+                [sum(s, change), difference(t, change)]
+            },
+        ),
+        Exchange::Dyad(Dyad { factor, left, right }) => pairs.replace(
+            columns,
+            #[inline(always)]
+            |s, t| {
                 let left_component = dot(s, each(|axis| Pack::of(left[axis])));
                 let right_component = dot(t, each(|axis| Pack::of(right[axis])));
                 [
-                    about(left, right_component.by(factor * time), s),
-                    about(right, left_component.by(factor * time), t),
+                    about::<SHORT>(left, right_component.by(factor * time), s),
+                    about::<SHORT>(right, left_component.by(factor * time), t),
                 ]
-            }
-        };
-        for axis in 0..3 {
-            a.write(columns[axis], at, s[axis]);
-            b.write(columns[axis], to, t[axis]);
-        }
+            },
+        ),
     }
 }
 
@@ -303,7 +345,7 @@ fn pairs(sites: usize, couplings: &Couplings, energies: &Energies) -> Vec<Part> 
         let exchanges = isotropic.into_iter().chain(dyads.into_iter().map(Exchange::Dyad));
         for exchange in exchanges {
             for colour in colours::edges(sites, edges) {
-                parts.push(Part::Pairs(Packs::pairs(&couplings.places, &colour), exchange));
+                parts.push(Part::Pairs(Pairs::new(&couplings.places, &colour), exchange));
             }
         }
     }
@@ -331,4 +373,22 @@ fn single(energies: &Energies, with_field: bool) -> Vec<Part> {
         sites.push(Site { direction: (field / size).into(), linear: size, square: 0.0 });
     }
     sites.into_iter().map(Part::Sites).collect()
+}
+
+/// The largest speed of rotation of a part for spins of length zero, and by how much it grows with the largest length.
+fn speed(part: &Part, couplings: &Couplings) -> [f64; 2] {
+    match part {
+        Part::Axis(Axis { direction: Site { linear, square, .. }, weights, .. }) => {
+            let most = couplings.most().zip(weights).map(|(most, weight)| most * weight.abs());
+            [linear.abs(), square.abs() + most.sum::<f64>()]
+        }
+        Part::Pairs(_, Exchange::Isotropic(factor)) => [0.0, 2.0 * factor.abs()],
+        Part::Pairs(_, Exchange::Dyad(dyad)) => [0.0, dyad.factor.abs()],
+        Part::Colour(_, field) => {
+            let most = couplings.most().zip(couplings.matrices());
+            let most = most.map(|(most, matrix)| most * matrix.norm());
+            [Vector3::from(*field).norm(), most.sum::<f64>()]
+        }
+        Part::Sites(Site { linear, square, .. }) => [linear.abs(), square.abs()],
+    }
 }
