@@ -377,7 +377,7 @@ fn mistakes_are_refused_in_words() {
     let message = |error: LatticeError| error.to_string();
     for (error, words) in [
         (Graph::cubic([4, 0, 4]).unwrap_err(), "axis 1 of the lattice has length 0"),
-        (Graph::cubic([1 << 20; 3]).unwrap_err(), "too many sites"),
+        (Graph::cubic([1 << 20; 3]).unwrap_err(), "too many sites or edges"),
         (Graph::from_edges(3, &[[0, 3]]).unwrap_err(), "numbered from 0 to 2"),
         (Graph::from_edges(3, &[[1, 1]]).unwrap_err(), "joins site 1 with itself"),
         (Graph::from_edges(3, &[[0, 1], [1, 0]]).unwrap_err(), "joins sites 0 and 1 twice"),

@@ -199,6 +199,7 @@ fn costs(
 
 /// Prints the tables.
 pub fn tables(quick: bool, only: &str) -> Result<(), Failure> {
+    rayon::ThreadPoolBuilder::new().num_threads(1).build_global()?;
     let runs = if quick { 2 } else { 7 };
     for name in ["hot", "cold"] {
         if name.contains(only) {

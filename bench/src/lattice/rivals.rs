@@ -69,27 +69,26 @@ pub struct Cube {
     pub field: f64,
 }
 
-/// Components of the spins of both sublattices.
+/// Components of the spins, for each row those of both sublattices one after the other.
 #[derive(Clone)]
-pub struct Board([[Vec<f64>; 3]; 2]);
+pub struct Board(Vec<f64>);
 
 #[inline(always)]
 fn load(list: &[f64], at: usize) -> Pack {
-    Pack(list[at..].first_chunk().copied().unwrap_or_default())
-}
-
-#[inline(always)]
-fn spin(list: &[Vec<f64>; 3], at: usize) -> V3 {
-    [load(&list[0], at), load(&list[1], at), load(&list[2], at)]
-}
-
-#[inline(always)]
-fn store(list: &mut [Vec<f64>; 3], at: usize, v: V3) {
-    for axis in 0..3 {
-        if let Some(row) = list[axis][at..].first_chunk_mut() {
-            *row = v[axis].0;
-        }
+    let list = &list[at..at + 8];
+    let mut pack = [0.0; 8];
+    for lane in 0..8 {
+        pack[lane] = list[lane];
     }
+    Pack(pack)
+}
+
+/// The sum of the packs of six rows at a place.
+#[inline(always)]
+fn six(Board(list): &Board, rows: [usize; 6], at: usize) -> Pack {
+    (load(list, rows[0] + at) + load(list, rows[1] + at))
+        + (load(list, rows[2] + at) + load(list, rows[3] + at))
+        + (load(list, rows[4] + at) + load(list, rows[5] + at))
 }
 
 #[inline(always)]
@@ -112,87 +111,114 @@ fn unit(v: V3) -> V3 {
 }
 
 impl Cube {
-    /// The number of a row's sublattice before its first, and that of a row.
+    /// The numbers of a component of a row.
+    fn width(self) -> usize {
+        self.side / 2 + 2 * EDGE
+    }
+
+    /// The place of the first number of a row.
     fn row(self, y: usize, z: usize) -> usize {
-        (z * self.side + y) * (self.side / 2 + 2 * EDGE) + EDGE
+        (z * self.side + y) * 6 * self.width() + EDGE
     }
 
-    fn board(self) -> Board {
-        let length = self.side * self.side * (self.side / 2 + 2 * EDGE);
-        Board([(); 2].map(|()| [(); 3].map(|()| vec![0.0; length])))
-    }
-
-    fn place(self, site: usize) -> (usize, usize) {
+    /// The place of a site's first component.
+    fn place(self, site: usize) -> usize {
         let (x, y, z) = (site % self.side, site / self.side % self.side, site / self.side.pow(2));
-        ((x + y + z) % 2, self.row(y, z) + x / 2)
+        let half = (x + y + z) % 2;
+        self.row(y, z) + 3 * half * self.width() + x / 2
     }
 
     /// The spins of sites in C order.
     pub fn read(self, spins: &[[f64; 3]]) -> Board {
-        let mut board = self.board();
+        let mut board = Board(vec![0.0; self.side.pow(2) * 6 * self.width()]);
         for (site, spin) in spins.iter().enumerate() {
-            let (half, at) = self.place(site);
-            (0..3).for_each(|axis| board.0[half][axis][at] = spin[axis]);
+            let at = self.place(site);
+            (0..3).for_each(|axis| board.0[at + axis * self.width()] = spin[axis]);
         }
-        for half in 0..2 {
-            for row in 0..self.side * self.side {
-                self.close(&mut board.0[half], self.row(row % self.side, row / self.side));
-            }
-        }
+        self.close_all(&mut board);
         board
     }
 
     pub fn write(self, board: &Board, spins: &mut [[f64; 3]]) {
         for (site, spin) in spins.iter_mut().enumerate() {
-            let (half, at) = self.place(site);
-            *spin = [0, 1, 2].map(|axis| board.0[half][axis][at]);
+            let at = self.place(site);
+            *spin = [0, 1, 2].map(|axis| board.0[at + axis * self.width()]);
         }
     }
 
-    /// Closes the ring of a row.
-    fn close(self, list: &mut [Vec<f64>; 3], row: usize) {
+    /// Closes the rings of a row.
+    fn close(self, board: &mut Board, row: usize) {
         let length = self.side / 2;
-        for column in list {
-            column[row - 1] = column[row + length - 1];
-            column[row + length] = column[row];
+        for column in 0..6 {
+            let at = row + column * self.width();
+            board.0[at - 1] = board.0[at + length - 1];
+            board.0[at + length] = board.0[at];
         }
     }
 
-    /// Calls `work` with the sublattice, the place, the spins and s × ∂H/∂s of every pack; and at the end of each row.
+    fn close_all(self, board: &mut Board) {
+        for row in 0..self.side.pow(2) {
+            self.close(board, self.row(row % self.side, row / self.side));
+        }
+    }
+
+    #[inline(always)]
+    fn spin(self, board: &Board, at: usize) -> V3 {
+        let width = self.width();
+        [load(&board.0, at), load(&board.0, at + width), load(&board.0, at + 2 * width)]
+    }
+
+    #[inline(always)]
+    fn store(self, board: &mut Board, at: usize, v: V3) {
+        for axis in 0..3 {
+            let at = at + axis * self.width();
+            let list = &mut board.0[at..at + 8];
+            for lane in 0..8 {
+                list[lane] = v[axis].0[lane];
+            }
+        }
+    }
+
+    /// The sum of the spins of six rows at a place.
+    #[inline(always)]
+    fn six(self, board: &Board, rows: [usize; 6], at: usize) -> V3 {
+        let width = self.width();
+        [six(board, rows, at), six(board, rows, at + width), six(board, rows, at + 2 * width)]
+    }
+
+    /// Calls `work` with the place, the spins and s × ∂H/∂s of every pack, to write into `out`.
     #[inline(always)]
     fn sweep(
         self,
         board: &Board,
         out: &mut Board,
-        mut work: impl FnMut(usize, usize, V3, V3, &mut [Vec<f64>; 3]),
+        mut work: impl FnMut(usize, V3, V3, &mut Board),
     ) {
-        let side = self.side;
+        let (side, width) = (self.side, self.width());
         for z in 0..side {
             for y in 0..side {
                 let row = self.row(y, z);
-                let others = [
-                    self.row((y + 1) % side, z),
-                    self.row((y + side - 1) % side, z),
-                    self.row(y, (z + 1) % side),
-                    self.row(y, (z + side - 1) % side),
-                ];
                 for half in 0..2 {
-                    let (own, other) = (&board.0[half], &board.0[1 - half]);
+                    let (own, other) = (3 * half * width, 3 * (1 - half) * width);
                     // The other neighbour along x stands before the one at the same place, or after it.
                     let beside = if half == (y + z) % 2 { row - 1 } else { row + 1 };
+                    let rows = [
+                        row,
+                        beside,
+                        self.row((y + 1) % side, z),
+                        self.row((y + side - 1) % side, z),
+                        self.row(y, (z + 1) % side),
+                        self.row(y, (z + side - 1) % side),
+                    ];
                     for at in (0..side / 2).step_by(8) {
-                        let sum = |column: &[f64]| {
-                            (load(column, row + at) + load(column, beside + at))
-                                + (load(column, others[0] + at) + load(column, others[1] + at))
-                                + (load(column, others[2] + at) + load(column, others[3] + at))
-                        };
-                        let v = spin(own, row + at);
-                        let up = v[2].times_plus(Pack::of(2.0 * self.square), -sum(&other[2]));
-                        let field = [-sum(&other[0]), -sum(&other[1]), up - Pack::of(self.field)];
-                        work(half, row + at, v, cross(v, field), &mut out.0[half]);
+                        let v = self.spin(board, row + own + at);
+                        let [x, y, z] = self.six(board, rows, other + at);
+                        let up = v[2].times_plus(Pack::of(2.0 * self.square), -z);
+                        let field = [-x, -y, up - Pack::of(self.field)];
+                        work(row + own + at, v, cross(v, field), out);
                     }
-                    self.close(&mut out.0[half], row);
                 }
+                self.close(out, row);
             }
         }
     }
@@ -205,28 +231,24 @@ impl Cube {
                 [(6.0, 0.5), (3.0, 0.5), (3.0, 1.0), (6.0, 0.0)].into_iter().enumerate()
             {
                 let (weight, ahead) = (h / weight, ahead * h);
-                let mut make = |from: &Board, to: &mut Board| {
-                    self.sweep(from, to, |half, at, _, rate, out| {
-                        let start = spin(&board.0[half], at);
-                        let so_far = if stage == 0 { start } else { spin(&sum.0[half], at) };
-                        store(&mut sum.0[half], at, plus(so_far, weight, rate));
+                let from = if stage == 0 { &*board } else { &a };
+                self.sweep(
+                    from,
+                    &mut b,
+                    #[inline(always)]
+                    |at, _, rate, out| {
+                        let start = self.spin(board, at);
+                        let so_far = if stage == 0 { start } else { self.spin(&sum, at) };
+                        self.store(&mut sum, at, plus(so_far, weight, rate));
                         if stage < 3 {
-                            store(out, at, plus(start, ahead, rate));
+                            self.store(out, at, plus(start, ahead, rate));
                         }
-                    });
-                };
-                match stage {
-                    0 => make(board, &mut a),
-                    2 => make(&b, &mut a),
-                    _ => make(&a, &mut b),
-                }
+                    },
+                );
+                std::mem::swap(&mut a, &mut b);
             }
             std::mem::swap(board, &mut sum);
-            for half in 0..2 {
-                for row in 0..self.side * self.side {
-                    self.close(&mut board.0[half], self.row(row % self.side, row / self.side));
-                }
-            }
+            self.close_all(board);
         }
     }
 
@@ -238,22 +260,36 @@ impl Cube {
             now.clone_from(board);
             for _ in 0..100 {
                 let mut change = Pack::of(0.0);
-                self.sweep(&now, &mut next, |half, at, old, rate, out| {
-                    let new = unit(plus(spin(&board.0[half], at), 0.5 * h, rate));
-                    for axis in 0..3 {
-                        let gap = new[axis] - old[axis];
-                        change = change.with(gap, |a, b| if b.abs() > a { b.abs() } else { a });
-                    }
-                    store(out, at, new);
-                });
+                self.sweep(
+                    &now,
+                    &mut next,
+                    #[inline(always)]
+                    |at, old, rate, out| {
+                        let new = unit(plus(self.spin(board, at), 0.5 * h, rate));
+                        for axis in 0..3 {
+                            let gap = new[axis] - old[axis];
+                            change = change.with(
+                                gap,
+                                #[inline(always)]
+                                |a, b| if a > b.abs() { a } else { b.abs() },
+                            );
+                        }
+                        self.store(out, at, new);
+                    },
+                );
                 std::mem::swap(&mut now, &mut next);
                 if change.0.into_iter().all(|change| change < 1e-12) {
                     break;
                 }
             }
-            self.sweep(&now, &mut next, |half, at, _, rate, out| {
-                store(out, at, unit(plus(spin(&board.0[half], at), h, rate)));
-            });
+            self.sweep(
+                &now,
+                &mut next,
+                #[inline(always)]
+                |at, _, rate, out| {
+                    self.store(out, at, unit(plus(self.spin(board, at), h, rate)));
+                },
+            );
             std::mem::swap(board, &mut next);
         }
     }

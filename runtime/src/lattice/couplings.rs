@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 
 use coadjoint_geometry::number::Number;
-use coadjoint_geometry::vector::{V3, plus_by};
+use coadjoint_geometry::vector::{V3, plus_by, sum};
 use nalgebra::{Matrix3, Vector3};
 
 use super::colours;
@@ -92,27 +92,34 @@ impl Couplings {
         self.groups.iter().map(|group| f64::from(group.neighbours.most()))
     }
 
-    /// `field` and that of the neighbours of a pack of sites, whose spins are read from `spins`.
+    /// `fields` and those of the neighbours of a pack of sites, for several states side by side.
     #[inline(always)]
-    pub fn field(&self, mut field: V3<Pack>, spins: impl Vectors, pack: usize) -> V3<Pack> {
+    pub fn fields<const M: usize>(
+        &self,
+        mut fields: [V3<Pack>; M],
+        spins: [impl Vectors; M],
+        pack: usize,
+    ) -> [V3<Pack>; M] {
         for group in &self.groups {
-            let [mut x, mut y, mut z] = [Pack::of(0.0); 3];
+            let mut sums = [[Pack::of(0.0); 3]; M];
             for &start in group.neighbours.of(pack) {
-                let [u, v, w] = spins.row(start as usize);
-                (x, y, z) = (x + u, y + v, z + w);
-            }
-            let sum = [x, y, z];
-            match group.applied {
-                Applied::Isotropic(factor) => field = plus_by(field, factor, sum),
-                Applied::Diagonal(factors) => {
-                    for axis in 0..3 {
-                        field[axis] = sum[axis].by_plus(factors[axis], field[axis]);
-                    }
+                for i in 0..M {
+                    sums[i] = sum(sums[i], spins[i].row(start as usize));
                 }
-                Applied::Full(matrix) => field = multiplied(field, &matrix, sum),
+            }
+            for i in 0..M {
+                match &group.applied {
+                    Applied::Isotropic(factor) => fields[i] = plus_by(fields[i], *factor, sums[i]),
+                    Applied::Diagonal(factors) => {
+                        for axis in 0..3 {
+                            fields[i][axis] = sums[i][axis].by_plus(factors[axis], fields[i][axis]);
+                        }
+                    }
+                    Applied::Full(matrix) => fields[i] = multiplied(fields[i], matrix, sums[i]),
+                }
             }
         }
-        field
+        fields
     }
 
     /// The sum of one number of each neighbour of a pack of sites, those of each matrix by its weight.

@@ -13,10 +13,10 @@ pub enum LatticeError {
         /// The axis, from 0.
         axis: usize,
     },
-    /// The lattice has more sites than places can be numbered.
-    #[error("the lattice has too many sites: at most {most} can be numbered")]
+    /// The lattice has more sites or edges than can be numbered.
+    #[error("the lattice has too many sites or edges: at most {most} of either can be numbered")]
     TooLarge {
-        /// The largest number of sites.
+        /// The largest number of sites, and of edges.
         most: usize,
     },
     /// The offset of a bond does not have one number for each axis.

@@ -10,7 +10,7 @@ use core::array::from_fn;
 use core::fmt;
 
 use coadjoint_geometry::number::Number;
-use coadjoint_geometry::vector::{V3, cross, difference, dot, each, plus, plus_by, scaled};
+use coadjoint_geometry::vector::{V3, cross, difference, dot, each, plus, plus_by, scaled, sum};
 use coadjoint_program::collocation::{MAX_SWEEPS, Nodes, ROUNDING, SOLVED};
 
 use super::couplings::{Couplings, Energies, multiplied};
@@ -50,8 +50,7 @@ pub type NoField = fn(&[[f64; 3]], &mut [[f64; 3]]);
 pub struct GaussStep<const M: usize, F = NoField> {
     couplings: Couplings,
     /// The field, and twice the anisotropy.
-    constant: [f64; 3],
-    anisotropy: Option<[[f64; 3]; 3]>,
+    equation: Equation,
     gradient: Option<F>,
     step: f64,
     /// aᵢⱼ by i, then by j, and bⱼ, in halves of the step.
@@ -100,8 +99,10 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
         let twice = 2.0 * energies.anisotropy;
         let anisotropic = energies.anisotropy.iter().any(|entry| *entry != 0.0);
         Ok(Self {
-            constant: energies.field.into(),
-            anisotropy: anisotropic.then(|| from_fn(|i| from_fn(|j| twice[(i, j)]))),
+            equation: Equation {
+                constant: energies.field.into(),
+                anisotropy: anisotropic.then(|| from_fn(|i| from_fn(|j| twice[(i, j)]))),
+            },
             matrix: from_fn(|i| from_fn(|j| 0.5 * step * (matrix[j][i] + 0.5 * weights[j]))),
             weights: weights.map(|weight| 0.5 * step * weight),
             guess,
@@ -239,19 +240,18 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
         let parts = nodes.each_mut().map(|node| split(node, &range));
         let around = parts.each_ref().map(|part| part.0);
         let columns = parts.map(|part| part.1);
-        let (equation, first_place) = (Equation::new(self.constant, self.anisotropy), range.start);
-        let matrix = &self.matrix;
+        let (equation, matrix, first_place) = (&self.equation, &self.matrix, range.start);
         let pieces = pieces(columns, range.len());
         let changes = threads::each(pieces, |(first, mut nodes)| {
             let [mut change, mut speed, mut all] = [Pack::of(0.0); 3];
             for at in (0..nodes[0][0].len()).step_by(LANES) {
                 let place = first_place + first + at;
-                let [mut spins, mut rates] = [[[Pack::of(0.0); 3]; M]; 2];
+                let mut spins = [[Pack::of(0.0); 3]; M];
                 for i in 0..M {
                     spins[i] = own(&nodes[i], at);
-                    let further = further.as_ref().map(|nodes| nodes[i].row(place));
-                    rates[i] = equation.rate(couplings, &around[i], place, spins[i], further);
                 }
+                let mut rates = equation.rates(&spins, further.as_ref(), place);
+                rates = couplings.fields(rates, around.each_ref(), place / LANES);
                 let turns = solved(matrix, &rates);
                 let start = now.row(place);
                 let [mut gaps, mut squares] = [Pack::of(0.0); 2];
@@ -276,8 +276,7 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
     /// Turns the spins by the rotation of the whole step.
     fn finish(&mut self) {
         let Self { nodes, now, couplings, further, .. } = self;
-        let equation = Equation::new(self.constant, self.anisotropy);
-        let (matrix, weights) = (&self.matrix, &self.weights);
+        let (equation, matrix, weights) = (&self.equation, &self.matrix, &self.weights);
         for column in nodes.each_mut().into_iter().flat_map(Spins::all_mut) {
             couplings.copies.refresh(column, couplings.copies.all());
         }
@@ -287,12 +286,12 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
         threads::each(pieces, |(first, [mut now])| {
             for at in (0..now[0].len()).step_by(LANES) {
                 let place = first + at;
-                let mut rates = [[Pack::of(0.0); 3]; M];
+                let mut spins = [[Pack::of(0.0); 3]; M];
                 for i in 0..M {
-                    let spin = nodes[i].row(place);
-                    let further = further.as_ref().map(|nodes| nodes[i].row(place));
-                    rates[i] = equation.rate(couplings, nodes[i], place, spin, further);
+                    spins[i] = nodes[i].row(place);
                 }
+                let mut rates = equation.rates(&spins, further.as_ref(), place);
+                rates = couplings.fields(rates, nodes, place / LANES);
                 let turns = solved(matrix, &rates);
                 let mut turn = one();
                 for j in 0..M {
@@ -307,34 +306,33 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
     }
 }
 
-/// ∂H/∂s of a site.
+/// The part of ∂H/∂s that does not depend on neighbours.
 struct Equation {
     constant: V3<f64>,
     anisotropy: Option<[[f64; 3]; 3]>,
 }
 
 impl Equation {
-    fn new(constant: [f64; 3], anisotropy: Option<[[f64; 3]; 3]>) -> Self {
-        Self { constant, anisotropy }
-    }
-
+    /// ∂H/∂s at the nodes, with what is further known of it.
     #[inline(always)]
-    fn rate(
+    fn rates<const M: usize>(
         &self,
-        couplings: &Couplings,
-        around: impl Vectors,
+        spins: &[V3<Pack>; M],
+        further: Option<&[[&[f64]; 3]; M]>,
         place: usize,
-        own: V3<Pack>,
-        further: Option<V3<Pack>>,
-    ) -> V3<Pack> {
-        let mut field = each(|axis| Pack::of(self.constant[axis]));
+    ) -> [V3<Pack>; M] {
+        let mut rates = [each(|axis| Pack::of(self.constant[axis])); M];
         if let Some(matrix) = &self.anisotropy {
-            field = multiplied(field, matrix, own);
+            for i in 0..M {
+                rates[i] = multiplied(rates[i], matrix, spins[i]);
+            }
         }
         if let Some(further) = further {
-            field = plus_by(field, 1.0, further);
+            for i in 0..M {
+                rates[i] = sum(rates[i], further[i].row(place));
+            }
         }
-        couplings.field(field, around, place / LANES)
+        rates
     }
 }
 

@@ -4,8 +4,8 @@ use alloc::vec::Vec;
 
 use super::error::LatticeError;
 
-/// The most sites: places have 32 bits, one of which marks lists.
-const MOST_SITES: usize = (1 << 31) - 64;
+/// The most sites, and the most edges: places, and copies of eight for each end of an edge, are numbered in 32 bits.
+pub(super) const MOST: usize = 1 << 27;
 
 /// Two sites that an edge joins.
 pub type Edge = [u32; 2];
@@ -135,8 +135,8 @@ impl Graph {
             return Err(LatticeError::EmptyAxis { axis });
         }
         let sites = shape.iter().try_fold(cell, |n, length| n.checked_mul(*length));
-        if sites.is_none_or(|sites| sites > MOST_SITES) {
-            return Err(LatticeError::TooLarge { most: MOST_SITES });
+        if sites.is_none_or(|sites| sites > MOST) {
+            return Err(LatticeError::TooLarge { most: MOST });
         }
         Ok(Self {
             shape: shape.to_vec(),

@@ -40,7 +40,7 @@ pub use rotations::RotationStep;
 
 use couplings::Energies;
 use error::{check_spins, finite};
-use graph::{Edge, Offset};
+use graph::{Edge, MOST, Offset};
 
 /// Spins on a graph with their energy.
 #[derive(Clone, Debug)]
@@ -73,7 +73,7 @@ impl Lattice {
     ///
     /// # Errors
     /// [`LatticeError::Offset`], [`LatticeError::NoSite`], [`LatticeError::SelfEdge`], [`LatticeError::DuplicateEdge`],
-    /// [`LatticeError::NoEdges`], [`LatticeError::Coefficient`].
+    /// [`LatticeError::NoEdges`], [`LatticeError::TooLarge`], [`LatticeError::Coefficient`].
     pub fn bond_between(
         self,
         offset: impl AsRef<[isize]>,
@@ -107,6 +107,10 @@ impl Lattice {
     fn with_bond(mut self, edges: Vec<Edge>, matrix: Matrix3<f64>) -> Result<Self, LatticeError> {
         if edges.is_empty() {
             return Err(LatticeError::NoEdges);
+        }
+        let others = self.energies.bonds.iter().map(|(edges, _)| edges.len());
+        if others.sum::<usize>() + edges.len() > MOST {
+            return Err(LatticeError::TooLarge { most: MOST });
         }
         finite(matrix.as_slice())?;
         // Matrices that are symmetric but for rounding are symmetric.

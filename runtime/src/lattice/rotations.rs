@@ -98,14 +98,15 @@ impl RotationStep {
             Family::Axes { shift } => axes(&couplings, energies, shift)?,
             Family::Bonds => {
                 let mut parts = pairs(sites, &couplings, energies);
-                parts.extend(single(energies, true));
+                parts.extend(single(energies, energies.field));
                 parts
             }
             Family::Sublattices => {
-                let mut sites = single(energies, false);
-                let held = if sites.is_empty() { energies.field } else { Vector3::zeros() };
+                // The field is held with that of the neighbours, unless an anisotropy has a flow of its own.
+                let mut sites = single(energies, Vector3::zeros());
+                let mut held = energies.field;
                 if !sites.is_empty() {
-                    sites = single(energies, true);
+                    (sites, held) = (single(energies, held), Vector3::zeros());
                 }
                 let colours = 0..couplings.places.colours.len();
                 let colours = colours.map(|colour| Part::Colour(colour, held.into()));
@@ -177,7 +178,7 @@ impl RotationStep {
                 let first = range.start / LANES;
                 each_pack(own, range.len(), |pack, spin| {
                     let field = each(|axis| Pack::of(field[axis]));
-                    let field = couplings.field(field, &around, first + pack);
+                    let [field] = couplings.fields([field], [&around], first + pack);
                     let x = scaled(Pack::of(time), field);
                     turn::<SHORT>(x).back(spin)
                 });
@@ -352,11 +353,10 @@ fn pairs(sites: usize, couplings: &Couplings, energies: &Energies) -> Vec<Part> 
     parts
 }
 
-/// The energies of single sites, with the field or without.
-fn single(energies: &Energies, with_field: bool) -> Vec<Part> {
+/// The energies of single sites in a field.
+fn single(energies: &Energies, mut field: Vector3<f64>) -> Vec<Part> {
     // The isotropic part is a multiple of |s|² and moves nothing.
     let (_, dyads) = dyads(&energies.anisotropy);
-    let mut field = if with_field { energies.field } else { Vector3::zeros() };
     let mut sites = Vec::new();
     for Dyad { factor, left, right } in dyads {
         let axis = Vector3::from(left);
