@@ -1,11 +1,12 @@
 //! The cost of a step, and the cost of other methods for the same error.
 //!
-//! `cargo run --release -p coadjoint-bench -- step|backends|ensembles|work`
+//! `cargo run --release -p coadjoint-bench -- step|backends|ensembles|work|lattice`
 
 // Indices name components as in the formulas; iterators over three arrays at once would hide them.
 #![allow(clippy::needless_range_loop)]
 
 mod command;
+mod lattice;
 mod systems;
 mod timing;
 mod work;
@@ -36,6 +37,8 @@ enum Table {
     /// The cheapest time for an error, beside DOP853, DMV10 and the exact solution; of Hamiltonians that are no polynomials,
     /// beside DOP853
     Work(Work),
+    /// Spins on a cubic lattice beside the classical Runge–Kutta method and the spherical midpoint rule: `--only` hot, cold, laws, sizes
+    Lattice(Common),
 }
 
 #[derive(Args)]
@@ -90,6 +93,7 @@ fn run(table: &Table) -> Result<(), Failure> {
             }
             command::ensembles(&command, &ways, given.common.quick, &given.common.only)
         }
+        Table::Lattice(common) => lattice::tables(common.quick, &common.only),
         Table::Work(Work { common, method }) => work::tables(common.quick, &common.only, method),
     }
 }

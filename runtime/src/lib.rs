@@ -60,6 +60,8 @@ mod group;
 pub mod groups;
 pub mod lanes;
 #[cfg(feature = "alloc")]
+pub mod lattice;
+#[cfg(feature = "alloc")]
 pub mod laws;
 mod linear;
 mod number;

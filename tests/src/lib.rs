@@ -39,6 +39,7 @@ pages! {
     Gyrostat: "../../docs/book/src/gyrostat.md";
     Forces: "../../docs/book/src/forces.md";
     Ensembles: "../../docs/book/src/ensembles.md";
+    Lattices: "../../docs/book/src/lattices.md";
     Learning: "../../docs/book/src/learning.md";
     Targets: "../../docs/book/src/targets.md";
 }

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use coadjoint_tests::sources;
 
 /// Folders and files of `src`, the lowest first: each may use those before it, and itself.
-const LAYERS: [&str; 17] = [
+const LAYERS: [&str; 18] = [
     "number",
     "error",
     "linear",
@@ -18,6 +18,7 @@ const LAYERS: [&str; 17] = [
     "step",
     "collocation",
     "lanes",
+    "lattice",
     "groups",
     "steps",
     "laws",

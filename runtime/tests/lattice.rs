@@ -1,0 +1,418 @@
+//! Lattices of spins: closed solutions, laws and orders of each family, other steps of the same equations, refusals.
+#![cfg(feature = "std")]
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use coadjoint::collocation::Collocation;
+use coadjoint::groups::Power;
+use coadjoint::lattice::{Boundary, Family, Graph, Lattice, LatticeError, Order};
+use coadjoint::{LieGroup, Phase, SO3};
+use nalgebra::{Matrix3, SVector, Vector3};
+
+type State = Vec<[f64; 3]>;
+
+const AXES: Family = Family::Axes { shift: 0.0 };
+const FAMILIES: [Family; 3] = [AXES, Family::Bonds, Family::Sublattices];
+
+/// A disordered state whose spins have lengths from 0.7 to 1.3.
+fn disordered(sites: usize) -> State {
+    let spin = |i: usize| {
+        let x = i as f64 + 1.0;
+        let v = Vector3::new((12.9 * x).sin(), (78.2 * x).cos(), (37.7 * x + 0.4).sin());
+        (v.normalize() * (1.0 + 0.3 * (5.1 * x).sin())).into()
+    };
+    (0..sites).map(spin).collect()
+}
+
+fn distance(a: &State, b: &State) -> f64 {
+    let gaps = a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| (a - b).abs());
+    gaps.fold(0.0, f64::max)
+}
+
+fn rotated(
+    lattice: &Lattice,
+    family: Family,
+    order: Order,
+    h: f64,
+    steps: u64,
+    start: &State,
+) -> State {
+    let mut spins = start.clone();
+    lattice.rotations(family, order, h).unwrap().advance_by(&mut spins, steps).unwrap();
+    spins
+}
+
+fn collocated<const M: usize>(lattice: &Lattice, h: f64, steps: u64, start: &State) -> State {
+    let mut spins = start.clone();
+    lattice.gauss::<M>(h).unwrap().advance_by(&mut spins, steps).unwrap();
+    spins
+}
+
+/// Exchange along x, y and z of different strengths, and with all entries.
+fn symmetric() -> Matrix3<f64> {
+    Matrix3::new(-1.0, 0.3, -0.2, 0.3, -0.6, 0.25, -0.2, 0.25, -0.4)
+}
+
+/// Dzyaloshinskii and Moriya's energy d·(a×b).
+fn dzyaloshinskii(d: Vector3<f64>) -> Matrix3<f64> {
+    d.cross_matrix().transpose()
+}
+
+/// A ring with this coupling, a field and an anisotropy along an axis.
+fn ring(sites: usize, coupling: Matrix3<f64>) -> Lattice {
+    let axis = Vector3::new(0.3, -0.4, 0.9).normalize();
+    let field = Vector3::new(0.2, 0.1, -0.5);
+    let lattice = Lattice::new(Graph::chain(sites).unwrap()).bond([1], coupling).unwrap();
+    lattice.site(field, 0.3 * axis * axis.transpose()).unwrap()
+}
+
+#[test]
+fn two_spins_turn_about_their_sum() {
+    let lattice = Lattice::new(Graph::from_edges(2, &[[0, 1]]).unwrap());
+    let lattice = lattice.nearest(Matrix3::identity() * 0.8).unwrap();
+    let start = disordered(2);
+    let [s, t] = [0, 1].map(|i| Vector3::from(start[i]));
+    // ds/dt = s × 0.8 (s + t): the spins turn back about their sum.
+    let turn = nalgebra::Rotation3::from_scaled_axis(-0.8 * (s + t) * 2.0);
+    let exact: State = vec![(turn * s).into(), (turn * t).into()];
+    // One pair is a flow that bonds have as it is.
+    assert!(
+        distance(&rotated(&lattice, Family::Bonds, Order::Two, 2.0, 1, &start), &exact) < 1e-15
+    );
+    for family in FAMILIES {
+        let gap = distance(&rotated(&lattice, family, Order::Eight, 0.05, 40, &start), &exact);
+        assert!(gap < 3e-13, "{family}: {gap:e}");
+    }
+    assert!(distance(&collocated::<5>(&lattice, 0.1, 20, &start), &exact) < 3e-13);
+}
+
+/// A spiral s = (sin θ cos φ, sin θ sin φ, cos θ), φ = kx + ωt, on a ring with H = −J Σ a·b + Σ (D z² − B z) moves as a spin
+/// wave with ω = 2J cos θ (1 − cos k) + B − 2D cos θ, at any amplitude.
+#[test]
+fn spirals_move_as_spin_waves() {
+    let (sites, j, d, b, height) = (20, 1.3, 0.4, 0.7, 0.8_f64);
+    let lattice = Lattice::new(Graph::chain(sites).unwrap());
+    let lattice = lattice.nearest(Matrix3::identity() * -j).unwrap();
+    let square = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, d));
+    let lattice = lattice.site(Vector3::new(0.0, 0.0, -b), square).unwrap();
+    let k = 3.0 * std::f64::consts::TAU / sites as f64;
+    let frequency = 2.0 * j * height * (1.0 - k.cos()) + b - 2.0 * d * height;
+    let radius = (1.0 - height * height).sqrt();
+    let at = |time: f64| -> State {
+        let phase = |i: usize| k * i as f64 + frequency * time;
+        (0..sites).map(|i| [radius * phase(i).cos(), radius * phase(i).sin(), height]).collect()
+    };
+    for family in FAMILIES {
+        let gap = distance(&rotated(&lattice, family, Order::Eight, 0.1, 50, &at(0.0)), &at(5.0));
+        assert!(gap < 2e-9, "{family}: {gap:e}");
+    }
+    let gap = distance(&collocated::<4>(&lattice, 0.1, 50, &at(0.0)), &at(5.0));
+    assert!(gap < 2e-9, "{gap:e}");
+}
+
+/// The families that admit a coupling, and Gauss's method, agree with collocation in the chart of SO(3)⁵ on a ring of five.
+#[test]
+fn families_agree_with_collocation_on_the_product_of_groups() {
+    let start = disordered(5);
+    let isotropic = Matrix3::identity() * -1.0;
+    let diagonal = Matrix3::from_diagonal(&Vector3::new(-1.0, 0.5, 0.2));
+    let twisted = isotropic + dzyaloshinskii(Vector3::new(0.2, 0.5, -0.3));
+    let any = Matrix3::new(0.1, 0.9, -0.3, 0.2, -0.4, 0.6, 0.7, -0.2, 0.5);
+    for (coupling, admit) in [
+        (isotropic, &FAMILIES[..]),
+        (diagonal, &FAMILIES),
+        (symmetric(), &FAMILIES),
+        (twisted, &FAMILIES[1..]),
+        (any, &FAMILIES[1..]),
+    ] {
+        let lattice = ring(5, coupling);
+        type Spins = Power<SO3, 5, 15>;
+        let list = |mu: &SVector<f64, 15>| -> State {
+            mu.as_slice().chunks(3).map(|s| [s[0], s[1], s[2]]).collect()
+        };
+        let flat = |s: &State| SVector::<f64, 15>::from_iterator(s.iter().flatten().copied());
+        let energy = (
+            |_: f64, mu: &SVector<f64, 15>| lattice.energy(&list(mu)).unwrap(),
+            |_: f64, mu: &SVector<f64, 15>| flat(&lattice.gradient(&list(mu)).unwrap()),
+        );
+        let group = Spins::new();
+        let mut step = Collocation::<_, _, 6>::new(group, energy, 0.05).unwrap();
+        let mut state = Phase::<Spins>::new(Spins::new().identity(), flat(&start));
+        step.advance_by(&mut state, 0.0, 20).unwrap();
+        let exact = list(&state.momentum);
+        for family in admit {
+            let gap = distance(&rotated(&lattice, *family, Order::Eight, 0.02, 50, &start), &exact);
+            assert!(gap < 1e-10, "{coupling} {family}: {gap:e}");
+        }
+        let gap = distance(&collocated::<5>(&lattice, 0.1, 10, &start), &exact);
+        assert!(gap < 1e-10, "{coupling}: {gap:e}");
+        // The energy by a closure.
+        let gradient = |s: &[[f64; 3]], out: &mut [[f64; 3]]| {
+            out.copy_from_slice(&lattice.gradient(s).unwrap());
+        };
+        let mut spins = start.clone();
+        let free = Lattice::new(Graph::chain(5).unwrap());
+        free.gauss_of::<5, _>(0.1, gradient).unwrap().advance_by(&mut spins, 10).unwrap();
+        assert!(distance(&spins, &exact) < 1e-10, "{coupling}, a closure");
+    }
+}
+
+/// log₂ of the ratio of the errors with steps h and h/2.
+fn order(exact: &State, coarse: &State, fine: &State) -> f64 {
+    (distance(coarse, exact) / distance(fine, exact)).log2()
+}
+
+#[test]
+fn steps_have_their_orders() {
+    let lattice = ring(6, symmetric());
+    let start = disordered(6);
+    let exact = collocated::<6>(&lattice, 0.05, 40, &start);
+    for family in FAMILIES {
+        for (kind, steps) in
+            [(Order::Two, 40), (Order::Four, 20), (Order::Six, 10), (Order::Eight, 8)]
+        {
+            let after = |n: u64| rotated(&lattice, family, kind, 2.0 / n as f64, n, &start);
+            let found = order(&exact, &after(steps), &after(2 * steps));
+            assert!((found - f64::from(kind.number())).abs() < 0.6, "{family} {kind:?}: {found}");
+        }
+    }
+    let found = [
+        order(
+            &exact,
+            &collocated::<1>(&lattice, 0.05, 40, &start),
+            &collocated::<1>(&lattice, 0.025, 80, &start),
+        ),
+        order(
+            &exact,
+            &collocated::<2>(&lattice, 0.1, 20, &start),
+            &collocated::<2>(&lattice, 0.05, 40, &start),
+        ),
+        order(
+            &exact,
+            &collocated::<3>(&lattice, 0.2, 10, &start),
+            &collocated::<3>(&lattice, 0.1, 20, &start),
+        ),
+    ];
+    for (found, expected) in found.into_iter().zip([2.0, 4.0, 6.0]) {
+        assert!((found - expected).abs() < 0.4, "{found} for {expected}");
+    }
+}
+
+/// The largest entry of DΦ B DΦᵀ − B(Φ), by differences of order 6, B the Poisson matrix: v ↦ v × s a site.
+fn poisson_defect(map: impl Fn(&State) -> State, start: &State) -> f64 {
+    let n = 3 * start.len();
+    let spacing = 5e-3;
+    let column = |j: usize| -> Vec<f64> {
+        let at = |k: f64| {
+            let mut state = start.clone();
+            state[j / 3][j % 3] += k * spacing;
+            map(&state)
+        };
+        let mut sum = vec![0.0; n];
+        for (k, weight) in [(1.0, 45.0), (2.0, -9.0), (3.0, 1.0)] {
+            let (ahead, behind) = (at(k), at(-k));
+            let pairs = ahead.iter().flatten().zip(behind.iter().flatten());
+            for (sum, (a, b)) in sum.iter_mut().zip(pairs) {
+                *sum += weight * (a - b) / (60.0 * spacing);
+            }
+        }
+        sum
+    };
+    let columns: Vec<_> = (0..n).map(column).collect();
+    let entry = |s: &State, i: usize, j: usize| match i / 3 == j / 3 {
+        true => Vector3::from(s[i / 3]).cross_matrix()[(i % 3, j % 3)],
+        false => 0.0,
+    };
+    let end = map(start);
+    let mut worst = 0.0_f64;
+    for i in 0..n {
+        for j in 0..n {
+            let mut sum = -entry(&end, i, j);
+            for site in 0..start.len() {
+                for a in 3 * site..3 * site + 3 {
+                    for b in 3 * site..3 * site + 3 {
+                        sum += columns[a][i] * entry(start, a, b) * columns[b][j];
+                    }
+                }
+            }
+            worst = worst.max(sum.abs());
+        }
+    }
+    worst
+}
+
+#[test]
+fn all_but_sublattices_are_poisson_maps() {
+    let start = disordered(4);
+    let twisted = symmetric() + dzyaloshinskii(Vector3::new(0.2, 0.5, -0.3));
+    let defect = |family, coupling| {
+        let lattice = ring(4, coupling);
+        poisson_defect(|s| rotated(&lattice, family, Order::Two, 0.2, 1, s), &start)
+    };
+    let found = defect(AXES, symmetric());
+    assert!(found < 1e-12, "axes: {found:e}");
+    let found = defect(Family::Bonds, twisted);
+    assert!(found < 1e-12, "bonds: {found:e}");
+    let found = defect(Family::Sublattices, symmetric());
+    assert!(found > 1e-5, "sublattices: {found:e}");
+    let lattice = ring(4, twisted);
+    let found = poisson_defect(|s| collocated::<2>(&lattice, 0.2, 1, s), &start);
+    assert!(found < 1e-12, "gauss: {found:e}");
+}
+
+#[test]
+fn energy_total_spin_and_lengths_are_kept() {
+    let coupling = Matrix3::identity() * -1.0;
+    let lattice = Lattice::new(Graph::cubic([4, 4, 6]).unwrap()).nearest(coupling).unwrap();
+    let held = lattice.clone().site(Vector3::new(0.0, 0.3, -0.2), Matrix3::zeros()).unwrap();
+    let start = disordered(96);
+    let changes = |lattice: &Lattice, end: &State| {
+        let energy = lattice.energy(end).unwrap() - lattice.energy(&start).unwrap();
+        let [now, before] = [end, &start].map(|s| Vector3::from(lattice.total_spin(s).unwrap()));
+        let lengths = end
+            .iter()
+            .zip(&start)
+            .map(|(a, b)| (Vector3::from(*a).norm() - Vector3::from(*b).norm()).abs());
+        (energy.abs(), (now - before).norm(), lengths.fold(0.0, f64::max))
+    };
+    for family in FAMILIES {
+        let end = rotated(&lattice, family, Order::Four, 0.1, 200, &start);
+        let (energy, spin, lengths) = changes(&lattice, &end);
+        assert!(lengths < 1e-13, "{family}: {lengths:e}");
+        assert!(energy < 1e-4, "{family}: {energy:e}");
+        assert_eq!(family == Family::Bonds, spin < 1e-13, "{family}: {spin:e}");
+    }
+    let end = rotated(&held, Family::Sublattices, Order::Four, 0.1, 200, &start);
+    assert!(changes(&held, &end).0 < 1e-12, "{:e}", changes(&held, &end).0);
+    let (energy, spin, lengths) = changes(&lattice, &collocated::<2>(&lattice, 0.1, 200, &start));
+    assert!(energy < 1e-3 && spin < 1e-12 && lengths < 1e-13, "{energy:e} {spin:e} {lengths:e}");
+}
+
+/// The energy of spins along z, by bond and site, is the number of edges.
+#[test]
+fn graphs_have_their_edges() {
+    let edges = |graph: Graph| {
+        let up = vec![[0.0, 0.0, 1.0]; graph.sites()];
+        Lattice::new(graph).nearest(Matrix3::identity()).unwrap().energy(&up).unwrap()
+    };
+    use Boundary::{Open, Periodic};
+    assert_eq!(edges(Graph::chain(7).unwrap()), 7.0);
+    assert_eq!(edges(Graph::chain(2).unwrap().bounded(&[Open]).unwrap()), 1.0);
+    assert_eq!(edges(Graph::square([3, 5]).unwrap()), 30.0);
+    assert_eq!(edges(Graph::cubic([3, 4, 5]).unwrap()), 180.0);
+    let slab = Graph::cubic([3, 4, 5]).unwrap().bounded(&[Open, Periodic, Open]).unwrap();
+    assert_eq!(edges(slab), (2 * 4 * 5 + 3 * 4 * 5 + 3 * 4 * 4) as f64);
+    assert_eq!(edges(Graph::triangular([4, 5]).unwrap()), 60.0);
+    assert_eq!(edges(Graph::honeycomb([4, 5]).unwrap()), 60.0);
+    assert_eq!(edges(Graph::kagome([4, 5]).unwrap()), 120.0);
+}
+
+/// Graphs whose colours and rows are irregular: the families agree, and parts that no edge joins move as they do alone.
+#[test]
+fn irregular_graphs_make_the_same_steps() {
+    let star: Vec<[usize; 2]> = (1..70).map(|i| [0, i]).collect();
+    let mut two: Vec<[usize; 2]> = (0..9).map(|i| [i, (i + 1) % 9]).collect();
+    two.extend((10..13).map(|i| [i, i + 1]));
+    let open = Graph::square([5, 9]).unwrap().bounded(&[Boundary::Open; 2]).unwrap();
+    for graph in [
+        Graph::from_edges(70, &star).unwrap(),
+        Graph::from_edges(14, &two).unwrap(),
+        Graph::kagome([3, 5]).unwrap(),
+        Graph::cubic([3, 5, 7]).unwrap(),
+        open,
+    ] {
+        let start = disordered(graph.sites());
+        let lattice = Lattice::new(graph).nearest(symmetric() * 0.1).unwrap();
+        let square = Matrix3::new(0.1, 0.2, 0.0, 0.2, 0.0, 0.1, 0.0, 0.1, -0.1);
+        let lattice = lattice.site(Vector3::new(0.1, 0.2, 0.3), square).unwrap();
+        let exact = collocated::<5>(&lattice, 0.1, 5, &start);
+        for family in FAMILIES {
+            let gap = distance(&rotated(&lattice, family, Order::Six, 0.025, 20, &start), &exact);
+            assert!(gap < 1e-9, "{family}: {gap:e}");
+        }
+    }
+    let joint = Lattice::new(Graph::from_edges(14, &two).unwrap()).nearest(symmetric()).unwrap();
+    let alone = Lattice::new(Graph::chain(9).unwrap()).nearest(symmetric()).unwrap();
+    let (all, ring) = (disordered(14), disordered(9));
+    let end = rotated(&joint, AXES, Order::Four, 0.1, 10, &all);
+    assert!(
+        distance(&end[..9].to_vec(), &rotated(&alone, AXES, Order::Four, 0.1, 10, &ring)) < 1e-14
+    );
+    // Site 9 has no edge and no energy.
+    assert!(distance(&end[9..10].to_vec(), &all[9..10].to_vec()) < 1e-14);
+}
+
+#[cfg(feature = "ensemble")]
+#[test]
+fn threads_make_the_same_bits() {
+    let coupling = symmetric() * 0.2;
+    let lattice = Lattice::new(Graph::cubic([13, 15, 17]).unwrap()).nearest(coupling).unwrap();
+    let start = disordered(13 * 15 * 17);
+    let of = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let family = |family| rotated(&lattice, family, Order::Two, 0.1, 2, &start);
+        pool.install(|| (FAMILIES.map(family), collocated::<2>(&lattice, 0.1, 2, &start)))
+    };
+    let one = of(1);
+    assert!(one == of(2) && one == of(3));
+}
+
+/// A rotation far beyond the reach of the series, and back.
+#[test]
+fn long_rotations_are_exact() {
+    let field = Vector3::new(30.0, -40.0, 120.0);
+    let lattice = Lattice::new(Graph::chain(3).unwrap()).site(field, Matrix3::zeros()).unwrap();
+    let start = disordered(3);
+    let turn = nalgebra::Rotation3::from_scaled_axis(-field * 0.5);
+    let exact: State = start.iter().map(|s| (turn * Vector3::from(*s)).into()).collect();
+    for family in [Family::Bonds, Family::Sublattices] {
+        let gap = distance(&rotated(&lattice, family, Order::Two, 0.5, 1, &start), &exact);
+        assert!(gap < 1e-13, "{family}: {gap:e}");
+    }
+}
+
+#[test]
+fn mistakes_are_refused_in_words() {
+    let one = Matrix3::identity();
+    let chain = |n| Lattice::new(Graph::chain(n).unwrap());
+    let message = |error: LatticeError| error.to_string();
+    for (error, words) in [
+        (Graph::cubic([4, 0, 4]).unwrap_err(), "axis 1 of the lattice has length 0"),
+        (Graph::cubic([1 << 20; 3]).unwrap_err(), "too many sites or edges"),
+        (Graph::from_edges(3, &[[0, 3]]).unwrap_err(), "numbered from 0 to 2"),
+        (Graph::from_edges(3, &[[1, 1]]).unwrap_err(), "joins site 1 with itself"),
+        (Graph::from_edges(3, &[[0, 1], [1, 0]]).unwrap_err(), "joins sites 0 and 1 twice"),
+        (chain(4).bond([1, 0], one).unwrap_err(), "2 numbers, and the lattice 1 axes"),
+        (chain(4).bond([4], one).unwrap_err(), "joins site 0 with itself"),
+        (chain(2).bond([1], one).unwrap_err(), "joins sites 0 and 1 twice"),
+        (chain(4).bond_between([1], [0, 1], one).unwrap_err(), "no site 1"),
+        (chain(4).bond([1], one * f64::NAN).unwrap_err(), "not finite"),
+        (
+            Graph::from_edges(3, &[]).map(Lattice::new).unwrap().nearest(one).unwrap_err(),
+            "no edges",
+        ),
+        (
+            ring(4, dzyaloshinskii(Vector3::x())).rotations(AXES, Order::Four, 0.1).unwrap_err(),
+            "axes admit couplings by symmetric matrices only: take bonds",
+        ),
+        (ring(4, one).rotations(AXES, Order::Four, 0.0).unwrap_err(), "step size 0 is not usable"),
+        (ring(4, one).gauss::<2>(f64::NAN).unwrap_err(), "step size NaN is not usable"),
+        (ring(4, one).energy(&disordered(3)).unwrap_err(), "3 spins, and the lattice 4 sites"),
+    ] {
+        assert!(message(error).contains(words), "{error}");
+    }
+    let mut spins = disordered(4);
+    spins[2][1] = f64::INFINITY;
+    let before = spins.clone();
+    let mut step = ring(4, one).rotations(Family::Bonds, Order::Four, 0.1).unwrap();
+    assert_eq!(step.advance_by(&mut spins, 1), Err(LatticeError::NonFinite { site: 2 }));
+    assert_eq!(spins, before);
+    // A step too long for its nodes leaves the state before it.
+    let mut spins = disordered(4);
+    let error = ring(4, one * 50.0).gauss::<2>(1.0).unwrap().advance_by(&mut spins, 3).unwrap_err();
+    assert!(matches!(error, LatticeError::TooLong { steps: 0, .. }), "{error}");
+    assert_eq!(spins, disordered(4));
+    let mut wild = ring(4, one).gauss_of::<2, _>(0.1, |_, out| out.fill([f64::NAN; 3])).unwrap();
+    let error = wild.advance_by(&mut spins, 3).unwrap_err();
+    assert!(error.to_string().contains("the residual is not finite"), "{error}");
+    assert_eq!(spins, disordered(4));
+}
