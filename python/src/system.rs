@@ -346,7 +346,7 @@ impl Core {
             let setup = Setup {
                 recording: record,
                 estimate: estimate && system.run.estimate != Some(false),
-                tolerance: choice.as_ref().map(|choice| choice.tolerance),
+                choice: choice.clone(),
                 every,
                 at,
                 events,

@@ -70,6 +70,17 @@ def test_records_are_chosen(body: ca.System) -> None:
     assert np.abs(body.simulate(START, time=0.55, step=0.11).final_momentum - at.momentum[0]).max() < 1e-7
 
 
+def test_a_tolerance_is_met_from_each_start(body: ca.System) -> None:
+    slow, fast = [0.2, 0.05, 0.1], [4, 1, 2]
+    runs = [body.simulate(start, time=50, tolerance=1e-9) for start in (slow, fast, slow)]
+    assert runs[0].step > 4 * runs[1].step and runs[2].step == runs[0].step
+    for start, run in zip((slow, fast), runs, strict=False):
+        frame = "comoving" if "comoving" in run.label else "fixed"
+        same = ca.System("SO3", "x^2/3 + y^2/4 + z^2/5", coordinates="x y z", truncation=run.truncation, frame=frame)
+        again = same.simulate(start, time=50, step=run.step)
+        assert run.estimated_error == pytest.approx(again.estimated_error, rel=1e-2) and run.estimated_error < 1e-9
+
+
 def test_a_tolerance_picks_the_step(body: ca.System) -> None:
     run = body.simulate(START, time=50, tolerance=1e-10)
     assert np.abs(run.final_momentum - reference(50)).max() < 1e-9

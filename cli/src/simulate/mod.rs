@@ -100,8 +100,8 @@ fn runs(
         let asked = options.accuracy.of_run(fixed, options.t0, options.time);
         let met = load::meet_tolerance(path, &mut system, &asked)?;
         drop(phase);
-        let tolerance = met.as_ref().map(|(choice, _)| choice.tolerance);
-        let setup = Setup { tolerance, ..settings::setup(options, path, &asked, &system.run)? };
+        let choice = met.as_ref().map(|(choice, _)| choice.clone());
+        let setup = Setup { choice, ..settings::setup(options, path, &asked, &system.run)? };
         let settings = Settings::new(options, (path, &hash), out, setup)?;
         let setup = &settings.setup;
         let announcement = setup.schedule.announcement();

@@ -41,7 +41,12 @@ pub fn run(system: &Derived, setup: &Setup, sink: &mut dyn Sink) -> Result<Outco
     let (mut outcome, end, mut kept) = made?;
     let parameters = system.facts().defaults();
     let maker = Maker { system, parameters: &parameters, compiled: compiled.as_ref() };
-    let found = if setup.estimate {
+    let known = setup.known_error().filter(|_| outcome.time == schedule.end);
+    let found = if !setup.estimate {
+        Err(Unknown::OFF)
+    } else if let Some(known) = known {
+        Ok(known)
+    } else {
         let sink = RefCell::new(&mut *sink);
         // An event ends a run between two steps.
         let steps = match outcome.time == schedule.end {
@@ -59,15 +64,14 @@ pub fn run(system: &Derived, setup: &Setup, sink: &mut dyn Sink) -> Result<Outco
             stop: &|| sink.borrow_mut().stop(),
         };
         made.error()
-    } else {
-        Err(Unknown::OFF)
     };
     let shorter = |step| maker.steps(Grid { step, ..grid });
     if let Some(warning) = slow(&outcome, grid.step, &start, shorter) {
         sink.warn(&warning.text());
         outcome.warnings.push(warning);
     }
-    outcome.estimated(found, setup.tolerance, sink);
+    let tolerance = setup.choice.as_ref().map(|choice| choice.tolerance);
+    outcome.estimated(found, tolerance, sink);
     outcome.backend = code.map(|code| code.used());
     Ok(outcome)
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 use coadjoint::groups::ElementError;
 use coadjoint_codegen::diagnostic::read_text;
 use coadjoint_codegen::system::Run;
+use coadjoint_codegen::tolerance::Choice;
 use sha2::{Digest, Sha256};
 
 use super::event::Event;
@@ -242,8 +243,8 @@ pub struct Setup {
     pub backend: Backend,
     /// True if the error at the end is estimated.
     pub estimate: bool,
-    /// The error wanted at the end, where one is.
-    pub tolerance: Option<f64>,
+    /// The choice for the error wanted at the end, where there is one.
+    pub choice: Option<Choice>,
     /// μ at the start.
     pub momentum: Vec<f64>,
     /// g at the start, row by row; the identity if it is not given.
@@ -255,7 +256,7 @@ impl Setup {
     pub fn new(schedule: Schedule, momentum: Vec<f64>) -> Self {
         let (recording, every, at) = (false, Some(1), None);
         let (events, looks, backend) = (Vec::new(), 1, Backend::Auto);
-        let (estimate, tolerance, group_element) = (true, None, None);
+        let (estimate, choice, group_element) = (true, None, None);
         Self {
             schedule,
             recording,
@@ -265,10 +266,19 @@ impl Setup {
             looks,
             backend,
             estimate,
-            tolerance,
+            choice,
             momentum,
             group_element,
         }
+    }
+}
+
+impl Setup {
+    /// The error at the end, where the choice of the step has found it by the same run: from the identity along the whole time.
+    pub(crate) fn known_error(&self) -> Option<f64> {
+        let choice = self.choice.as_ref()?;
+        let made = choice.along_run && choice.step == self.schedule.step;
+        (made && self.group_element.is_none()).then_some(choice.error)
     }
 }
 

@@ -1,9 +1,10 @@
 //! The defining equations, checked as identities of polynomials.
 
 use crate::hamilton_jacobi::chart::{Composition, Inverse, Series, Side, Work};
-use crate::hamilton_jacobi::{TermLimit, derive, derive_orders, predictor};
+use crate::hamilton_jacobi::{TermLimit, derive, derive_orders, estimate, predictor};
 use crate::lie::{Chart, LieAlgebra, catalogue};
 use crate::number::{integer, ratio};
+use num_traits::ToPrimitive;
 use crate::poly::{Arithmetic, Polynomial};
 
 /// A Hamiltonian of degree three with every kind of term, in `extra` further symbols.
@@ -131,5 +132,33 @@ fn even_orders_vanish() {
             assert!(all.order(k).is_zero(), "{} {chart} S_{k}", algebra.name());
         }
         assert_eq!(all, derive(&algebra, chart, &h, 6, limit).unwrap());
+    }
+}
+
+/// With coefficients of many digits and of many sizes, an estimate has the monomials of the exact series, each coefficient to ten
+/// digits of its own.
+#[test]
+fn estimates_have_the_terms_of_the_exact_series() {
+    let se3 = catalogue::lookup("SE3").unwrap();
+    let digits = |i: i64| ratio(1_234_567_890_123_457 + 987_654_321 * i, 10_i64.pow(15));
+    let mut h = Polynomial::zero(6);
+    for i in 0..6 {
+        let a = Polynomial::variable(6, i);
+        let scale = ratio(1, 10_i64.pow(2 * i as u32));
+        h = &h + &(&a * &a).scale(&(&digits(i as i64) * &scale));
+        h = &h + &(&a * &Polynomial::variable(6, (i + 1) % 6)).scale(&digits(7 + i as i64));
+    }
+    let limit = TermLimit::default();
+    let exact = derive(&se3, Chart::Exponential, &h, 5, limit).unwrap();
+    let found = estimate(&se3, Chart::Exponential, &h, 5, limit).unwrap();
+    assert_ne!(exact, found);
+    for k in [1, 3, 5] {
+        let (exact, found) = (exact.order(k), found.order(k));
+        let monomials = |own: &Polynomial| own.factors().map(|(key, _)| key).collect::<Vec<_>>();
+        assert_eq!(monomials(exact), monomials(found), "S{k}");
+        for ((key, a), (_, b)) in exact.factors().zip(found.factors()) {
+            let [a, b] = [a, b].map(|own| own.to_f64().unwrap());
+            assert!((a - b).abs() <= 1e-10 * a.abs(), "S{k}, {key:?}: {a:e}, {b:e}");
+        }
     }
 }
