@@ -4,6 +4,7 @@ use alloc::collections::BTreeMap;
 use alloc::vec;
 use alloc::vec::Vec;
 use core::cell::RefCell;
+use core::mem;
 
 /// The index of nodes.
 #[cfg(feature = "std")]
@@ -20,6 +21,8 @@ pub struct Graph {
     known: RefCell<Known>,
     /// The nodes that are a function's value, of which node.
     calls: RefCell<BTreeMap<Id, (Function, Id)>>,
+    /// The programs that were called side by side.
+    rows: RefCell<Vec<Rows>>,
 }
 
 impl Graph {
@@ -256,6 +259,39 @@ impl Graph {
         program.outputs().iter().map(|output| ids[output.index()]).collect()
     }
 
+    /// The nodes of another program on several lists of inputs, and the ids of the results of each. Where no operation is left out
+    /// for what is known of its operands, texts may have the program once, on [`Rows`] of numbers.
+    pub fn call_each(&self, program: &Program, inputs: &[Vec<Id>]) -> Vec<Vec<Id>> {
+        let outputs: Vec<_> = inputs.iter().map(|inputs| self.call(program, inputs)).collect();
+        if inputs.len() > 1 && inputs.iter().all(|inputs| self.is_whole(program, inputs)) {
+            let outputs = outputs.iter().map(|row| row.iter().copied().map(Some).collect());
+            let rows = Rows {
+                program: program.clone(),
+                inputs: inputs.to_vec(),
+                outputs: outputs.collect(),
+            };
+            self.rows.borrow_mut().push(rows);
+        }
+        outputs
+    }
+
+    /// True if a program called with these inputs has a node for each of its operations.
+    fn is_whole(&self, program: &Program, inputs: &[Id]) -> bool {
+        let mut ids: Vec<Id> = Vec::with_capacity(program.nodes().len());
+        program.nodes().iter().all(|node| {
+            let node = node.map(|operand| ids[operand.index()]);
+            let id = self.copied(node, inputs, 0);
+            ids.push(id);
+            let [mut own, mut asked] = [self.node(id), node].map(|node| {
+                let operands: Vec<Id> = node.operands().collect();
+                (mem::discriminant(&node), operands)
+            });
+            own.1.sort_unstable();
+            asked.1.sort_unstable();
+            !node.is_operation() || own == asked
+        })
+    }
+
     /// A node of another program whose operands are nodes of this graph.
     fn copied(&self, node: Node, inputs: &[Id], first_slot: usize) -> Id {
         match node {
@@ -288,6 +324,8 @@ impl Graph {
             self.known.borrow_mut().remove(&node);
         }
         self.calls.borrow_mut().retain(|result, _| result.index() < mark);
+        let made = |rows: &Rows| rows.ids().all(|id| id.index() < mark);
+        self.rows.borrow_mut().retain(made);
     }
 
     /// The operations of the nodes made after `mark`.
@@ -326,16 +364,35 @@ impl Graph {
         let outputs = outputs.iter().map(|output| renamed[output.index()]).collect();
         let calls =
             calls.iter().filter(|(result, (_, a))| needed[result.index()] && needed[a.index()]);
-        let renamed = calls.map(|(result, &(function, a))| {
+        let calls = calls.map(|(result, &(function, a))| {
             (renamed[result.index()], function, renamed[a.index()])
         });
-        let calls = renamed.collect();
+        let calls = calls.collect();
         let slot = |node: &Node| match node {
             Node::Slot(i) => *i as usize + 1,
             _ => 0,
         };
         let slots = nodes.iter().map(slot).max().unwrap_or(0);
-        Program { inputs, slots, nodes, outputs, calls }
+        // Those whose inputs are all needed; of their results some may not be.
+        let rows = self.rows.borrow();
+        let kept =
+            rows.iter().filter(|rows| rows.inputs.iter().flatten().all(|id| needed[id.index()]));
+        let rename = |id: Id| needed[id.index()].then(|| renamed[id.index()]);
+        let rows = kept.map(|rows| Rows {
+            program: rows.program.clone(),
+            inputs: rows
+                .inputs
+                .iter()
+                .map(|row| row.iter().map(|id| renamed[id.index()]).collect())
+                .collect(),
+            outputs: rows
+                .outputs
+                .iter()
+                .map(|row| row.iter().map(|id| id.and_then(rename)).collect())
+                .collect(),
+        });
+        let rows = rows.collect();
+        Program { inputs, slots, nodes, outputs, calls, rows }
     }
 }
 
@@ -491,6 +548,25 @@ pub struct Program {
     outputs: Vec<Id>,
     /// The nodes that are a function's value, and at which node.
     calls: Vec<(Id, Function, Id)>,
+    rows: Vec<Rows>,
+}
+
+/// Nodes of a program that are another program's on several lists of inputs: a row for each.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Rows {
+    /// The other program, whose slots are those of the whole.
+    pub program: Program,
+    /// The inputs of each row.
+    pub inputs: Vec<Vec<Id>>,
+    /// The results of each row, as far as they are nodes.
+    pub outputs: Vec<Vec<Option<Id>>>,
+}
+
+impl Rows {
+    fn ids(&self) -> impl Iterator<Item = Id> {
+        let outputs = self.outputs.iter().flatten().copied().flatten();
+        self.inputs.iter().flatten().copied().chain(outputs)
+    }
 }
 
 impl Program {
@@ -517,6 +593,11 @@ impl Program {
     /// The nodes that are a function's value, as (value, function, argument), in order.
     pub fn calls(&self) -> &[(Id, Function, Id)] {
         &self.calls
+    }
+
+    /// The programs that parts of it are, on numbers side by side, in order.
+    pub fn rows(&self) -> &[Rows] {
+        &self.rows
     }
 
     /// This formula with the values of functions and roots left open: each is an input of its own, after those of this

@@ -50,7 +50,7 @@ pub mod states;
 #[cfg(feature = "programs")]
 pub use derivative::Argument;
 #[cfg(feature = "programs")]
-pub use graph::{Cost, Function, Graph, Id, Node, Program};
+pub use graph::{Cost, Function, Graph, Id, Node, Program, Rows};
 #[cfg(feature = "programs")]
 pub use interpret::Attempt;
 #[cfg(feature = "programs")]

@@ -128,10 +128,10 @@ mod table;
 /// Anything else is an error that says what to write instead. Decimal literals are exact: `0.1` is 1/10.
 ///
 /// A polynomial in the momentum has a series. With functions (`sqrt`, `exp`, `ln`, `sin`, `cos`, `tan`, `atan`,
-/// `tanh`, real powers) or quotients of the momentum it has none, and steps are made by [`collocation`], in `f64`
-/// and in the chart that this has for the group: the struct's `advance` then takes `&mut self`, since a step begins
-/// with a guess from those before it. With `time = t` the argument `t: f64` is the time; `advance`, `advance_by` and
-/// `energy` then take that of the state.
+/// `tanh`, real powers) or quotients of the momentum it has none, and steps are made by [`collocation`], in the chart that
+/// this has for the group. Steps of one call of `advance_by` begin with a guess from those before them; `advance` knows none,
+/// and takes up to twice as long. With `time = t` the argument `t: f64` is the time; `advance`, `advance_by` and `energy` then
+/// take that of the state, in numbers of 64 bits.
 ///
 /// ```
 /// use coadjoint::{Phase, SO3, lie_poisson};
@@ -144,7 +144,7 @@ mod table;
 /// }
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-/// let mut step = FastBody::new(0.2, [1.5, 2.0, 2.5])?;
+/// let step = FastBody::new(0.2, [1.5, 2.0, 2.5])?;
 /// let mut state = Phase::<SO3>::at_identity([2.0, 0.5, 1.0]);
 /// let before = step.energy(&state.momentum);
 /// step.advance_by(&mut state, 1000)?;
@@ -156,8 +156,8 @@ mod table;
 /// # What it generates
 ///
 /// A struct named after the function in camel case, generic over the scalar ([`Scalar`]): `new(step,
-/// parameters…)`, `advance`, `advance_by`, `poisson_map`, `energy`, `step`, and the implementations of
-/// [`GeneratingFunction`] and [`lanes::Lanes`].
+/// parameters…)`, `advance`, `advance_by`, `energy`, `step`, and the implementation of [`lanes::Lanes`] where H does not depend on
+/// the time; for a polynomial also `poisson_map` and the implementation of [`GeneratingFunction`].
 /// Every mistake in the function is reported at its place.
 #[cfg(feature = "macros")]
 pub use coadjoint_macros::lie_poisson;

@@ -15,6 +15,7 @@ pub use crate::step::numbers::ElementNumbers;
 pub use crate::step::printed::{
     BLOCK, called, choose, choose_all, is_one, load, load_lanes, store, store_lanes, timed,
 };
+pub use crate::step::rows::{Row, RowOf, exponent, row, scale, select};
 pub use crate::step::{Steps, advance_at, advance_from};
 
 /// All coefficients of a generated step or potential, in each lane for its step size and symbols, folded in this room of

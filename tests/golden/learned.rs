@@ -254,9 +254,9 @@ const _: () = {
         let t116 = mu[0].times_plus(t97, t115);
         let t119 = mu[0].simd_abs();
         let t120 = mu[1].simd_abs();
-        let t121 = T::select(t119, T::simd_le(t120, t119), t120);
+        let t121 = plumbing::select(t120, t119, t119, t120);
         let t122 = mu[2].simd_abs();
-        let t123 = T::select(t121, T::simd_le(t122, t121), t122);
+        let t123 = plumbing::select(t122, t121, t121, t122);
         let t124 = c.of(1.1754943508222875e-38) + t123;
         let t126 = c.of(1.0) / t124;
         ([t40, t78, t116], [t126, c.of(0.0)])
@@ -481,20 +481,20 @@ const _: () = {
         let t251 = t25 - t245;
         let t252 = t234.simd_abs();
         let t253 = t235.simd_abs();
-        let t254 = T::select(t252, T::simd_le(t253, t252), t253);
+        let t254 = plumbing::select(t253, t252, t252, t253);
         let t255 = t236.simd_abs();
-        let t256 = T::select(t254, T::simd_le(t255, t254), t255);
+        let t256 = plumbing::select(t255, t254, t254, t255);
         let t257 = k[0] * t256;
         let t258 = t239.simd_abs();
         let t259 = t242.simd_abs();
-        let t260 = T::select(t258, T::simd_le(t259, t258), t259);
+        let t260 = plumbing::select(t259, t258, t258, t259);
         let t261 = t245.simd_abs();
-        let t262 = T::select(t260, T::simd_le(t261, t260), t261);
+        let t262 = plumbing::select(t261, t260, t260, t261);
         let t263 = t14.simd_abs();
         let t264 = t20.simd_abs();
-        let t265 = T::select(t263, T::simd_le(t264, t263), t264);
+        let t265 = plumbing::select(t264, t263, t263, t264);
         let t266 = t25.simd_abs();
-        let t267 = T::select(t265, T::simd_le(t266, t265), t266);
+        let t267 = plumbing::select(t266, t265, t265, t266);
         let t268 = t267 * t267;
         let t270 = t268 * c.of(0.25);
         let t271 = t257 * t270;
@@ -502,9 +502,9 @@ const _: () = {
         let t273 = k[1] * t257;
         let t274 = t262.times_plus(t272, t273);
         let t278 = c.epsilon() * c.of(4.0);
-        let t279 = T::select(t274, T::simd_le(t257, c.of(0.001)), t257);
-        let t280 = T::select(t279, T::simd_le(t279, t257), t257);
-        let t281 = T::select(t280, T::simd_le(t257, t278), t279);
+        let t279 = plumbing::select(t257, c.of(0.001), t274, t257);
+        let t280 = plumbing::select(t279, t257, t279, t257);
+        let t281 = plumbing::select(t257, t278, t280, t279);
         ([t246, t247, t248], [t249, t250, t251], t281, t257)
     }
 
@@ -524,15 +524,16 @@ const _: () = {
         let t15 = t13.simd_abs();
         let t16 = t13 - t13;
         let t17 = t15 + t16;
-        let t22 = T::select(
+        let t22 = plumbing::select(
+            c.at(80),
+            c.of(3.4028234663852886e38),
             c.of(4.0),
-            T::simd_le(c.at(80), c.of(3.4028234663852886e38)),
             c.of(9.0),
         );
         let t23 = t17 * t22;
-        let t24 = T::select(c.of(1.0), T::simd_le(t23, c.of(1.0)), c.of(0.0));
-        let t25 = T::select(t24, T::simd_le(distance, c.of(0.05)), c.of(0.0));
-        let t26 = T::select(t25, T::simd_le(residual_bound, t7), c.of(0.0));
+        let t24 = plumbing::select(t23, c.of(1.0), c.of(1.0), c.of(0.0));
+        let t25 = plumbing::select(distance, c.of(0.05), t24, c.of(0.0));
+        let t26 = plumbing::select(residual_bound, t7, t25, c.of(0.0));
         t26
     }
 
@@ -652,7 +653,7 @@ const _: () = {
         let t19 = t17 + t18;
         let t20 = t14 + t19;
         let t22 = c.epsilon().simd_sqrt();
-        let t23 = T::select(c.of(1.0), T::simd_le(t20, t22), c.of(0.0));
+        let t23 = plumbing::select(t20, t22, c.of(1.0), c.of(0.0));
         t23
     }
 

@@ -10,17 +10,8 @@ use coadjoint_codegen::step::Origin;
 /// The arguments of an attribute and its function.
 pub type Source = (&'static str, &'static str);
 
-pub const SYSTEMS: [Source; 9] = [
-    RIGID_BODY,
-    CAYLEY_BODY,
-    HEAVY_TOP,
-    COMOVING_BODY,
-    THREE_WAVE,
-    RELATIVISTIC,
-    SIX_VARIABLES,
-    TABLES,
-    TWIST,
-];
+pub const SYSTEMS: [Source; 8] =
+    [RIGID_BODY, CAYLEY_BODY, HEAVY_TOP, COMOVING_BODY, THREE_WAVE, RELATIVISTIC, TABLES, TWIST];
 
 /// The system that the attribute with `arguments` makes steps of, from the source of a function.
 pub fn origin((arguments, function): Source) -> syn::Result<Origin> {
@@ -91,15 +82,6 @@ pub const RELATIVISTIC: Source = (
     }",
 );
 
-pub const SIX_VARIABLES: Source = (
-    "group = SE3, truncation = 5",
-    "fn six_variables(mu: [f64; 6], stiffness: f64) -> f64 {
-        let [x, y, z, p, q, r] = mu;
-        let root = (1.0 + x * x + 2.0 * y * y + z * z).sqrt();
-        root + 1.0 / (2.0 + p * p + q * q).sqrt() + (-stiffness * r * r).exp()
-    }",
-);
-
 /// One node on a group by tables, of its own.
 pub const TABLES: Source = (
     "group = algebra(generators = [a, b, c], brackets = [\"[a, b] = c\"]), truncation = 1",
@@ -110,7 +92,7 @@ pub const TABLES: Source = (
 
 /// A twist about the third axis whose rate grows.
 pub const TWIST: Source = (
-    "group = SO3, truncation = 9, time = s",
+    "group = SO3, truncation = 5, time = s",
     "fn twist(mu: [f64; 3], s: f64, rate: f64) -> f64 {
         0.5 * mu[2] * mu[2] * (rate * s).exp() + 0.1 * mu[0] * mu[1]
     }",

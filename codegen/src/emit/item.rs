@@ -9,9 +9,9 @@ use crate::emit::generating_function::{
     generating_function, scalar_function, solver, without_programs,
 };
 use crate::emit::group::Types;
+use crate::emit::header::Method;
 use crate::emit::programs::{MOST_OPERATIONS, programs, step_operations};
 use crate::emit::table::{fold_item, last_item};
-use crate::emit::header::Method;
 use crate::emit::{Options, allow, fresh, header, identifier, parameter};
 use crate::integrator::{FoldTable, Integrator, Kicks};
 use crate::problem::{Parameter, Shape, Symbol};

@@ -1,6 +1,6 @@
 //! Rust as a dialect of programs: a statement for each operation.
 
-use coadjoint_program::print::{Body, C, Dialect, Field, Signature, body};
+use coadjoint_program::print::{Body, C, Dialect, Field, RowOf, Signature, body};
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -109,19 +109,46 @@ impl Dialect for Rust<'_> {
             (Node::Abs(_), [a]) => format!("{a}.simd_abs()"),
             (Node::Sqrt(_), [a]) => format!("{a}.simd_sqrt()"),
             (Node::Round(_), [a]) => format!("{a}.simd_round()"),
-            (Node::Scale(..), [a, k]) => format!("T::scale({a}, {k})"),
-            (Node::Exponent(_), [a]) => format!("T::exponent({a})"),
-            // A call, no method: a lint looks for the type of what a method of one argument is called on, through
+            // Calls, no methods: a lint looks for the type of what a method of one argument is called on, through
             // all statements before it, and would not end.
-            (Node::Select(..), [a, b, c, d]) => {
-                format!("T::select({c}, T::simd_le({a}, {b}), {d})")
-            }
+            (Node::Scale(..), [a, k]) => format!("plumbing::scale({a}, {k})"),
+            (Node::Exponent(_), [a]) => format!("plumbing::exponent({a})"),
+            (Node::Select(..), [a, b, c, d]) => format!("plumbing::select({a}, {b}, {c}, {d})"),
             _ => self.c.operation(node, operands),
         }
     }
 
     fn bound(&self, name: &str) -> String {
         format!("{name}{}", self.suffix)
+    }
+
+    fn row(&self, name: &str, row: RowOf<'_>, count: usize) -> [String; 2] {
+        let row = match row {
+            RowOf::Same(one) => format!("plumbing::Row([{one}; {count}])"),
+            RowOf::Strided(array, first, distance) => {
+                format!("plumbing::row::<_, {count}>({array}, {first}, {distance})")
+            }
+            RowOf::Result(rows, result) => {
+                return [String::new(), format!("{}[{result}]", self.bound(&format!("n{rows}")))];
+            }
+            RowOf::List(list) => format!("plumbing::Row([{}])", list.join(", ")),
+        };
+        [self.declare(name, &row), name.to_owned()]
+    }
+
+    fn open_rows(&self, rows: usize, count: usize, _: usize) -> String {
+        let [rows, c] = [&format!("n{rows}"), "c"].map(|name| self.bound(name));
+        format!(
+            "let {rows} = {{\nuse plumbing::Number as _;\nlet {c} = plumbing::RowOf::<_, {count}>({c});\n"
+        )
+    }
+
+    fn close_rows(&self, _: usize, _: usize, results: &[&str]) -> String {
+        format!("[{}]\n}};\n", results.join(", "))
+    }
+
+    fn result(&self, rows: usize, result: usize, row: usize, _: usize) -> String {
+        format!("{}[{result}].0[{row}]", self.bound(&format!("n{rows}")))
     }
 
     fn declare(&self, name: &str, expression: &str) -> String {

@@ -3,9 +3,9 @@
 //! Lanes move together: a condition holds where it holds in all of them. Only an equation is corrected in the lanes where it
 //! is not solved yet, so that each lane computes the bits that it would have alone.
 
-use coadjoint_program::{Clock, Kernel};
 use coadjoint_program::print::{Dialect, Loop, LoopStyle, Name, fill, statements};
 use coadjoint_program::schedule::{Kind, Part, Test, Variable};
+use coadjoint_program::{Clock, Kernel};
 
 use crate::emit::program::{Rust, tuple};
 

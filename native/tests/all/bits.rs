@@ -28,7 +28,7 @@ const COMPILERS: &[fn(&Kernel, Trajectories) -> Entry] = &[
 #[test]
 fn random_programs_have_the_same_bits() {
     for compile in COMPILERS {
-        let (mut chance, mut seen) = (Chance(3), Seen::default());
+        let (mut chance, mut seen, mut rows) = (Chance(3), Seen::default(), 0);
         for round in 0..32 {
             let shape = Shape {
                 dim: 1 + chance.below(6),
@@ -42,12 +42,14 @@ fn random_programs_have_the_same_bits() {
                 flows: [0, 0, 1, 3][chance.below(4)],
             };
             let sample = Sample::new(shape, &mut chance);
+            rows += sample.kernel.programs.correct.rows().len();
             let entry = compile(&sample.kernel, Trajectories::Both);
             for steps in [0, 1, 3, 7, 255, 256, 257, 300, 512, 700] {
                 compare(&sample, &entry, steps, &mut chance, &mut seen);
             }
         }
         assert!(seen.whole > 100 && seen.stopped > 100 && seen.back > 100, "{seen:?}");
+        assert!(rows > 10, "{rows}");
     }
 }
 

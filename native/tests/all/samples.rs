@@ -109,12 +109,21 @@ impl Sample {
 }
 
 /// A random graph on the inputs; its nodes, the last of them using most of it.
-fn grow(graph: &Graph, shape: Shape, inputs: usize, chance: &mut Chance) -> Vec<Id> {
+fn grow(
+    graph: &Graph,
+    shape: Shape,
+    inputs: usize,
+    chance: &mut Chance,
+    with_rows: bool,
+) -> Vec<Id> {
     let mut ids: Vec<Id> = (0..inputs).map(|i| graph.input(i)).collect();
     ids.extend((0..shape.slots).map(|i| graph.slot(i)));
     ids.extend([graph.zero(), graph.epsilon()]);
     ids.extend([1.0, -1.0, 0.3, 1e-200, f64::MAX].map(|value| graph.constant(value)));
     for _ in 0..shape.nodes {
+        if with_rows && chance.below(12) == 0 {
+            ids.extend(side_by_side(graph, &ids, shape, chance));
+        }
         // Of late nodes more often, so that little is left unused.
         let recent = ids.len().min(20);
         let [a, b, c, d] = std::array::from_fn(|_| match chance.below(3) {
@@ -139,6 +148,29 @@ fn grow(graph: &Graph, shape: Shape, inputs: usize, chance: &mut Chance) -> Vec<
     ids
 }
 
+/// The results of a random program on rows of nodes: some are at equal distances, some the same in all rows.
+fn side_by_side(graph: &Graph, ids: &[Id], shape: Shape, chance: &mut Chance) -> Vec<Id> {
+    let (inputs, count) = (1 + chance.below(5), 2 + chance.below(4));
+    let own = Graph::new();
+    let nodes = 3 + chance.below(12);
+    let results = grow(&own, Shape { nodes, ..shape }, inputs, &mut Chance(chance.next()), false);
+    let outputs: Vec<Id> =
+        (0..3).map(|_| results[results.len() - 1 - chance.below(nodes)]).collect();
+    let program = own.finish(inputs, &outputs);
+    let mut rows = vec![Vec::new(); count];
+    for _ in 0..inputs {
+        let (kind, first) = (chance.below(3), chance.below(ids.len()));
+        for (row, inputs) in rows.iter_mut().enumerate() {
+            inputs.push(match kind {
+                0 => ids[first],
+                1 => ids[(first + row * (1 + first % 2)) % ids.len()],
+                _ => ids[ids.len() - 1 - chance.below(ids.len().min(9))],
+            });
+        }
+    }
+    graph.call_each(&program, &rows).concat()
+}
+
 /// Between −2 and 2, and a number whatever a is.
 fn within(graph: &Graph, a: Id) -> Id {
     let (low, high) = (graph.constant(-2.0), graph.constant(2.0));
@@ -155,7 +187,7 @@ fn random(
     chance: &mut Chance,
 ) -> Program {
     let graph = Graph::new();
-    let ids = grow(&graph, shape, inputs, chance);
+    let ids = grow(&graph, shape, inputs, chance, true);
     let mut results = Vec::new();
     for _ in 0..outputs {
         let from = ids.len() - 1 - chance.below(ids.len().min(3 * outputs));
@@ -182,7 +214,7 @@ fn rarely_no(
     chance: &mut Chance,
 ) -> Program {
     let graph = Graph::new();
-    let ids = grow(&graph, shape, inputs, chance);
+    let ids = grow(&graph, shape, inputs, chance, true);
     let one = graph.constant(1.0);
     let mut result = graph.zero();
     for _ in 0..conditions {

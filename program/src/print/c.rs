@@ -62,6 +62,46 @@ pub trait Dialect {
         format!("    const {} {name} = {expression};\n", self.c().number)
     }
 
+    /// True if a program on rows of numbers is written once.
+    fn has_rows(&self) -> bool {
+        true
+    }
+
+    /// The declaration of numbers side by side by this name, where it needs one, and the text that reads them between
+    /// [`Dialect::open_rows`] and [`Dialect::close_rows`].
+    fn row(&self, name: &str, row: RowOf<'_>, count: usize) -> [String; 2] {
+        let read = match row {
+            RowOf::Same(one) => one.to_owned(),
+            RowOf::Strided(array, first, 1) => format!("{array}[{first} + i]"),
+            RowOf::Strided(array, first, distance) => format!("{array}[{first} + {distance} * i]"),
+            RowOf::Result(rows, result) => format!("n{rows}[{} + i]", result * count),
+            RowOf::List(list) => {
+                let (number, list) = (&self.c().number, list.join(", "));
+                let declaration = format!("    const {number} {name}[{count}] = {{{list}}};\n");
+                return [declaration, format!("{name}[i]")];
+            }
+        };
+        [String::new(), read]
+    }
+
+    /// The beginning of statements about as many numbers side by side: the rows of this number, with as many results.
+    fn open_rows(&self, rows: usize, count: usize, results: usize) -> String {
+        format!("    {} n{rows}[{}];\n{}", self.c().number, results * count, each(count))
+    }
+
+    /// Their end, with these results.
+    fn close_rows(&self, rows: usize, count: usize, results: &[&str]) -> String {
+        let set = |(result, name): (usize, &&str)| {
+            format!("    n{rows}[{} + i] = {name};\n", result * count)
+        };
+        results.iter().enumerate().map(set).collect::<String>() + "    }\n"
+    }
+
+    /// The number of a result in one of the rows.
+    fn result(&self, rows: usize, result: usize, row: usize, count: usize) -> String {
+        format!("n{rows}[{}]", result * count + row)
+    }
+
     /// The number at a place of the array that the pieces of a function share.
     fn shared(&self, place: usize) -> String {
         format!("w[{place}]")
@@ -108,10 +148,22 @@ pub trait Dialect {
             "{}{} {}({parameters})\n{{\n{unused}{}",
             body.pieces, c.head, signature.name, body.statements
         );
-        for (number, value) in body.outputs.iter().enumerate() {
-            if let Some((field, at)) = Signature::find(&signature.outputs, number) {
+        let mut number = 0;
+        while let Some(value) = body.outputs.get(number) {
+            let Some((field, at)) = Signature::find(&signature.outputs, number) else { break };
+            let most = field.len.map_or(1, |len| len - at);
+            let copied = copied(&body.outputs[number..body.outputs.len().min(number + most)]);
+            if copied < LEAST_COPIED {
                 let place = field.place(at, |name| format!("*{name}"));
                 text.push_str(&format!("    {place} = {value};\n"));
+                number += 1;
+            } else if let Some((array, first)) = entry(value) {
+                let name = &field.name;
+                text.push_str(&format!(
+                    "{}        {name}[{at} + i] = {array}[{first} + i];\n    }}\n",
+                    each(copied)
+                ));
+                number += copied;
             }
         }
         text + "}\n"
@@ -198,6 +250,27 @@ impl C {
     }
 }
 
+/// The beginning of a loop over rows.
+fn each(count: usize) -> String {
+    format!("    for (unsigned int i = 0; i < {count}; i++) {{\n")
+}
+
+/// Outputs that are this many entries of an array are copied in a loop.
+const LEAST_COPIED: usize = 8;
+
+/// The array and the place of an entry.
+fn entry(text: &str) -> Option<(&str, usize)> {
+    let (array, place) = text.strip_suffix(']')?.split_once('[')?;
+    Some((array, place.parse().ok()?))
+}
+
+/// The number of texts, from the first on, that are entries of an array one after the other.
+fn copied(texts: &[String]) -> usize {
+    let Some((array, first)) = texts.first().and_then(|text| entry(text)) else { return 0 };
+    let next = |(at, text): &(usize, &String)| entry(text) == Some((array, first + at));
+    texts.iter().enumerate().take_while(next).count()
+}
+
 /// A number as C has it, in parentheses where it is negative; `digits` writes one that is finite and not negative.
 pub fn literal(value: f64, digits: impl Fn(f64) -> String) -> String {
     let text = match value.abs() {
@@ -233,6 +306,19 @@ impl Dialect for C {
     fn c(&self) -> &C {
         self
     }
+}
+
+/// Numbers side by side, as they are read.
+#[derive(Clone, Copy, Debug)]
+pub enum RowOf<'a> {
+    /// One number, in all rows.
+    Same(&'a str),
+    /// The numbers of an array from a place on, with a distance from row to row.
+    Strided(&'a str, usize, usize),
+    /// The result of this number of the rows of that number.
+    Result(usize, usize),
+    /// A number for each row.
+    List(&'a [&'a str]),
 }
 
 /// A part of a program's inputs or outputs: an array or a single number.

@@ -256,6 +256,11 @@ impl Dialect for Device {
         &self.c
     }
 
+    /// Compilers of cards keep arrays that are read in loops in slow memory.
+    fn has_rows(&self) -> bool {
+        false
+    }
+
     fn epsilon(&self) -> String {
         self.literal(self.precision.epsilon())
     }

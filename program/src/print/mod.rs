@@ -16,7 +16,7 @@ mod steps;
 mod template;
 mod vectors;
 
-pub use c::{Body, C, Dialect, Field, Signature, literal, signatures};
+pub use c::{Body, C, Dialect, Field, RowOf, Signature, literal, signatures};
 pub use device::{DeviceLanguage, KERNEL_NAME, device_unit};
 pub use function::{body, function};
 pub use native::{ABI, native_unit};

@@ -4,6 +4,7 @@ pub(crate) mod kicked;
 pub(crate) mod monitor;
 pub(crate) mod numbers;
 pub(crate) mod printed;
+pub(crate) mod rows;
 
 use nalgebra::{SimdBool, SimdPartialOrd};
 

@@ -131,12 +131,32 @@ struct Assembly<'a> {
     element: usize,
     gauss: Gauss,
     structure: Structure,
-    /// x, p, ω ↦ ẋ = (∂J_R/∂p)ᵀ ω, ṗ = −(∂J_R/∂x)ᵀ ω.
-    equations: Program,
 }
 
 /// Vectors at nodes.
 type Rows = Vec<Vec<Id>>;
+
+/// Vectors from the numbers of all nodes, coordinate by coordinate: so rows of a program stand side by side.
+fn by_node(n: usize, numbers: &[Id]) -> Rows {
+    let nodes = numbers.len() / n.max(1);
+    (0..nodes).map(|node| numbers.iter().skip(node).step_by(nodes).copied().collect()).collect()
+}
+
+/// The numbers of vectors, coordinate by coordinate.
+fn by_coordinate(rows: &Rows) -> Vec<Id> {
+    let n = rows.first().map_or(0, Vec::len);
+    (0..n).flat_map(|k| rows.iter().map(move |row| row[k])).collect()
+}
+
+/// A sweep: the momenta at the nodes, and the change of the rates.
+struct Sweep {
+    momenta: Rows,
+    change: Rates,
+    /// The largest changes of those of x and of p, in units.
+    sizes: [Id; 2],
+    /// 0 or, where a change is not finite, no number.
+    defect: Id,
+}
 
 /// hẋᵢ and hṗᵢ at the nodes.
 #[derive(Clone)]
@@ -146,15 +166,14 @@ struct Rates {
 }
 
 impl Rates {
-    /// From all numbers, those of x first, node by node.
+    /// From all numbers, those of x first.
     fn new(n: usize, numbers: &[Id]) -> Self {
-        let rows: Rows = numbers.chunks(n).map(<[Id]>::to_vec).collect();
-        let (x, p) = rows.split_at(rows.len() / 2);
-        Self { x: x.to_vec(), p: p.to_vec() }
+        let (x, p) = numbers.split_at(numbers.len() / 2);
+        Self { x: by_node(n, x), p: by_node(n, p) }
     }
 
     fn numbers(&self) -> Vec<Id> {
-        self.x.iter().chain(&self.p).flatten().copied().collect()
+        [&self.x, &self.p].map(by_coordinate).concat()
     }
 
     /// Each number made of its own and that of other rates.
@@ -170,14 +189,35 @@ impl Rates {
 }
 
 /// start + Σⱼ weightsⱼ rowsⱼ
-fn mixed(graph: &Graph, start: &[Id], weights: impl Fn(usize) -> f64, rows: &Rows) -> Vec<Id> {
+fn mixed(graph: &Graph, start: &[Id], weights: &[Id], rows: &Rows) -> Vec<Id> {
     let entry = |(k, &start): (usize, &Id)| {
-        let add = |sum, (j, row): (usize, &Vec<Id>)| {
-            graph.times_plus(graph.constant(weights(j)), row[k], sum)
-        };
-        rows.iter().enumerate().fold(start, add)
+        let add = |sum, (&weight, row): (&Id, &Vec<Id>)| graph.times_plus(weight, row[k], sum);
+        weights.iter().zip(rows).fold(start, add)
     };
     start.iter().enumerate().map(entry).collect()
+}
+
+fn constants(graph: &Graph, values: &[f64]) -> Vec<Id> {
+    values.iter().map(|&value| graph.constant(value)).collect()
+}
+
+/// The largest of numbers that are not negative.
+fn greatest(graph: &Graph, sizes: impl IntoIterator<Item = Id>) -> Id {
+    sizes.into_iter().reduce(|all, size| graph.max(all, size)).unwrap_or_else(|| graph.zero())
+}
+
+/// Inputs of a program, one list after the other.
+struct Inputs<'g>(&'g Graph, usize);
+
+impl Inputs<'_> {
+    fn take(&mut self, count: usize) -> Vec<Id> {
+        self.1 += count;
+        inputs(self.0, self.1 - count, count)
+    }
+
+    fn rates(&mut self, n: usize, nodes: usize) -> Rates {
+        Rates::new(n, &self.take(2 * n * nodes))
+    }
 }
 
 /// a + s·b
@@ -194,19 +234,9 @@ fn share(graph: &Graph, part: Id, whole: Id) -> Id {
 
 impl<'a> Assembly<'a> {
     fn new(smooth: &'a Smooth, group: &'a Product) -> Self {
-        let n = group.dim();
-        let graph = Graph::new();
-        let [x, p, omega] = [0, n, 2 * n].map(|from| inputs(&graph, from, n));
-        let momentum = group.node_momentum(&graph, &x, &p, degree(smooth.nodes()));
-        let outputs: Vec<(Id, Id)> = momentum.into_iter().zip(omega).collect();
-        let slopes = graph.pull_back(&outputs, &[&x[..], &p[..]].concat());
-        let (of_x, of_p) = slopes.split_at(n);
-        let forces = of_x.iter().map(|&slope| graph.neg(slope));
-        let rates: Vec<Id> = of_p.iter().copied().chain(forces).collect();
-        let equations = graph.finish(3 * n, &rates);
-        let structure = structure_of(&smooth.algebra);
+        let (n, structure) = (group.dim(), structure_of(&smooth.algebra));
         let element = group.element() - memory(smooth);
-        Self { smooth, group, n, element, gauss: Gauss::new(smooth.nodes()), structure, equations }
+        Self { smooth, group, n, element, gauss: Gauss::new(smooth.nodes()), structure }
     }
 
     fn nodes(&self) -> usize {
@@ -230,34 +260,30 @@ impl<'a> Assembly<'a> {
 
     /// A program of the Hamiltonian's at μ, at this one of the [`times`].
     fn at(&self, graph: &Graph, program: &Program, mu: &[Id], time: usize) -> Vec<Id> {
-        graph.call(program, &self.inputs_at(graph, mu, time))
+        graph.call(program, &[mu, &self.time(graph, time)].concat())
     }
 
-    /// The inputs of the Hamiltonian's programs at μ, at this one of the [`times`].
-    fn inputs_at(&self, graph: &Graph, mu: &[Id], time: usize) -> Vec<Id> {
-        let mut arguments = mu.to_vec();
-        if self.smooth.depends_on_time() {
-            let each = 1 + self.smooth.signals.len();
-            let first = first_time(self.smooth) + time * each;
-            arguments.extend((first..first + each).map(|slot| graph.slot(slot)));
-        } else {
-            arguments.push(graph.zero());
+    /// The inputs of the Hamiltonian's programs after μ at this one of the [`times`].
+    fn time(&self, graph: &Graph, time: usize) -> Vec<Id> {
+        if !self.smooth.depends_on_time() {
+            return vec![graph.zero()];
         }
-        arguments
+        let each = 1 + self.smooth.signals.len();
+        let first = first_time(self.smooth) + time * each;
+        (first..first + each).map(|slot| graph.slot(slot)).collect()
     }
 
     /// The increment of the step, and the momentum in its middle.
     fn whole(&self, graph: &Graph, rates: &Rates, mu: &[Id]) -> (Vec<Id>, Vec<Id>) {
         let zeros = vec![graph.zero(); self.n];
-        let x = mixed(graph, &zeros, |j| self.gauss.weights[j], &rates.x);
+        let x = mixed(graph, &zeros, &constants(graph, &self.gauss.weights), &rates.x);
         let p = self.group.pull_back(graph, &x, mu);
         (x, p)
     }
 
-    /// The points of the nodes.
-    fn points(&self, graph: &Graph, start: &[Id], rows: &Rows) -> Rows {
-        let weights = |node: usize| move |j: usize| self.gauss.matrix[j][node];
-        (0..self.nodes()).map(|node| mixed(graph, start, weights(node), rows)).collect()
+    /// The weights from the middle of the step to a node.
+    fn weights(&self, graph: &Graph, node: usize) -> Vec<Id> {
+        self.gauss.matrix.iter().map(|row| graph.constant(row[node])).collect()
     }
 
     /// ad\*_x μ
@@ -312,14 +338,18 @@ impl<'a> Assembly<'a> {
         let [long, many, few] =
             [LONG, KEPT as f64, KEPT_LONG as f64].map(|value| graph.constant(value));
         let count = graph.min(count, graph.select(size, long, many, few));
-        let mut guess = vec![zero; rates];
-        for (order, differences) in differences.chunks(rates).enumerate() {
-            let weight = graph.select(graph.constant((order + 1) as f64), count, one, zero);
-            for (sum, &difference) in guess.iter_mut().zip(differences) {
-                *sum = graph.times_plus(weight, difference, *sum);
-            }
-        }
-        guess
+        let used = |order| graph.select(graph.constant((order + 1) as f64), count, one, zero);
+        let weights: Vec<Id> = (0..KEPT).map(used).collect();
+        let own = Graph::new();
+        let (kept, shares) = (inputs(&own, 0, KEPT), inputs(&own, KEPT, KEPT));
+        let terms = shares.iter().zip(&kept);
+        let sum = terms.fold(own.zero(), |sum, (&share, &kept)| own.times_plus(share, kept, sum));
+        let program = own.finish(2 * KEPT, &[sum]);
+        let row = |rate: usize| {
+            let kept = differences.iter().skip(rate).step_by(rates);
+            kept.chain(&weights).copied().collect()
+        };
+        graph.call_each(&program, &(0..rates).map(row).collect::<Vec<_>>()).concat()
     }
 
     /// ∂²H/∂μ² in the middle of the step, the entries (i, j) with j ≤ i, row by row.
@@ -346,24 +376,11 @@ impl<'a> Assembly<'a> {
         let model = inputs(&graph, count + OTHERS + n, constants);
         let [zero, one, half] = [0.0, 1.0, 0.5].map(|value| graph.constant(value));
 
-        let (next, momenta) = self.sweep(&graph, &rates, &mu);
-        let change = next.with(&rates, |a, b| graph.sub(a, b));
-        let units = &self.smooth.units;
-        let [x, p] = [(&change.x, -1), (&change.p, 1)].map(|(rows, power)| {
-            largest_in_units(&graph, &rows.concat(), &units.repeat(self.nodes()), power)
-        });
-        let scale = largest_in_units(&graph, &mu, units, 1);
+        let scale = largest_in_units(&graph, &mu, &self.smooth.units, 1);
         let scale = graph.select(scale, zero, one, scale);
-        let residual = graph.max(x, graph.div(p, scale));
-        let sum = |a, b| graph.add(a, b);
-        let next = match self.models() {
-            true => {
-                let (p, hessian) = model.split_at(n);
-                let linear = self.response(&graph, &rates, &change, p, hessian);
-                rates.with(&linear, sum).with(&change, sum)
-            }
-            false => rates.with(&change, sum),
-        };
+        let Sweep { momenta, change, sizes, defect } = self.sweep(&graph, &rates, &mu);
+        let residual = graph.max(sizes[0], graph.div(sizes[1], scale));
+        let (next, sizes) = self.corrected(&graph, &rates, &change, &model);
         // Before the first sweep there was none.
         let shrinks = graph.min(graph.div(residual, before), half);
         let left = graph.mul(residual, graph.select(before, zero, one, shrinks));
@@ -374,37 +391,76 @@ impl<'a> Assembly<'a> {
         let left = graph.select(before, zero, left, stays);
 
         let (x, _) = self.whole(&graph, &next, &mu);
-        let measures = self.measures(&graph, &next, &mu, &model);
+        let measures = self.measures(&graph, (&next, sizes), &mu, &model);
         let mut outputs = next.numbers();
         let sweeps = graph.add(sweeps, one);
         outputs.extend([residual, sweeps]);
         let most = graph.constant(1.0 / ordinary_sweeps(self.n));
         let measures = measures.into_iter().chain([graph.mul(sweeps, most)]);
         outputs.extend(x.into_iter().chain(measures).chain(next.numbers()));
-        outputs.extend(momenta.into_iter().flatten());
-        outputs.extend([left, finite(&graph, &change.numbers())]);
+        outputs.extend(by_coordinate(&momenta));
+        outputs.extend([left, defect]);
         graph.finish(count + OTHERS + n + constants, &outputs)
     }
 
-    /// The rates that follow from others, and the momenta at the nodes.
-    fn sweep(&self, graph: &Graph, rates: &Rates, mu: &[Id]) -> (Rates, Rows) {
+    /// The change of the rates to those that follow from them.
+    fn sweep(&self, graph: &Graph, rates: &Rates, mu: &[Id]) -> Sweep {
+        let n = self.n;
         let (_, p) = self.whole(graph, rates, mu);
-        let zeros = vec![graph.zero(); self.n];
-        let xs = self.points(graph, &zeros, &rates.x);
-        let ps = self.points(graph, &p, &rates.p);
-        let step = self.step(graph);
-        let mut next = Rates { x: Vec::new(), p: Vec::new() };
-        let mut momenta = Rows::new();
-        for (node, (x, p)) in xs.iter().zip(&ps).enumerate() {
-            let momentum = self.group.node_momentum(graph, x, p, degree(self.nodes()));
-            let gradient = self.at(graph, &self.smooth.gradient, &momentum, 2 + node);
-            let omega: Vec<Id> = gradient.iter().map(|&entry| graph.mul(step, entry)).collect();
-            let mut own = graph.call(&self.equations, &[&x[..], &p[..], &omega[..]].concat());
-            next.p.push(own.split_off(self.n));
-            next.x.push(own);
-            momenta.push(momentum);
+        let row = |node: usize| {
+            let (weights, time) = (self.weights(graph, node), self.time(graph, 2 + node));
+            [&weights[..], &time, &rates.x[node], &rates.p[node], &rates.numbers(), &p].concat()
+        };
+        let rows: Vec<Vec<Id>> = (0..self.nodes()).map(row).collect();
+        let results = graph.call_each(&self.sweep_at_node(), &rows);
+        let part = |from: usize| results.iter().map(|row| row[from..from + n].to_vec()).collect();
+        let each = |at: usize| results.iter().map(move |row| row[at]);
+        let defects = each(3 * n + 2);
+        Sweep {
+            momenta: part(0),
+            change: Rates { x: part(n), p: part(2 * n) },
+            sizes: [0, 1].map(|at| greatest(graph, each(3 * n + at))),
+            defect: defects.reduce(|sum, one| graph.add(sum, one)).unwrap_or_else(|| graph.zero()),
         }
-        (next, momenta)
+    }
+
+    /// The weights of a node, its time, its rates, all rates, the momentum in the middle ↦ the momentum there, the changes of its
+    /// rates, their sizes, and 0 or, where a number is not finite, none.
+    fn sweep_at_node(&self) -> Program {
+        let (graph, n, m) = (Graph::new(), self.n, self.nodes());
+        let mut inputs = Inputs(&graph, 0);
+        let (weights, time) = (inputs.take(m), inputs.take(self.time(&graph, 0).len()));
+        let (own, all, middle) = (inputs.rates(n, 1), inputs.rates(n, m), inputs.take(n));
+        let count = inputs.1;
+        let x = mixed(&graph, &vec![graph.zero(); n], &weights, &all.x);
+        let p = mixed(&graph, &middle, &weights, &all.p);
+        let momentum = self.group.node_momentum(&graph, &x, &p, degree(m));
+        let gradient = graph.call(&self.smooth.gradient, &[&momentum[..], &time].concat());
+        let step = self.step(&graph);
+        let omega: Vec<Id> = gradient.iter().map(|&entry| graph.mul(step, entry)).collect();
+        let mut x_rates = graph.call(&self.equations(), &[&x[..], &p, &omega].concat());
+        let p_rates = x_rates.split_off(n);
+        let next = Rates { x: vec![x_rates], p: vec![p_rates] };
+        let change = next.with(&own, |a, b| graph.sub(a, b));
+        let size =
+            |rows: &Rows, power| largest_in_units(&graph, &rows[0], &self.smooth.units, power);
+        let sizes = [size(&change.x, -1), size(&change.p, 1)];
+        let change = change.numbers();
+        let defect = finite(&graph, &change);
+        graph.finish(count, &[&momentum[..], &change, &sizes, &[defect]].concat())
+    }
+
+    /// x, p, ω ↦ ẋ = (∂J_R/∂p)ᵀ ω, ṗ = −(∂J_R/∂x)ᵀ ω.
+    fn equations(&self) -> Program {
+        let (graph, n) = (Graph::new(), self.n);
+        let [x, p, omega] = [0, n, 2 * n].map(|from| inputs(&graph, from, n));
+        let momentum = self.group.node_momentum(&graph, &x, &p, degree(self.nodes()));
+        let outputs: Vec<(Id, Id)> = momentum.into_iter().zip(omega).collect();
+        let slopes = graph.pull_back(&outputs, &[&x[..], &p[..]].concat());
+        let (of_x, of_p) = slopes.split_at(n);
+        let forces = of_x.iter().map(|&slope| graph.neg(slope));
+        let rates: Vec<Id> = of_p.iter().copied().chain(forces).collect();
+        graph.finish(3 * n, &rates)
     }
 
     /// The square of the farthest way that an argument of H's functions goes from the start to a node, from node to node, and to
@@ -413,64 +469,99 @@ impl<'a> Assembly<'a> {
         let nodes = self.nodes();
         // The time of the last node stands for that of the end.
         let stops = [(mu, 0)].into_iter().chain(momenta.iter().map(Vec::as_slice).zip(2..));
-        let stops: Vec<_> = stops.chain([(end, 1 + nodes)]).collect();
-        let squares = stops.windows(2).flat_map(|pair| {
-            let inputs = pair.iter().flat_map(|&(mu, time)| self.inputs_at(graph, mu, time));
-            graph.call(&self.smooth.reach, &inputs.collect::<Vec<_>>())
-        });
+        let stops = stops.chain([(end, 1 + nodes)]);
+        let stops: Vec<Vec<Id>> =
+            stops.map(|(mu, time)| [mu, &self.time(graph, time)].concat()).collect();
+        let rows: Vec<Vec<Id>> = stops.windows(2).map(<[_]>::concat).collect();
+        let squares = graph.call_each(&self.smooth.reach, &rows).concat();
         let limit = graph.constant(1.0 / LARGEST_REACH[nodes - 1]);
-        graph.mul(limit, largest(graph, &squares.collect::<Vec<_>>()))
+        graph.mul(limit, largest(graph, &squares))
     }
 
-    /// The change of the rates in the next sweep that follows from this one, to first order in it and in the step.
-    fn response(
+    /// The rates after a sweep that changes them, and the largest of those of x and of p; with the change in the next sweep that
+    /// follows from this one, to first order in it and in the step, where there is a linear model.
+    fn corrected(
         &self,
         graph: &Graph,
         rates: &Rates,
         change: &Rates,
-        p: &[Id],
-        hessian: &[Id],
-    ) -> Rates {
-        let zeros = vec![graph.zero(); self.n];
-        let half = graph.constant(0.5);
-        let x = mixed(graph, &zeros, |j| self.gauss.weights[j], &change.x);
-        let turned = self.ad_star(graph, &x, p);
-        let middle: Vec<Id> = turned.iter().map(|&entry| graph.mul(half, entry)).collect();
-        let xs = self.points(graph, &zeros, &change.x);
-        let ps = self.points(graph, &middle, &change.p);
-        let mut linear = Rates { x: Vec::new(), p: Vec::new() };
-        for (node, (x, own)) in xs.iter().zip(&ps).enumerate() {
-            let mu = plus(graph, own, 0.5, &self.ad_star(graph, x, p));
-            let velocity: Vec<Id> = (0..self.n).map(|i| row(graph, hessian, i, &mu)).collect();
-            let force = plus(graph, &zeros, 0.5, &self.ad_star(graph, &velocity, p));
-            let force = plus(graph, &force, 0.5, &self.ad_star(graph, &rates.x[node], own));
-            let bent = self.bracket(graph, x, &rates.x[node]);
-            linear.x.push(plus(graph, &velocity, 0.5, &bent));
-            linear.p.push(force);
+        model: &[Id],
+    ) -> (Rates, [Id; 2]) {
+        let n = self.n;
+        let mut shared = change.numbers();
+        if self.models() {
+            let (half, zeros) = (graph.constant(0.5), vec![graph.zero(); n]);
+            let x = mixed(graph, &zeros, &constants(graph, &self.gauss.weights), &change.x);
+            let turned = self.ad_star(graph, &x, &model[..n]);
+            shared.extend(turned.iter().map(|&entry| graph.mul(half, entry)));
+            shared.extend(model);
         }
-        linear
+        let row = |node: usize| {
+            let weights = self.weights(graph, node);
+            let own = [&rates.x[node][..], &rates.p[node], &change.x[node], &change.p[node]];
+            [weights, own.concat(), shared.clone()].concat()
+        };
+        let rows: Vec<Vec<Id>> = (0..self.nodes()).map(row).collect();
+        let results = graph.call_each(&self.corrected_at_node(), &rows);
+        let part = |from: usize| results.iter().map(|row| row[from..from + n].to_vec()).collect();
+        let size = |at: usize| greatest(graph, results.iter().map(|row| row[2 * n + at]));
+        (Rates { x: part(0), p: part(n) }, [0, 1].map(size))
+    }
+
+    /// The weights of a node, its rates, their changes, all changes; where there is a linear model the change of the momentum in the
+    /// middle, that momentum and the Hessian ↦ the next rates, the largest of those of x and of p.
+    fn corrected_at_node(&self) -> Program {
+        let (graph, n, m) = (Graph::new(), self.n, self.nodes());
+        let mut inputs = Inputs(&graph, 0);
+        let weights = inputs.take(m);
+        let (own, changed, all) = (inputs.rates(n, 1), inputs.rates(n, 1), inputs.rates(n, m));
+        let mut next = own.clone();
+        if self.models() {
+            let (middle, p, hessian) =
+                (inputs.take(n), inputs.take(n), inputs.take(n * (n + 1) / 2));
+            let zeros = vec![graph.zero(); n];
+            let x = mixed(&graph, &zeros, &weights, &all.x);
+            let moved = mixed(&graph, &middle, &weights, &all.p);
+            let mu = plus(&graph, &moved, 0.5, &self.ad_star(&graph, &x, &p));
+            let velocity: Vec<Id> = (0..n).map(|i| row(&graph, &hessian, i, &mu)).collect();
+            let force = plus(&graph, &zeros, 0.5, &self.ad_star(&graph, &velocity, &p));
+            let force = plus(&graph, &force, 0.5, &self.ad_star(&graph, &own.x[0], &moved));
+            let bent = self.bracket(&graph, &x, &own.x[0]);
+            let velocity = plus(&graph, &velocity, 0.5, &bent);
+            let linear = Rates { x: vec![velocity], p: vec![force] };
+            next = next.with(&linear, |a, b| graph.add(a, b));
+        }
+        let next = next.with(&changed, |a, b| graph.add(a, b));
+        let sizes = [&next.x, &next.p].map(|rows| largest(&graph, &rows[0]));
+        graph.finish(inputs.1, &[&next.numbers()[..], &sizes].concat())
     }
 
     /// The resolution of the step by its nodes, as shares of the limits: the highest polynomials through two nodes and more, of
     /// the velocity and of the force; with one node the product of velocity, force, and what that changes.
-    fn measures(&self, graph: &Graph, rates: &Rates, mu: &[Id], model: &[Id]) -> [Id; 2] {
+    fn measures(
+        &self,
+        graph: &Graph,
+        (rates, [velocity, force]): (&Rates, [Id; 2]),
+        mu: &[Id],
+        model: &[Id],
+    ) -> [Id; 2] {
         // The gain is that at the guess.
         let near = if self.nodes() == 1 { NEAR_LIMIT } else { 1.0 };
         let limits = [near * LARGEST_TAIL[self.nodes() - 1], LARGEST_FORCE];
-        let [tail, force] = limits.map(|limit| graph.constant(1.0 / limit));
-        let size = |rows: &Rows| largest(graph, &rows.concat());
-        let (velocity, scale) = (size(&rates.x), largest(graph, mu));
+        let [tail, steep] = limits.map(|limit| graph.constant(1.0 / limit));
+        let scale = largest(graph, mu);
         if self.nodes() == 1 {
-            let f = share(graph, size(&rates.p), scale);
+            let f = share(graph, force, scale);
             let gain = graph.add(self.gain(graph, model), f);
             let product = graph.mul(graph.mul(f, velocity), gain);
             return [graph.mul(tail, product), graph.zero()];
         }
         let zeros = vec![graph.zero(); self.n];
-        let highest = |rows| largest(graph, &mixed(graph, &zeros, |j| self.gauss.highest[j], rows));
+        let weights = constants(graph, &self.gauss.highest);
+        let highest = |rows| largest(graph, &mixed(graph, &zeros, &weights, rows));
         let of_velocity = share(graph, highest(&rates.x), velocity);
         let of_force = share(graph, highest(&rates.p), scale);
-        [graph.mul(tail, of_velocity), graph.mul(force, of_force)]
+        [graph.mul(tail, of_velocity), graph.mul(steep, of_force)]
     }
 
     /// The largest sum of a row of h·H″·∂P/∂x, where P = μ + ½ad\*_x μ to first order; 1 where there is no model.
@@ -506,7 +597,7 @@ impl<'a> Assembly<'a> {
         let extent = graph.mul(graph.constant(4.0), self.group.extent(&graph, &solution[..n]));
         let measures = solution[n..n + MEASURES].iter().map(|&measure| (measure, one));
         let tests = [(left, tolerance), (distance, zero), (extent, one)].into_iter();
-        let nodes: Rows = solution[momenta..].chunks(n).map(<[Id]>::to_vec).collect();
+        let nodes = by_node(n, &solution[momenta..]);
         let (mu, anywhere) = (inputs(&graph, 0, n), vec![zero; self.group.element()]);
         let end = self.group.transport(&graph, &anywhere, &solution[..n], &mu).mu;
         let reach = self.reach(&graph, &mu, &nodes, &end);
@@ -525,11 +616,13 @@ impl<'a> Assembly<'a> {
         if let Some((&count, differences)) = g[self.element..].split_first() {
             let [one, most] = [1.0, KEPT as f64].map(|value| graph.constant(value));
             outputs.push(graph.min(graph.add(count, one), most));
-            let mut new = solution[n + MEASURES..][..rates].to_vec();
-            for old in differences.chunks(rates) {
-                outputs.extend_from_slice(&new);
-                new = new.iter().zip(old).map(|(&new, &old)| graph.sub(new, old)).collect();
-            }
+            let program = differences_after();
+            let row = |rate: usize| {
+                let old = differences.iter().skip(rate).step_by(rates).take(KEPT - 1);
+                [solution[n + MEASURES + rate]].into_iter().chain(old.copied()).collect()
+            };
+            let rows = graph.call_each(&program, &(0..rates).map(row).collect::<Vec<_>>());
+            outputs.extend((0..KEPT).flat_map(|order| rows.iter().map(move |row| row[order])));
         }
         outputs.extend(mu);
         graph.finish(g.len() + n + solution.len(), &outputs)
@@ -541,6 +634,16 @@ impl<'a> Assembly<'a> {
         let energy = |graph: &Graph, mu: &[Id]| self.at(graph, value, mu, 0);
         watch(energy, (algebra, kicks.as_ref()), self.group)
     }
+}
+
+/// A rate, and the differences before it ↦ the differences with it.
+fn differences_after() -> Program {
+    let graph = Graph::new();
+    let mut next = vec![graph.input(0)];
+    for order in 1..KEPT {
+        next.push(graph.sub(next[order - 1], graph.input(order)));
+    }
+    graph.finish(KEPT, &next)
 }
 
 /// Row i of a symmetric matrix, given by its entries (i, j) with j ≤ i, times v.

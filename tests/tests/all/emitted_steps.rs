@@ -2,8 +2,8 @@
 
 #![allow(clippy::unwrap_used)]
 
-use coadjoint::nalgebra::{SVector, Vector3};
 use coadjoint::groups::SL2;
+use coadjoint::nalgebra::{SVector, Vector3};
 use coadjoint::plumbing::ElementNumbers;
 use coadjoint::steps::{Kicked, Splitting};
 use coadjoint::{GeneratingFunction, LieGroup as _, Phase, SE3, SO3, StepError};
@@ -28,9 +28,6 @@ mod comoving_body {
 }
 mod relativistic {
     include!(concat!(env!("OUT_DIR"), "/emitted/relativistic.rs"));
-}
-mod six_variables {
-    include!(concat!(env!("OUT_DIR"), "/emitted/six_variables.rs"));
 }
 mod tables {
     include!(concat!(env!("OUT_DIR"), "/emitted/tables.rs"));
@@ -219,14 +216,14 @@ fn emitted_steps_have_the_bits_of_kernels() -> Result<(), StepError> {
     has_the_bits_of_its_kernel::<SO3, 3>(emitted::RELATIVISTIC, &parameters, |phase, _, count| {
         step.advance_by(phase, count).unwrap();
     });
-    let step = six_variables::SixVariables::new(H, 0.7)?;
-    has_the_bits_of_its_kernel::<SE3, 6>(emitted::SIX_VARIABLES, &[0.7], |phase, _, count| {
-        step.advance_by(phase, count).unwrap();
-    });
     let step = tables::Tables::new(H)?;
-    has_the_bits_of_its_kernel::<tables::TablesGroup, 3>(emitted::TABLES, &[], |phase, _, count| {
-        step.advance_by(phase, count).unwrap();
-    });
+    has_the_bits_of_its_kernel::<tables::TablesGroup, 3>(
+        emitted::TABLES,
+        &[],
+        |phase, _, count| {
+            step.advance_by(phase, count).unwrap();
+        },
+    );
     let step = twist::Twist::new(H, 0.3)?;
     has_the_bits_of_its_kernel::<SO3, 3>(emitted::TWIST, &[0.3], |phase, time, count| {
         step.advance_by(phase, time, count).unwrap();
