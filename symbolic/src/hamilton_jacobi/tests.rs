@@ -4,8 +4,8 @@ use crate::hamilton_jacobi::chart::{Composition, Inverse, Series, Side, Work};
 use crate::hamilton_jacobi::{TermLimit, derive, derive_orders, estimate, predictor};
 use crate::lie::{Chart, LieAlgebra, catalogue};
 use crate::number::{integer, ratio};
-use num_traits::ToPrimitive;
 use crate::poly::{Arithmetic, Polynomial};
+use num_traits::ToPrimitive;
 
 /// A Hamiltonian of degree three with every kind of term, in `extra` further symbols.
 fn hamiltonian(dimension: usize, extra: usize) -> Polynomial {
