@@ -24,7 +24,7 @@ struct Method<'a> {
 }
 
 /// A lattice with a state.
-struct Problem {
+struct Specimen {
     name: &'static str,
     cube: Cube,
     lattice: Lattice,
@@ -100,7 +100,7 @@ fn error(end: &State, exact: &State) -> f64 {
 }
 
 fn rotations<'a>(
-    problem: &'a Problem,
+    problem: &'a Specimen,
     family: Family,
     order: Order,
     settings: &'static [u64],
@@ -112,7 +112,7 @@ fn rotations<'a>(
     Method { name: format!("{family}, order {order}"), order, settings, steps: Box::new(steps) }
 }
 
-fn gauss<'a, const M: usize>(problem: &'a Problem, settings: &'static [u64]) -> Method<'a> {
+fn gauss<'a, const M: usize>(problem: &'a Specimen, settings: &'static [u64]) -> Method<'a> {
     let steps = |spins: &mut State, h: f64, steps: u64| {
         Ok(problem.lattice.gauss::<M>(h)?.advance_by(spins, steps)?)
     };
@@ -120,7 +120,7 @@ fn gauss<'a, const M: usize>(problem: &'a Problem, settings: &'static [u64]) -> 
     Method { name: format!("Gauss, order {order}"), order, settings, steps: Box::new(steps) }
 }
 
-fn methods(problem: &Problem) -> Result<Vec<Method<'_>>, Failure> {
+fn methods(problem: &Specimen) -> Result<Vec<Method<'_>>, Failure> {
     let cube = problem.cube;
     let rival = |name: &str, order, settings, steps: fn(Cube, &mut rivals::Board, f64, u64)| {
         let made = move |spins: &mut State, h: f64, count: u64| {
@@ -148,18 +148,18 @@ fn methods(problem: &Problem) -> Result<Vec<Method<'_>>, Failure> {
     Ok(methods)
 }
 
-fn problem(name: &'static str, side: usize) -> Result<Problem, Failure> {
+fn problem(name: &'static str, side: usize) -> Result<Specimen, Failure> {
     let (square, field) = if name == "cold" { (0.3, 0.5) } else { (0.0, 0.0) };
     let cube = Cube { side, square, field };
     let start = if name == "cold" { cold(side) } else { hot(side.pow(3)) };
     let time = if name == "cold" { 2 } else { 1 };
-    Ok(Problem { name, cube, lattice: lattice(cube)?, start, time })
+    Ok(Specimen { name, cube, lattice: lattice(cube)?, start, time })
 }
 
 /// Nanoseconds of a spin and unit of time at each error, by the order of the method from the setting that is nearest; and the
 /// nanoseconds of a step there.
 fn costs(
-    problem: &Problem,
+    problem: &Specimen,
     method: &Method<'_>,
     exact: &State,
     runs: usize,
@@ -216,7 +216,7 @@ pub fn tables(quick: bool, only: &str) -> Result<(), Failure> {
 }
 
 /// The time for an error, and how many times as long RK4 takes.
-fn work(problem: &Problem, runs: usize) -> Result<(), Failure> {
+fn work(problem: &Specimen, runs: usize) -> Result<(), Failure> {
     let mut exact = problem.start.clone();
     problem.lattice.gauss::<6>(0.0625)?.advance_by(&mut exact, 16 * problem.time)?;
     let heads = TARGETS.map(|target| format!("{target:.0e}")).join(" | ");

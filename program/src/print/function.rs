@@ -19,7 +19,7 @@ pub fn function(dialect: &impl Dialect, signature: &Signature<'_>, longest: usiz
 /// The text of a signature's program, where it has more than `longest` operations as pieces. What a piece leaves for later
 /// ones and for the outputs is in an array `w`. Operations on numbers side by side count once.
 pub fn body(dialect: &impl Dialect, signature: &Signature<'_>, longest: usize) -> Body {
-    let plan = Plan::new(signature.program, dialect.has_rows(), longest);
+    let plan = Arrangement::new(signature.program, dialect.has_rows(), longest);
     let mut writer = Writer::new(dialect, signature);
     let mut result = Body::default();
     if plan.count == 1 {
@@ -49,7 +49,7 @@ pub fn body(dialect: &impl Dialect, signature: &Signature<'_>, longest: usize) -
 
 /// A statement of a program's text.
 #[derive(Clone, Copy, Debug)]
-enum Step {
+enum Statement {
     /// The operation of this number.
     Node(usize),
     /// The rows of this number.
@@ -57,8 +57,8 @@ enum Step {
 }
 
 /// The statements of a program, in pieces of about as many operations.
-struct Plan {
-    steps: Vec<Step>,
+struct Arrangement {
+    steps: Vec<Statement>,
     /// The piece of each, ascending.
     pieces: Vec<usize>,
     /// The number of pieces.
@@ -67,7 +67,7 @@ struct Plan {
     rows_of: Vec<Option<usize>>,
 }
 
-impl Plan {
+impl Arrangement {
     fn new(program: &Program, has_rows: bool, longest: usize) -> Self {
         let nodes = program.nodes();
         let all = if has_rows { program.rows() } else { &[] };
@@ -102,19 +102,19 @@ impl Plan {
         let mut steps = Vec::new();
         for at in 0..nodes.len() {
             let here = (0..all.len()).filter(|&number| called[number] && first[number] == at);
-            steps.extend(here.map(Step::Rows));
+            steps.extend(here.map(Statement::Rows));
             if written[at] && nodes[at].is_operation() {
-                steps.push(Step::Node(at));
+                steps.push(Statement::Node(at));
             }
         }
-        let operations = |step: &Step| match *step {
-            Step::Node(_) => 1,
-            Step::Rows(number) => all[number].program.operations().max(1),
+        let operations = |step: &Statement| match *step {
+            Statement::Node(_) => 1,
+            Statement::Rows(number) => all[number].program.operations().max(1),
         };
         let total: usize = steps.iter().map(operations).sum();
         let length = total.div_ceil(total.div_ceil(longest).max(1)).max(1);
         let mut seen = 0;
-        let piece = |step: &Step| {
+        let piece = |step: &Statement| {
             let before = seen;
             seen += operations(step);
             before / length
@@ -125,10 +125,10 @@ impl Plan {
     }
 
     /// The nodes that a statement makes.
-    fn made(&self, program: &Program, step: Step) -> Vec<Id> {
+    fn made(&self, program: &Program, step: Statement) -> Vec<Id> {
         match step {
-            Step::Node(at) => vec![Id(at as u32)],
-            Step::Rows(number) => {
+            Statement::Node(at) => vec![Id(at as u32)],
+            Statement::Rows(number) => {
                 let outputs = program.rows()[number].outputs.iter().flatten().flatten();
                 let own = outputs.filter(|id| self.rows_of[id.index()] == Some(number));
                 own.copied().collect()
@@ -143,8 +143,8 @@ impl Plan {
         for (step, &piece) in self.steps.iter().zip(&self.pieces) {
             let mut read = |id: Id| last[id.index()] = piece.max(last[id.index()]);
             match *step {
-                Step::Node(at) => program.nodes()[at].operands().for_each(&mut read),
-                Step::Rows(number) => {
+                Statement::Node(at) => program.nodes()[at].operands().for_each(&mut read),
+                Statement::Rows(number) => {
                     program.rows()[number].inputs.iter().flatten().copied().for_each(&mut read);
                 }
             }
@@ -192,16 +192,16 @@ impl<'a, D: Dialect> Writer<'a, D> {
         Self { dialect, signature, names }
     }
 
-    fn statements(&mut self, steps: &[Step], text: &mut String) {
+    fn statements(&mut self, steps: &[Statement], text: &mut String) {
         for step in steps {
             match *step {
-                Step::Node(at) => {
+                Statement::Node(at) => {
                     let name = self.dialect.bound(&format!("t{at}"));
                     let node = self.signature.program.nodes()[at];
                     text.push_str(&operation(self.dialect, node, &name, &self.names));
                     self.names[at] = name;
                 }
-                Step::Rows(number) => self.rows(number, text),
+                Statement::Rows(number) => self.rows(number, text),
             }
         }
     }

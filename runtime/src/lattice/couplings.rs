@@ -31,7 +31,7 @@ enum Applied {
 }
 
 /// Neighbours whose spins have one matrix before them in the field.
-struct Group {
+struct Bundle {
     matrix: Matrix3<f64>,
     applied: Applied,
     neighbours: Neighbours,
@@ -39,7 +39,7 @@ struct Group {
 
 /// The neighbours of sites, and the fields they make.
 pub struct Couplings {
-    groups: Vec<Group>,
+    groups: Vec<Bundle>,
     pub places: Places,
     pub copies: Copies,
 }
@@ -77,7 +77,7 @@ impl Couplings {
                 list if diagonal => Applied::Diagonal(list),
                 _ => Applied::Full([0, 1, 2].map(|i| [0, 1, 2].map(|j| matrix[(i, j)]))),
             };
-            Group { matrix, applied, neighbours }
+            Bundle { matrix, applied, neighbours }
         };
         Self { groups: matrices.into_iter().zip(neighbours).map(group).collect(), places, copies }
     }

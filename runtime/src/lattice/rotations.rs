@@ -34,7 +34,7 @@ use super::threads;
 /// ```
 pub struct RotationStep {
     couplings: Couplings,
-    parts: Vec<Part>,
+    parts: Vec<Summand>,
     /// The parts of a step with their lengths in time.
     sequence: Vec<(usize, f64)>,
     /// The largest speed of each part for spins of length zero, and by how much it grows with the largest length.
@@ -45,7 +45,7 @@ pub struct RotationStep {
 }
 
 /// An energy whose flow is known.
-enum Part {
+enum Summand {
     Axis(Axis),
     Pairs(Pairs, Exchange),
     /// The sites of a colour in the field of the others.
@@ -109,7 +109,7 @@ impl RotationStep {
                     (sites, held) = (single(energies, held), Vector3::zeros());
                 }
                 let colours = 0..couplings.places.colours.len();
-                let colours = colours.map(|colour| Part::Colour(colour, held.into()));
+                let colours = colours.map(|colour| Summand::Colour(colour, held.into()));
                 colours.chain(sites).collect()
             }
         };
@@ -149,7 +149,7 @@ impl RotationStep {
         let Self { couplings, spins, along, .. } = self;
         let places = couplings.places.len();
         match &self.parts[part] {
-            Part::Axis(part) => match part.axis {
+            Summand::Axis(part) => match part.axis {
                 Some(axis) => about_axis::<SHORT>(couplings, part, axis, time, spins),
                 None => {
                     let [x, y, z] = spins.all();
@@ -164,11 +164,11 @@ impl RotationStep {
                     });
                 }
             },
-            Part::Pairs(pairs, exchange) => {
+            Summand::Pairs(pairs, exchange) => {
                 let columns = spins.all_mut();
                 threads::wide(|| exchange_all::<SHORT>(pairs, *exchange, time, columns));
             }
-            Part::Colour(colour, field) => {
+            Summand::Colour(colour, field) => {
                 let range = &couplings.places.colours[*colour];
                 let lists = couplings.copies.of_colour[*colour].clone();
                 for column in spins.all_mut() {
@@ -183,7 +183,7 @@ impl RotationStep {
                     turn::<SHORT>(x).back(spin)
                 });
             }
-            Part::Sites(site) => {
+            Summand::Sites(site) => {
                 each_pack(spins.all_mut(), places, |_, spin| {
                     let along = dot(spin, each(|axis| Pack::of(site.direction[axis])));
                     about::<SHORT>(site.direction, site.rate(along).by(time), spin)
@@ -320,7 +320,11 @@ fn exchange_all<const SHORT: bool>(
 }
 
 /// The parts of the energy that depend on one component of all spins each.
-fn axes(couplings: &Couplings, energies: &Energies, shift: f64) -> Result<Vec<Part>, LatticeError> {
+fn axes(
+    couplings: &Couplings,
+    energies: &Energies,
+    shift: f64,
+) -> Result<Vec<Summand>, LatticeError> {
     if couplings.matrices().any(|matrix| *matrix != matrix.transpose()) {
         return Err(LatticeError::NotAdmitted { family: Family::Axes { shift } });
     }
@@ -332,13 +336,13 @@ fn axes(couplings: &Couplings, energies: &Energies, shift: f64) -> Result<Vec<Pa
         let weights: Vec<f64> = weights.iter().map(|list| list[at]).collect();
         let none = linear == 0.0 && squares[at] == 0.0 && weights.iter().all(|w| *w == 0.0);
         let direction = Site { direction, linear, square: squares[at] };
-        (!none).then_some(Part::Axis(Axis { direction, axis, weights }))
+        (!none).then_some(Summand::Axis(Axis { direction, axis, weights }))
     };
     Ok(directions().into_iter().enumerate().filter_map(part).collect())
 }
 
 /// The energies of the edges of each bond and colour.
-fn pairs(sites: usize, couplings: &Couplings, energies: &Energies) -> Vec<Part> {
+fn pairs(sites: usize, couplings: &Couplings, energies: &Energies) -> Vec<Summand> {
     let mut parts = Vec::new();
     for (edges, matrix) in &energies.bonds {
         let (isotropic, dyads) = dyads(matrix);
@@ -346,7 +350,7 @@ fn pairs(sites: usize, couplings: &Couplings, energies: &Energies) -> Vec<Part> 
         let exchanges = isotropic.into_iter().chain(dyads.into_iter().map(Exchange::Dyad));
         for exchange in exchanges {
             for colour in colours::edges(sites, edges) {
-                parts.push(Part::Pairs(Pairs::new(&couplings.places, &colour), exchange));
+                parts.push(Summand::Pairs(Pairs::new(&couplings.places, &colour), exchange));
             }
         }
     }
@@ -354,7 +358,7 @@ fn pairs(sites: usize, couplings: &Couplings, energies: &Energies) -> Vec<Part> 
 }
 
 /// The energies of single sites in a field.
-fn single(energies: &Energies, mut field: Vector3<f64>) -> Vec<Part> {
+fn single(energies: &Energies, mut field: Vector3<f64>) -> Vec<Summand> {
     // The isotropic part is a multiple of |s|² and moves nothing.
     let (_, dyads) = dyads(&energies.anisotropy);
     let mut sites = Vec::new();
@@ -372,23 +376,23 @@ fn single(energies: &Energies, mut field: Vector3<f64>) -> Vec<Part> {
     if size > 0.0 {
         sites.push(Site { direction: (field / size).into(), linear: size, square: 0.0 });
     }
-    sites.into_iter().map(Part::Sites).collect()
+    sites.into_iter().map(Summand::Sites).collect()
 }
 
 /// The largest speed of rotation of a part for spins of length zero, and by how much it grows with the largest length.
-fn speed(part: &Part, couplings: &Couplings) -> [f64; 2] {
+fn speed(part: &Summand, couplings: &Couplings) -> [f64; 2] {
     match part {
-        Part::Axis(Axis { direction: Site { linear, square, .. }, weights, .. }) => {
+        Summand::Axis(Axis { direction: Site { linear, square, .. }, weights, .. }) => {
             let most = couplings.most().zip(weights).map(|(most, weight)| most * weight.abs());
             [linear.abs(), square.abs() + most.sum::<f64>()]
         }
-        Part::Pairs(_, Exchange::Isotropic(factor)) => [0.0, 2.0 * factor.abs()],
-        Part::Pairs(_, Exchange::Dyad(dyad)) => [0.0, dyad.factor.abs()],
-        Part::Colour(_, field) => {
+        Summand::Pairs(_, Exchange::Isotropic(factor)) => [0.0, 2.0 * factor.abs()],
+        Summand::Pairs(_, Exchange::Dyad(dyad)) => [0.0, dyad.factor.abs()],
+        Summand::Colour(_, field) => {
             let most = couplings.most().zip(couplings.matrices());
             let most = most.map(|(most, matrix)| most * matrix.norm());
             [Vector3::from(*field).norm(), most.sum::<f64>()]
         }
-        Part::Sites(Site { linear, square, .. }) => [linear.abs(), square.abs()],
+        Summand::Sites(Site { linear, square, .. }) => [linear.abs(), square.abs()],
     }
 }
