@@ -1,6 +1,9 @@
 //! Steps that others make, on a simple cubic lattice written for nothing else: the two sublattices of a chessboard, each row
 //! of each with a number on both sides that closes the ring, in lanes of eight.
 
+// Copies of slices stay calls.
+#![allow(clippy::manual_memcpy)]
+
 /// Eight numbers.
 #[derive(Clone, Copy)]
 #[repr(align(64))]

@@ -293,6 +293,8 @@ impl Vectors for [&[f64]; 3] {
 }
 
 /// Eight numbers in a row.
+// A copy of slices stays a call.
+#[allow(clippy::manual_memcpy)]
 #[inline(always)]
 pub fn row(numbers: &[f64], place: usize) -> Pack {
     let numbers = &numbers[place..place + LANES];
