@@ -42,14 +42,18 @@ fn random_programs_have_the_same_bits() {
                 flows: [0, 0, 1, 3][chance.below(4)],
             };
             let sample = Sample::new(shape, &mut chance);
-            rows += sample.kernel.programs.correct.rows().len();
+            let programs = &sample.kernel.programs;
+            rows += [&programs.guess, &programs.correct, &programs.transport]
+                .map(|program| program.rows().len())
+                .iter()
+                .sum::<usize>();
             let entry = compile(&sample.kernel, Trajectories::Both);
             for steps in [0, 1, 3, 7, 255, 256, 257, 300, 512, 700] {
                 compare(&sample, &entry, steps, &mut chance, &mut seen);
             }
         }
         assert!(seen.whole > 100 && seen.stopped > 100 && seen.back > 100, "{seen:?}");
-        assert!(rows > 10, "{rows}");
+        assert!(rows > 20, "{rows}");
     }
 }
 

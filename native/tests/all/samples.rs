@@ -148,23 +148,25 @@ fn grow(
     ids
 }
 
-/// The results of a random program on rows of nodes: some are at equal distances, some the same in all rows.
+/// The results of a random program on rows of late nodes: some are at equal distances, some the same in all rows.
 fn side_by_side(graph: &Graph, ids: &[Id], shape: Shape, chance: &mut Chance) -> Vec<Id> {
     let (inputs, count) = (1 + chance.below(5), 2 + chance.below(4));
     let own = Graph::new();
-    let nodes = 3 + chance.below(12);
-    let results = grow(&own, Shape { nodes, ..shape }, inputs, &mut Chance(chance.next()), false);
-    let outputs: Vec<Id> =
-        (0..3).map(|_| results[results.len() - 1 - chance.below(nodes)]).collect();
+    let shape = Shape { nodes: 3 + chance.below(12), slots: 0, ..shape };
+    let made = grow(&own, shape, inputs, chance, false);
+    // All inputs count.
+    let all = (0..inputs).map(|i| own.input(i)).reduce(|sum, one| own.add(sum, one));
+    let outputs: Vec<Id> = all.into_iter().chain(made.into_iter().rev().take(2)).collect();
     let program = own.finish(inputs, &outputs);
+    let late = &ids[ids.len() / 2..];
     let mut rows = vec![Vec::new(); count];
     for _ in 0..inputs {
-        let (kind, first) = (chance.below(3), chance.below(ids.len()));
+        let (kind, first) = (chance.below(3), chance.below(late.len()));
         for (row, inputs) in rows.iter_mut().enumerate() {
             inputs.push(match kind {
-                0 => ids[first],
-                1 => ids[(first + row * (1 + first % 2)) % ids.len()],
-                _ => ids[ids.len() - 1 - chance.below(ids.len().min(9))],
+                0 => late[first],
+                1 => late[(first + row * (1 + first % 2)) % late.len()],
+                _ => late[chance.below(late.len())],
             });
         }
     }

@@ -72,9 +72,10 @@ pub trait Dialect {
     fn row(&self, name: &str, row: RowOf<'_>, count: usize) -> [String; 2] {
         let read = match row {
             RowOf::Same(one) => one.to_owned(),
-            RowOf::Strided(array, first, 1) => format!("{array}[{first} + i]"),
-            RowOf::Strided(array, first, distance) => format!("{array}[{first} + {distance} * i]"),
-            RowOf::Result(rows, result) => format!("n{rows}[{} + i]", result * count),
+            RowOf::Strided(array, first, distance) => {
+                format!("{array}[{}]", along(first, distance))
+            }
+            RowOf::Result(rows, result) => format!("n{rows}[{}]", along(result * count, 1)),
             RowOf::List(list) => {
                 let (number, list) = (&self.c().number, list.join(", "));
                 let declaration = format!("    const {number} {name}[{count}] = {{{list}}};\n");
@@ -92,7 +93,7 @@ pub trait Dialect {
     /// Their end, with these results.
     fn close_rows(&self, rows: usize, count: usize, results: &[&str]) -> String {
         let set = |(result, name): (usize, &&str)| {
-            format!("    n{rows}[{} + i] = {name};\n", result * count)
+            format!("    n{rows}[{}] = {name};\n", along(result * count, 1))
         };
         results.iter().enumerate().map(set).collect::<String>() + "    }\n"
     }
@@ -160,8 +161,10 @@ pub trait Dialect {
             } else if let Some((array, first)) = entry(value) {
                 let name = &field.name;
                 text.push_str(&format!(
-                    "{}        {name}[{at} + i] = {array}[{first} + i];\n    }}\n",
-                    each(copied)
+                    "{}        {name}[{}] = {array}[{}];\n    }}\n",
+                    each(copied),
+                    along(at, 1),
+                    along(first, 1)
                 ));
                 number += copied;
             }
@@ -252,7 +255,13 @@ impl C {
 
 /// The beginning of a loop over rows.
 fn each(count: usize) -> String {
-    format!("    for (unsigned int i = 0; i < {count}; i++) {{\n")
+    format!("    for (unsigned int i = 0u; i < {count}u; i++) {{\n")
+}
+
+/// The place of row `i` in an array, by that of the first and their distance.
+fn along(first: usize, distance: usize) -> String {
+    let way = if distance == 1 { "i".to_owned() } else { format!("({distance}u * i)") };
+    if first == 0 { way } else { format!("{first}u + {way}") }
 }
 
 /// Outputs that are this many entries of an array are copied in a loop.
