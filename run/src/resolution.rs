@@ -84,10 +84,12 @@ impl Derived {
     }
 }
 
+/// Values at some times, one after the other: velocities, or forces relative to the momentum.
+type Values<'a> = Box<dyn Fn(&[f64]) -> Vec<f64> + 'a>;
+
 /// A function of time, and when steps look at it.
 struct Moving<'a> {
-    /// Its values at some times, one after the other: velocities, or forces relative to the momentum.
-    values: Box<dyn Fn(&[f64]) -> Vec<f64> + 'a>,
+    values: Values<'a>,
     /// The times of a step, from its beginning on and in its lengths, and their weights.
     looks: Vec<(f64, f64)>,
 }

@@ -3,7 +3,6 @@
 
 use coadjoint_codegen::diagnostic::Diagnostics;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
-use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::parse::rust;
 use coadjoint_codegen::step::Origin;
 
@@ -20,14 +19,6 @@ pub fn origin((arguments, function): Source) -> syn::Result<Origin> {
         rust::hamiltonian(arguments.parse()?, &function).map_err(Diagnostics::into_syn_error)?;
     Origin::derive(read, TermLimit::default())
         .map_err(|error| syn::Error::new_spanned(&function.sig.ident, error))
-}
-
-/// The integrator of a polynomial.
-pub fn from_function(source: Source) -> syn::Result<Integrator> {
-    match origin(source)? {
-        Origin::Series(integrator) => Ok(*integrator),
-        Origin::Collocation(smooth) => Err(syn::Error::new_spanned(smooth.source, "no polynomial")),
-    }
 }
 
 /// The paper's rigid body, its Hessian truncated for Newton's method.

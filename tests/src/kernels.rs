@@ -5,8 +5,10 @@ use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::lie;
 use coadjoint_codegen::problem::{Problem, Solver};
 use coadjoint_codegen::smooth::{Hamiltonian, Smooth};
-use coadjoint_codegen::step::Step;
+use coadjoint_codegen::step::{Origin, Step};
 use coadjoint_codegen::system::{Options, read, read_either};
+
+use crate::emitted;
 
 /// Groups with a Hamiltonian on each.
 pub const SYSTEMS: [(&str, &str); 15] = [
@@ -84,5 +86,13 @@ pub fn smooth(group: &str, hamiltonian: &str, truncation: usize) -> Smooth {
     match read_either(&text, options, &[]).unwrap().problem {
         Hamiltonian::Smooth(smooth) => *smooth,
         Hamiltonian::Polynomial(..) => panic!("a polynomial: {hamiltonian}"),
+    }
+}
+
+/// The integrator of a polynomial.
+pub fn from_function(source: emitted::Source) -> syn::Result<Integrator> {
+    match emitted::origin(source)? {
+        Origin::Series(integrator) => Ok(*integrator),
+        Origin::Collocation(smooth) => Err(syn::Error::new_spanned(smooth.source, "no polynomial")),
     }
 }

@@ -11,6 +11,7 @@ use coadjoint_program::states::{States, into_lane, of_lane};
 use coadjoint_program::{Precision, Trajectories, WIDTH};
 use rayon::prelude::*;
 
+use super::course::Course;
 use super::layout::{Attitude, Layout, Shape};
 use super::march::{March, Way};
 use crate::backend::Backend;
@@ -19,7 +20,7 @@ use crate::error::RunError;
 use crate::grid::Grid;
 use crate::load::{Derived, System};
 use crate::number::{maximum, shortest};
-use crate::simulate::{Maker, Stop, Warning, drifting, error_of, many};
+use crate::simulate::{Maker, Warning, drifting, error_of, many};
 
 /// The system as ensembles solve it: in lanes by Newton's method whatever the dimension, since its Hessian is then exact.
 ///
@@ -95,30 +96,6 @@ impl Drift {
     pub fn warnings(self, rows: u64, steps: u64) -> impl Iterator<Item = Warning> {
         let slow = many(self.rescued, rows.saturating_mul(steps), || None);
         drifting(self.conserved, steps).chain(slow)
-    }
-}
-
-/// The steps of each row, and the times at which its states are kept.
-#[derive(Clone, Debug, Default)]
-pub struct Course {
-    /// Steps of every row.
-    pub steps: u64,
-    /// The stops at which states are kept, in order; if there are none, only the final state is kept.
-    pub stops: Vec<Stop>,
-}
-
-impl Course {
-    /// States kept of a row.
-    pub fn kept(&self) -> usize {
-        self.stops.len().max(1)
-    }
-
-    /// From step to step, with the stop that is there.
-    pub(super) fn legs(&self) -> impl Iterator<Item = (u64, u64, Option<Stop>)> {
-        let ends = self.stops.iter().map(|stop| stop.step);
-        let starts = std::iter::once(0).chain(ends.clone());
-        let stops = self.stops.iter().copied().map(Some).chain([None]);
-        starts.zip(ends.chain([self.steps])).zip(stops).map(|((a, b), stop)| (a, b, stop))
     }
 }
 

@@ -11,7 +11,7 @@ use coadjoint_program::states::{States, into_lane, of_lane};
 use coadjoint_program::{Precision, WIDTH};
 use rayon::prelude::*;
 
-use super::engine::Course;
+use super::course::Course;
 use crate::engine::{Motion, Numbers};
 use crate::number::maximum;
 use crate::simulate::Stop;

@@ -1,8 +1,10 @@
 //! Many trajectories of one system, in memory.
 
+mod course;
 mod engine;
 mod layout;
 mod march;
 
-pub use engine::{Course, Drift, Engine, How, Rejected, Rows, Use, Watch, in_lanes};
+pub use course::Course;
+pub use engine::{Drift, Engine, How, Rejected, Rows, Use, Watch, in_lanes};
 pub use layout::{Attitude, Found, Known, Layout, Shape};

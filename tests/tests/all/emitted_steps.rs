@@ -12,7 +12,8 @@ use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::{FoldTable, Integrator, Kick};
 use coadjoint_codegen::system::{Options, Parameters, read};
 use coadjoint_program::{Kernel, KernelParts, Precision, Programs, Stepper};
-use coadjoint_tests::emitted::{self, from_function};
+use coadjoint_tests::emitted;
+use coadjoint_tests::kernels::from_function;
 
 mod rigid_body {
     include!(concat!(env!("OUT_DIR"), "/emitted/rigid_body.rs"));

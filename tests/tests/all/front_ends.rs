@@ -2,7 +2,7 @@
 
 use coadjoint::nalgebra::Vector3;
 use coadjoint::{GeneratingFunction, LieGroup, Phase, SO3, StepError, lie_poisson};
-use coadjoint_tests::emitted::from_function;
+use coadjoint_tests::kernels::from_function;
 
 mod built {
     include!(concat!(env!("OUT_DIR"), "/rigid_body.rs"));
