@@ -10,36 +10,20 @@ use crate::kernel::WIDTH;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct States {
     numbers: Vec<f64>,
-    element: usize,
-    dim: usize,
-    rows: usize,
+    /// The number of numbers of a block.
+    length: usize,
 }
 
 impl States {
     /// This many states of `element` numbers of g and `dim` of μ, which are not known yet: their numbers are NaN.
     pub fn new(element: usize, dim: usize, rows: usize) -> Self {
         let length = (element + dim) * WIDTH;
-        Self { numbers: vec![f64::NAN; rows.div_ceil(WIDTH) * length], element, dim, rows }
-    }
-
-    /// The number of states.
-    pub fn rows(&self) -> usize {
-        self.rows
-    }
-
-    /// The number of numbers of g.
-    pub fn element(&self) -> usize {
-        self.element
-    }
-
-    /// The number of numbers of μ.
-    pub fn dim(&self) -> usize {
-        self.dim
+        Self { numbers: vec![f64::NAN; rows.div_ceil(WIDTH) * length], length }
     }
 
     /// The number of numbers of a block.
     pub fn length(&self) -> usize {
-        (self.element + self.dim) * WIDTH
+        self.length
     }
 
     /// All blocks, one after the other.

@@ -30,7 +30,7 @@ use crate::control::{Control, work};
 use crate::emit::emitted;
 use crate::error::{raised, raised_by, refused};
 use crate::event::Watched;
-use crate::function::{Failures, Callables, input};
+use crate::function::{Callables, Failures, input};
 use crate::outcome::result_of;
 use crate::record::{Keeper, Table};
 use crate::stepper::Stepper;
@@ -76,25 +76,6 @@ pub(crate) type Purpose = (usize, &'static str, Option<Vec<String>>);
 
 /// Systems that have been derived.
 type Cache = Arc<Mutex<Vec<(Purpose, Arc<Derived>)>>>;
-
-/// Derived systems are shared by all that is done with them.
-fn derive(
-    cache: &Cache,
-    name: &str,
-    system: System,
-    ensemble: Option<Vec<String>>,
-    control: &Control,
-) -> Result<Arc<Derived>, RunError> {
-    let key = purpose(&system, ensemble);
-    if let Some(found) = known(&cache.lock().unwrap_or_else(PoisonError::into_inner), &key) {
-        return Ok(found);
-    }
-    let system = if key.2.is_some() { ensemble::in_lanes(system)? } else { system };
-    control.deriving.store(true, Ordering::Relaxed);
-    let made = Derived::of_file(Path::new(name), system).map(Arc::new);
-    control.deriving.store(false, Ordering::Relaxed);
-    Ok(keep(cache, key, made?))
-}
 
 /// The purpose of a system with its truncation and frame.
 fn purpose(system: &System, ensemble: Option<Vec<String>>) -> Purpose {
@@ -144,6 +125,25 @@ impl Core {
         raised_by(py, error, &self.failures)
     }
 
+    /// A system of this text with its method, which is shared by all that is done with it.
+    fn derive(
+        &self,
+        system: System,
+        ensemble: Option<Vec<String>>,
+        control: &Control,
+    ) -> Result<Arc<Derived>, RunError> {
+        let key = purpose(&system, ensemble);
+        let found = known(&self.derived.lock().unwrap_or_else(PoisonError::into_inner), &key);
+        if let Some(found) = found {
+            return Ok(found);
+        }
+        let system = if key.2.is_some() { ensemble::in_lanes(system)? } else { system };
+        control.deriving.store(true, Ordering::Relaxed);
+        let made = Derived::of_file(self.path(), system).map(Arc::new);
+        control.deriving.store(false, Ordering::Relaxed);
+        Ok(keep(&self.derived, key, made?))
+    }
+
     /// The system with the truncation and the step that these settings ask for; a sentence about a choice.
     fn accurate(
         &self,
@@ -165,7 +165,7 @@ impl Core {
         if let Some(truncation) = accuracy.truncation {
             system.problem.set_truncation(truncation);
         }
-        let met = meet_tolerance(Path::new(&self.name), &mut system, accuracy)?;
+        let met = meet_tolerance(self.path(), &mut system, accuracy)?;
         let choice = met.map(|(choice, derived)| {
             if ensemble.is_none() {
                 keep(&self.derived, purpose(&system, None), Arc::new(derived));
@@ -329,7 +329,7 @@ impl Core {
         if every == Some(0) {
             return Err(refused(py, "every counts steps from 1; try every=1".to_owned()));
         }
-                let size = self.shape().matrix_size;
+        let size = self.shape().matrix_size;
         let own = given.events.iter().cloned().map(Event::of);
         let events: Vec<Event> = own
             .chain(events.into_iter().map(|event| event.event(size, self.failures.clone())))
@@ -363,7 +363,7 @@ impl Core {
                 )));
             }
             let truncation = system.problem.facts().truncation;
-            let derived = derive(&here.derived, &here.name, system, None, control)?;
+            let derived = here.derive(system, None, control)?;
             control.total.store(schedule.steps, Ordering::Relaxed);
             let mut keeper = Keeper { table: Table::default(), control };
             let outcome = run(&derived, &setup, &mut keeper)?;
@@ -411,12 +411,8 @@ impl Core {
             let path = Path::new(&here.name);
             let shape = here.shape();
             let dim = shape.dim.min(width);
-            let layout = Found::of(
-                shape,
-                &Known::default(),
-                &[],
-                width.saturating_sub(parameters.len()),
-            )?;
+            let layout =
+                Found::of(shape, &Known::default(), &[], width.saturating_sub(parameters.len()))?;
             let layout = Layout { parameters, ..layout.layout };
             let varied = layout.varied();
             // The largest one is in the fastest motion.
@@ -443,7 +439,7 @@ impl Core {
             let truncation = system.problem.facts().truncation;
             let frame = system.problem.polynomial().map_or("collocation", Problem::frame_name);
             let momentum = system.run.momentum.clone();
-            let derived = derive(&here.derived, &here.name, system, Some(varied), control)?;
+            let derived = here.derive(system, Some(varied), control)?;
             let lanes = (count as f64 / coadjoint_program::WIDTH as f64).max(1.0);
             let how = How { backend, work: schedule.steps as f64 * lanes, device: None };
             derived.reaches(&schedule)?;
@@ -598,7 +594,7 @@ impl Core {
             let step = step
                 .or(system.run.step)
                 .ok_or_else(|| RunError::Option("--step is missing: give --step 0.1".to_owned()))?;
-            let derived = derive(&here.derived, &here.name, system, None, control)?;
+            let derived = here.derive(system, None, control)?;
             // It is the default, and there is no such code for collocation.
             let by_default = backend == Backend::Jit && derived.series().is_none();
             let backend = if by_default { Backend::Auto } else { backend };
@@ -655,7 +651,7 @@ impl Core {
             let asked = Accuracy { step, t0, ..Accuracy::default() };
             let (system, _) = here.accurate(&asked, None)?;
             let trial = check::Trial::new(&asked, &system.run, points, seed)?;
-            let derived = derive(&here.derived, &here.name, system, None, control)?;
+            let derived = here.derive(system, None, control)?;
             let (laws, steep) = check::check(&derived, &trial)?;
             let law = |law: check::Law| {
                 let holds = match law.verdict {
