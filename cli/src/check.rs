@@ -1,6 +1,5 @@
 //! `coadjoint check`: the laws of the method, tried on this system at random points near its run.
 
-use coadjoint_codegen::integrator::Kicks;
 use coadjoint_codegen::smooth::Facts;
 use coadjoint_codegen::system::Parameters;
 use coadjoint_run::check::{Law, Trial, Verdict, check, steep, unmeasured};
@@ -31,7 +30,7 @@ pub(crate) fn run(options: &CheckOptions) -> Result<(), CliError> {
     let (group, label) = (algebra.name(), system.label());
     let chart = system.series().map(|series| series.problem.chart);
     let Trial { step, points, seed, .. } = trial;
-    let breaks = system.kicks().and_then(Kicks::torque).is_some() && !system.is_damped();
+    let breaks = system.drive().is_some_and(|drive| drive.torque.is_some());
     if options.format == Format::Json {
         let mut object = json!({
             "system": name,
@@ -49,7 +48,7 @@ pub(crate) fn run(options: &CheckOptions) -> Result<(), CliError> {
             })).collect::<Value>(),
         });
         if breaks {
-            object["torque"] = json!("breaks the laws: they are those of the flow between kicks");
+            object["torque"] = json!("breaks the laws: the order is measured alone");
         }
         if let Some(chart) = chart {
             object["chart"] = json!(chart.to_string());
@@ -66,7 +65,7 @@ pub(crate) fn run(options: &CheckOptions) -> Result<(), CliError> {
         );
         ratio.iter().for_each(|&ratio| outln!("  warning: {}", steep(ratio)));
         if breaks {
-            outln!("  the flow between kicks, whose laws the torque breaks:");
+            outln!("  a torque breaks the other laws:");
         }
         laws.iter().for_each(|law| outln!("  {}", line(law)));
         unmeasured(&system).iter().for_each(|why| outln!("  {why}"));

@@ -47,6 +47,6 @@ pub use pass::in_other_frame;
 #[cfg(feature = "judge")]
 pub use coadjoint_symbolic::judge;
 pub use coadjoint_symbolic::{
-    cancel, comoving, graph, hamilton_jacobi, integrator, lie, number, poly, potential, problem,
-    signal, smooth, step, tolerance,
+    cancel, comoving, drive, graph, hamilton_jacobi, integrator, lie, number, poly, potential,
+    problem, signal, smooth, step, tolerance,
 };

@@ -15,6 +15,10 @@ pub const KEPT_LONG: usize = 5;
 /// the number of nodes; with one node the largest product of the velocity, the force, and what that changes.
 pub const LARGEST_TAIL: [f64; MAX_NODES] = [0.08, 0.25, 0.06, 1e-2, 1e-2, 1e-2, 1e-2, 1e-2];
 
+/// The rate of a coordinate of x that a smaller velocity is compared with in steps of two nodes: where it passes through zero within a
+/// step, its acceleration, which is the highest polynomial through these, is as large as it is however short the step.
+pub const SLOW: f64 = 0.05;
+
 /// The largest highest polynomial in the force, relative to the momentum: where it is larger, as where momenta grow along
 /// the step on a group that is not compact, a velocity that is resolved does not tell that the step is.
 pub const LARGEST_FORCE: f64 = 0.25;

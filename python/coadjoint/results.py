@@ -154,7 +154,7 @@ class Run:
     @property
     def angular_velocity(self) -> Floats:
         """The velocity in the Lie algebra, ξ = g⁻¹ġ, (N, n): for rotations the angular velocity in axes of the body. It is
-        ∂H/∂μ at the time of each record, and what damping adds to it.
+        ∂H/∂μ at the time of each record, and what a velocity or damping adds to it.
         """
         if not hasattr(self._source._core, "velocities"):
             raise InputError("a learned map has steps, and no velocity between them")
@@ -253,7 +253,7 @@ class Run:
         ``momentum`` (n,) is the change of the momentum at the start, ``group_element`` (n,) that of the attitude as
         ξ = g⁻¹δg in the basis of the Lie algebra, in radians for rotations; ``parameters`` has a number, or an array of its
         shape, for the name of each parameter that changes. They are derivatives of the steps themselves, to rounding. Records
-        between steps have none, nor have runs with a torque or with damping.
+        between steps have none, nor have runs with a velocity, a torque or damping.
 
         >>> import coadjoint as ca
         >>> body = ca.System("SO3", "x^2/(2*I) + y^2/4 + z^2/5", coordinates="x y z", parameters=dict(I=1.5))

@@ -41,13 +41,14 @@ class System:
     body momentum: a polynomial, whose steps are made by a series, or any other smooth function (roots, quotients, exp, ln,
     sin, …), whose steps are made by collocation. Numbers are taken as their decimals, exactly: 0.1 is one tenth.
     It may also be a function of (t, μ), with its ``gradient``, another one, which is checked against it once; neither may depend on t.
-    ``inputs`` are functions of the time, which H and a torque name: lists of values at ``times``, or functions of t.
+    ``inputs`` are functions of the time, which H, a velocity and a torque name: lists of values at ``times``, or functions of t.
 
     The other arguments are the keys of a system file: ``truncation`` K (odd; the method has order K + 1), ``chart``
     (``"exp"`` or ``"cayley"``), ``frame`` (``"auto"``, ``"fixed"`` or ``"comoving"``), ``solver``, ``method`` (``"series"`` or
     ``"collocation"``, if it is not to follow from the Hamiltonian), and for a ``potential`` V(g),
-    a function of ``g[0][0]``, …, the ``splitting``. ``damping`` is that of the double bracket, a number or one for each
-    coordinate. ``momentum``, ``group_element``, ``t0`` (the time at the start), ``step`` or ``tolerance``,
+    a function of ``g[0][0]``, …, the ``splitting``. A ``velocity`` is added to ω = ∂H/∂μ, or takes its place where there is no
+    Hamiltonian, and a ``torque`` to the change of μ: lists of functions of ``g[0][0]``, …, the coordinates, ``omega[0]``, …, ``t`` and the
+    inputs. ``damping`` is that of the double bracket, a number or one for each coordinate. ``momentum``, ``group_element``, ``t0`` (the time at the start), ``step`` or ``tolerance``,
     ``region`` and ``time`` (the duration) are defaults of runs.
 
     >>> import numpy as np
@@ -68,7 +69,7 @@ class System:
     def __init__(
         self,
         group: str | Mapping[str, Any],
-        hamiltonian: str | sympy.Expr | Energy,
+        hamiltonian: str | sympy.Expr | Energy | None = None,
         *,
         gradient: Gradient | None = None,
         coordinates: str | Iterable[Any] | None = None,
@@ -76,6 +77,7 @@ class System:
         inputs: Mapping[str, Any] | None = None,
         units: Mapping[str, str] | None = None,
         potential: str | sympy.Expr | None = None,
+        velocity: Iterable[str | sympy.Expr] | None = None,
         torque: Iterable[str | sympy.Expr] | None = None,
         damping: Real | str | Numbers | None = None,
         truncation: int | None = None,
@@ -97,12 +99,14 @@ class System:
             coordinates = _arrays.listed(coordinates, "coordinates")
         arguments = [(key, value) for key, value in locals().items() if key not in ("self", "__class__")]
         name = _arrays.text(name, "name")
+        velocity = None if velocity is None else _arrays.listed(velocity, "velocity")
         torque = None if torque is None else _arrays.listed(torque, "torque")
         given = tuple(pair for pair in arguments if pair[1] is not None and pair != ("name", "system"))
         functions = _functions(hamiltonian, gradient)
         given_inputs = _text.mapping(inputs, "inputs")
         called_inputs = {k: v for k, v in given_inputs.items() if callable(v) and not hasattr(v, "free_symbols")}
-        known = _text.symbols(None if functions else hamiltonian, potential, *(torque or ()), *(coordinates or ()))
+        driving = (*(velocity or ()), *(torque or ()))
+        known = _text.symbols(None if functions else hamiltonian, potential, *driving, *(coordinates or ()))
         called = [] if coordinates is None else _text.names(coordinates, "coordinates")
         shown = _text.mapping(units, "units")
         each: _arrays.Units = [shown.get(own, shown.get("momentum")) for own in called] or shown.get("momentum")
@@ -116,14 +120,19 @@ class System:
         def formula(value: Any, what: str) -> str | None:
             return None if value is None else _text.quoted(_text.expression(value, what))
 
+        def formulas(values: list[Any] | None, what: str) -> str | None:
+            return None if values is None else _text.strings([_text.expression(own, what) for own in values])
+
         whole = isinstance(group, str)
+        alone = functions or (hamiltonian is None and velocity is not None)
         top = {
             "name": text(name),
             "group": text(group) if whole else None,
             "coordinates": _text.strings(called) if called else None,
-            "hamiltonian": None if functions else formula("" if hamiltonian is None else hamiltonian, "hamiltonian"),
+            "hamiltonian": None if alone else formula("" if hamiltonian is None else hamiltonian, "hamiltonian"),
             "potential": formula(potential, "potential"),
-            "torque": None if torque is None else _text.strings([_text.expression(own, "torque") for own in torque]),
+            "velocity": formulas(velocity, "velocity"),
+            "torque": formulas(torque, "torque"),
             "damping": exact(damping, "damping"),
         }
         tables = {
@@ -442,9 +451,13 @@ class System:
         t0: Real | None = None,
         step: Real | None = None,
         steps: int = 1,
+        parameters: Mapping[str, Any] | None = None,
         backend: Backend = "jit",
     ) -> tuple[Floats, Floats]:
         """The state after one step (or `steps` of them): the momentum (n,) and the group element (d, d).
+
+        ``parameters`` are values of some of the system's, for these steps: what a control loop holds until its next sample. Nothing
+        is derived or compiled anew for them.
 
         ``t0`` is the time of the state given, which is needed where H, a torque or an input depends on it. The first call for a
         step size compiles it; the next ones take microseconds.
@@ -458,6 +471,9 @@ class System:
         >>> driven = ca.System("SO3", "x^2/3 + y^2/4 + z^2/5 + sin(t)*x", coordinates="x y z")
         >>> mu, g = driven.step([2, 0.5, 1], step=0.1, t0=0)
         >>> mu, g = driven.step(mu, g, step=0.1, t0=0.1)
+        >>> steered = ca.System("SO3", "x^2/3 + y^2/4 + z^2/5", coordinates="x y z", torque=["u[0]", "u[1]", "u[2]"],
+        ...                     parameters=dict(u=[0, 0, 0]))
+        >>> mu, g = steered.step([2, 0.5, 1], step=0.1, steps=10, parameters=dict(u=[0, 0.2, 0]))
         """
         size = self._facts["step"] if step is None else step
         if size is None and self._facts["tolerance"] is None:
@@ -465,11 +481,13 @@ class System:
         if size is not None and type(size) is not float or type(backend) is not str:
             size = _arrays.real(size, "step", self._facts["time_unit"])
             _arrays.text(backend, "backend")
-        key = (size, backend)
+        names = () if parameters is None else tuple(_text.mapping(parameters, "parameters"))
+        key = (size, backend, names)
         stepper = self._steppers.get(key)
         if stepper is None:
-            stepper = self._core.stepper(size, backend)
+            stepper = self._core.stepper(size, backend, list(names))
             self._steppers[key] = stepper
+        values = None if not names or parameters is None else _given(stepper.parameters, parameters)
         if type(steps) is not int or not 0 <= steps < 2**63:
             steps = _arrays.count(steps, "steps")
         if t0 is None:
@@ -480,11 +498,11 @@ class System:
             t0 = _arrays.real(t0, "t0", self._facts["time_unit"])
         # Results of the last call are taken as they are; the extension checks the numbers as it copies them.
         if _ready(momentum, 1) and (group_element is None or _ready(group_element, 2)):
-            return stepper.advance(momentum, group_element, t0, steps)
+            return stepper.advance(momentum, group_element, t0, steps, values)
         mu, element = self._state(momentum, group_element)
         if mu is None:
             raise InputError("momentum is missing: give momentum=[…]")
-        return stepper.advance(mu, element, t0, steps)
+        return stepper.advance(mu, element, t0, steps, values)
 
     # Algebra.
 
@@ -811,6 +829,18 @@ def _same(inputs: str | None, kind: type[System], *parts: Any) -> System:
     if system._facts["inputs_sha256"] != inputs:
         raise InputError(f"{system._name}: the table of its inputs is another than it was when the system was pickled")
     return system
+
+
+def _given(known: list[tuple[str, int]], parameters: Mapping[str, Any]) -> list[float]:
+    """The numbers of parameters, one after the other, in the order of a stepper."""
+    values: list[float] = []
+    for name, count in known:
+        value = parameters[name]
+        own = [value] if count == 1 and type(value) is float else _arrays.floats(value, f"parameter {name}").ravel().tolist()
+        if len(own) != count:
+            raise InputError(f"parameter {name} has {len(own)} numbers; the system's has {count}")
+        values.extend(own)
+    return values
 
 
 def _ready(array: Any, dimensions: int) -> TypeGuard[Floats]:

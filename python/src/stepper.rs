@@ -35,6 +35,13 @@ impl Stepper {
         self.single.backend()
     }
 
+    /// The parameters that the steps are given, in the order of their numbers, and how many numbers each is.
+    #[getter]
+    fn parameters(&self) -> Vec<(String, usize)> {
+        let parameters = self.single.system().facts().parameters.iter();
+        parameters.map(|one| (one.name.clone(), one.shape.len())).collect()
+    }
+
     /// The state after `steps` steps of one of this time: momentum and matrix.
     #[allow(clippy::type_complexity)]
     fn advance<'py>(
@@ -44,6 +51,7 @@ impl Stepper {
         group_element: Option<PyReadonlyArray2<'py, f64>>,
         time: f64,
         steps: u64,
+        parameters: Option<Vec<f64>>,
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>)> {
         let size = self.single.matrix_size();
         let mut mu = momentum.as_array().to_vec();
@@ -69,7 +77,7 @@ impl Stepper {
             }
         };
         let made = if steps <= FEW {
-            self.single.advance(&mut matrix, &mut mu, time, [0, steps])
+            self.single.advance(&mut matrix, &mut mu, time, [0, steps], parameters.as_deref())
         } else {
             let single = self.single.clone();
             let (made, new_matrix, new_mu) = work(py, None, move |control| {
@@ -78,7 +86,8 @@ impl Stepper {
                 while done < steps && made.is_ok() && !control.stop.load(Ordering::Relaxed) {
                     let count = (steps - done).min(FEW);
                     // With the bits of one call.
-                    made = single.advance(&mut matrix, &mut mu, time, [done, count]);
+                    let parameters = parameters.as_deref();
+                    made = single.advance(&mut matrix, &mut mu, time, [done, count], parameters);
                     made = made.map_err(|(step, error)| (done + step, error));
                     done += count;
                 }

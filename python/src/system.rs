@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use coadjoint_codegen::drive::Drive;
 use coadjoint_codegen::lie;
 use coadjoint_codegen::problem::Problem;
 use coadjoint_codegen::smooth::{Facts, Functions};
@@ -274,7 +275,7 @@ impl Core {
         facts.set_item("tolerance", run.tolerance)?;
         facts.set_item("time", run.time)?;
         facts.set_item("moves", self.system.depends_on_time())?;
-        facts.set_item("damped", self.system.damping.is_some())?;
+        facts.set_item("damped", self.system.drive().is_some_and(Drive::is_dissipative))?;
         facts.set_item("every", run.every)?;
         facts.set_item("momentum", run.momentum.clone())?;
         facts.set_item("group_element", run.group_element.clone())?;
@@ -556,7 +557,7 @@ impl Core {
     }
 
     /// The velocities g⁻¹ġ at these times and momenta, a row each. `matrices` has the elements, a row each, row by row; a width
-    /// of 0 serves where no potential is damped.
+    /// of 0 serves where no velocity reads them.
     fn velocities<'py>(
         &self,
         py: Python<'py>,
@@ -578,23 +579,30 @@ impl Core {
         let instants: Vec<Instant<'_>> = instants
             .map(|((&time, momentum), matrix)| Instant { time, matrix, momentum })
             .collect();
-        let found = velocities(self.path(), &self.system, &instants);
+        let found = velocities(&self.system, &instants);
         self.raise(py)?;
-        let found = found.map_err(|error| self.raised(py, &error))?;
         found.concat().into_pyarray(py).reshape([count, dim])
     }
 
-    /// Steps of this size, ready to be made.
-    fn stepper(&self, py: Python<'_>, step: Option<f64>, backend: &str) -> PyResult<Stepper> {
+    /// Steps of this size, ready to be made, that are given the parameters with these names.
+    fn stepper(
+        &self,
+        py: Python<'_>,
+        step: Option<f64>,
+        backend: &str,
+        varied: Vec<String>,
+    ) -> PyResult<Stepper> {
         let backend = backend_of(py, backend)?;
         let here = self.here();
         let dimension = self.system.problem.facts().algebra.dim();
         let made = work(py, None, move |control| {
-            let (system, _) = here.accurate(&Accuracy { step, ..Accuracy::default() }, None)?;
+            let varied = Some(varied).filter(|varied| !varied.is_empty());
+            let ensemble = varied.clone().map(|varied| (varied, None));
+            let (system, _) = here.accurate(&Accuracy { step, ..Accuracy::default() }, ensemble)?;
             let step = step
                 .or(system.run.step)
                 .ok_or_else(|| RunError::Option("--step is missing: give --step 0.1".to_owned()))?;
-            let derived = here.derive(system, None, control)?;
+            let derived = here.derive(system, varied, control)?;
             // It is the default, and there is no such code for collocation.
             let by_default = backend == Backend::Jit && derived.series().is_none();
             let backend = if by_default { Backend::Auto } else { backend };

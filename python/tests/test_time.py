@@ -99,7 +99,7 @@ def test_messages_say_what_there_is() -> None:
         system = ca.System("SO3", BODY + " + b*z", coordinates="x y z", parameters=dict(b=0.1), **given)
         run = system.simulate(START, time=1, step=0.1)
         for asked in (dict(momentum=[1, 0, 0]), dict(parameters=dict(b=1))):
-            with pytest.raises(InputError, match="no derivatives are known of .* torques and of damping"):
+            with pytest.raises(InputError, match="no derivatives are known of .* torques and damping"):
                 run.jvp(**asked)
         with pytest.raises(InputError, match="no derivatives are known"):
             run.vjp(momentum=run.momentum, parameters=["b"])

@@ -232,7 +232,7 @@ fn rows(name: &str, compact: bool, truncation: usize, rows: usize, seed: u64) ->
         let promised =
             name == "SO3" && truncation >= 5 && least.is_some_and(|i| length / i < PROMISED);
         let mut end = mu.clone();
-        let made = step.advance(&mut identity.clone(), &mut end, 0.0, [0, 1]).is_ok();
+        let made = step.advance(&mut identity.clone(), &mut end, 0.0, [0, 1], None).is_ok();
         tally.rows += 1;
         tally.promised += usize::from(promised);
         tally.refused += usize::from(promised && !made);

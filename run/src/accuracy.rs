@@ -32,7 +32,7 @@ pub fn meet_tolerance(
     system: &mut System,
     asked: &Accuracy,
 ) -> Result<Option<(Choice, Derived)>, RunError> {
-    let System { problem, potential, damping, run, .. } = &mut *system;
+    let System { problem, potential, run, .. } = &mut *system;
     if let Hamiltonian::Polynomial(problem, _) = problem
         && let Some(other) =
             in_other_frame(problem).filter(|other| asked.comoving == Some(other.comoving.is_some()))
@@ -43,14 +43,10 @@ pub fn meet_tolerance(
     let Some(tolerance) = asked.tolerance.or(run.tolerance).filter(|_| !replaced) else {
         return Ok(None);
     };
-    let what = match (potential, damping) {
-        (Some(_), _) => "the kicks of a potential",
-        (None, Some(_)) => "damping",
-        (None, None) => "",
-    };
-    if !what.is_empty() {
-        let what = format!("a tolerance says nothing of {what}: give the step instead");
-        return Err(RunError::Option(what));
+    if potential.is_some() {
+        let what = "a tolerance says nothing of the kicks of a potential: give the step instead, or splitting = \"none\", with \
+                    which the potential acts within the step";
+        return Err(RunError::Option(what.to_owned()));
     }
     let duration = asked.time.or(run.time).ok_or_else(|| RunError::no_time(path))?;
     let target = Target {

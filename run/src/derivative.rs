@@ -48,7 +48,7 @@ impl<'a> Derivatives<'a> {
     /// # Errors
     /// Fails where derivatives are not known.
     fn known(&self) -> Result<usize, RunError> {
-        let what = "no derivatives are known of learned maps, of functions of the user's, of torques and of damping";
+        let what = "no derivatives are known of learned maps, of functions of the user's, of velocities, torques and damping";
         self.motion.differentiable().ok_or_else(|| RunError::Option(what.to_owned()))
     }
 

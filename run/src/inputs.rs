@@ -3,7 +3,6 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use coadjoint_codegen::potential::{Force, Potential};
 use coadjoint_codegen::signal::{Columns, Signal, SignalError};
 use coadjoint_codegen::smooth::Hamiltonian;
 use coadjoint_codegen::system::System;
@@ -42,16 +41,11 @@ type Read = BTreeMap<String, Vec<f64>>;
 /// # Errors
 /// The file, and the row and the column where it is wrong.
 pub(crate) fn fill(system: &Path, read: &mut System<Hamiltonian>) -> Result<(), RunError> {
-    let of_energy = read.problem.signals_mut();
-    let of_torque = match &mut read.potential {
-        Some((Potential { force: Force::Smooth(programs), .. }, _)) => &mut programs.signals[..],
-        _ => &mut [],
-    };
+    let signals = read.problem.signals_mut();
     // Given signals have their numbers already.
     let unread = |signal: &&Signal| signal.table()[0].is_empty();
     let mut files: BTreeMap<PathBuf, Read> = BTreeMap::new();
-    let signals = of_energy.iter().chain(&*of_torque).filter(unread);
-    for columns in signals.filter_map(|signal| signal.columns.as_ref()) {
+    for columns in signals.iter().filter(unread).filter_map(|signal| signal.columns.as_ref()) {
         let of_file = files.entry(beside(system, columns)).or_default();
         of_file.entry(columns.times.clone()).or_default();
         of_file.entry(columns.values.clone()).or_default();
@@ -59,7 +53,7 @@ pub(crate) fn fill(system: &Path, read: &mut System<Hamiltonian>) -> Result<(), 
     for (path, columns) in &mut files {
         fill_columns(system, path, columns)?;
     }
-    for signal in of_energy.iter_mut().chain(of_torque) {
+    for signal in signals {
         if let (Some(columns), [[], _]) = (signal.columns.clone(), signal.table()) {
             let path = beside(system, &columns);
             *signal = from_columns(&signal.name, &columns, &files[&path])

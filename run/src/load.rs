@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
 use coadjoint::StepError;
+use coadjoint_codegen::drive::Drive;
 use coadjoint_codegen::hamilton_jacobi::{DeriveError, TermLimit};
 use coadjoint_codegen::integrator::{Integrator, Kick, Kicks};
 use coadjoint_codegen::lie;
@@ -66,7 +67,7 @@ pub fn polynomial(
     lacking: &str,
     advice: &str,
 ) -> Result<system::System, RunError> {
-    let System { problem, potential, damping, run, units, parameters } = system;
+    let System { problem, potential, run, units, parameters } = system;
     let problem = problem.into_polynomial().map_err(|smooth| {
         let nodes = smooth.nodes();
         RunError::Option(format!(
@@ -76,7 +77,7 @@ pub fn polynomial(
             2 * nodes,
         ))
     })?;
-    Ok(system::System { problem, potential, damping, run, units, parameters })
+    Ok(system::System { problem, potential, run, units, parameters })
 }
 
 /// Reads the group of a system file alone; `name` is what mistakes call it.
@@ -96,8 +97,8 @@ pub fn read_group(name: &str, text: &str) -> Result<GroupChoice, RunError> {
 pub fn learned(model: &ModelFile) -> Result<System, RunError> {
     let run = Run { step: Some(model.step), ..Run::default() };
     let (problem, units) = (coadjoint_learn::problem(model, "learned")?, system::Units::default());
-    let (potential, damping, parameters) = (None, None, Vec::new());
-    Ok(system::System { problem, potential, damping, run, units, parameters }.into())
+    let (potential, parameters) = (None, Vec::new());
+    Ok(system::System { problem, potential, run, units, parameters }.into())
 }
 
 /// Derives and lowers a problem.
@@ -127,8 +128,6 @@ pub struct Derived {
     pub(crate) group: Charted,
     /// The programs compiled so far.
     kept: Kept,
-    /// The rates of the damping before and after each step, where there is any.
-    pub(crate) damping: Option<Vec<f64>>,
     /// The conserved quantities.
     pub(crate) invariants: Invariants,
     /// The blocks of the group's matrices, once a run asked for them.
@@ -152,12 +151,14 @@ impl Derived {
     /// # Errors
     /// As [`Derived::of`].
     pub fn of_file(file: &Path, system: System) -> Result<Self, RunError> {
-        let System { problem, potential, damping, .. } = system;
+        let System { problem, potential, .. } = system;
         let (problem, gave_way) = problem.settled();
         let kicks = potential.as_ref().map(|(kicks, _)| kicks);
         let invariants = Invariants::new(problem.facts().algebra, Some(&problem), kicks);
-        // Kicks look at the matrices of the whole group; a flow alone goes factor by factor.
-        let group = group_of(file, problem.facts().algebra, potential.is_some())?;
+        // Kicks, and a drive that reads the group element, look at the matrices of the whole group; a flow alone goes factor by factor.
+        let drive = problem.smooth().and_then(|smooth| smooth.drive.as_ref());
+        let whole = potential.is_some() || drive.is_some_and(|drive| drive.reads_element());
+        let group = group_of(file, problem.facts().algebra, whole)?;
         let mut origin = derive(file, problem)?;
         if let Some((potential, splitting)) = potential {
             let kicked = origin.with_kicks(Kick::build(potential), splitting);
@@ -170,7 +171,7 @@ impl Derived {
         let group = Charted::new(file, group, chart)?;
         let (kept, blocks) = Default::default();
         let file = file.to_owned();
-        Ok(Self { file, origin, group, kept, damping, invariants, blocks, gave_way })
+        Ok(Self { file, origin, group, kept, invariants, blocks, gave_way })
     }
 
     /// The inputs u(t).
@@ -201,23 +202,33 @@ impl Derived {
         self.origin.series()
     }
 
-    /// True if damping acts before and after each step.
-    pub fn is_damped(&self) -> bool {
-        self.damping.is_some()
+    /// The velocity and the torque beside the Hamiltonian, where there are any.
+    pub fn drive(&self) -> Option<&Drive> {
+        self.origin.drive()
     }
 
     /// The flows between kicks, where there are kicks, as a system without them.
     pub(crate) fn without_kicks(&self) -> Option<Self> {
-        Some(Self {
-            origin: self.origin.without_kicks()?,
+        let invariants = Invariants::of(self.facts().algebra);
+        Some(Self { invariants, ..self.with(self.origin.without_kicks()?) })
+    }
+
+    /// This system without the velocity of its drive, where it has one.
+    pub(crate) fn without_velocity(&self) -> Option<Self> {
+        Some(self.with(self.origin.without_velocity()?))
+    }
+
+    /// Other equations on the same group, with the same conserved quantities.
+    fn with(&self, origin: Origin) -> Self {
+        Self {
+            origin,
             group: self.group.clone(),
             kept: Kept::default(),
-            damping: None,
             file: self.file.clone(),
-            invariants: Invariants::of(self.facts().algebra),
+            invariants: self.invariants.clone(),
             blocks: OnceLock::new(),
             gave_way: None,
-        })
+        }
     }
 
     /// The kicks between flows, where there are any.
@@ -232,7 +243,7 @@ impl Derived {
 
     /// True if states move by programs alone, so that many may move side by side.
     pub(crate) fn alike(&self) -> bool {
-        self.damping.is_none() && !self.origin.is_function()
+        !self.origin.is_function()
     }
 
     /// The programs of steps of this size, about `steps` of which are going to be made, where steps are made of programs.
@@ -291,18 +302,16 @@ impl Derived {
         parameters: &[f64],
         compiled: Option<&Arc<Compiled>>,
     ) -> Result<Motion<'_>, StepError> {
-        let system = (&self.origin, self.damping.as_deref());
-        self.group.steps(system, grid, parameters, compiled)
+        self.group.steps(&self.origin, grid, parameters, compiled)
     }
 
-    /// The order of accuracy: K + 1, or that of the splitting where it is lower; 2 with damping.
+    /// The order of accuracy: K + 1, or that of the splitting where it is lower.
     pub(crate) fn order(&self) -> u32 {
-        if self.damping.is_some() { 2 } else { self.origin.order() }
+        self.origin.order()
     }
 
     /// The method of a run, in a few words.
     pub fn label(&self) -> String {
-        let damped = if self.damping.is_some() { ", damped" } else { "" };
-        self.origin.label() + damped
+        self.origin.label()
     }
 }

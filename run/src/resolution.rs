@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use coadjoint_codegen::integrator::Kicks;
 use coadjoint_codegen::smooth::Smooth;
 use coadjoint_program::collocation::nodes;
 
@@ -76,10 +75,8 @@ impl Derived {
         let any = (0..facts.algebra.dim()).map(|i| 1.0 / (i + 1) as f64);
         let momentum = momentum.map_or_else(|| any.collect(), <[f64]>::to_vec);
         let velocity = self.origin.smooth();
-        let velocity = velocity.and_then(|smooth| Moving::velocity(smooth, &parameters, &momentum));
-        let start = (identity(facts.algebra.matrix_size()), &momentum[..]);
-        let torque = self.kicks().and_then(|kicks| Moving::torque(kicks, &parameters, start));
-        let moving: Vec<Moving<'_>> = velocity.into_iter().chain(torque).collect();
+        let moving = velocity.and_then(|smooth| Moving::new(smooth, &parameters, &momentum));
+        let moving: Vec<Moving<'_>> = moving.into_iter().collect();
         resolve(&self.file, (grid, steps), &moving)
     }
 }
@@ -95,13 +92,25 @@ struct Moving<'a> {
 }
 
 impl<'a> Moving<'a> {
-    /// ∂H/∂μ at this momentum, where it depends on time.
-    fn velocity(smooth: &'a Smooth, parameters: &[f64], mu: &'a [f64]) -> Option<Self> {
+    /// ∂H/∂μ, and what a drive adds at the identity, at this momentum, where they depend on time.
+    fn new(smooth: &'a Smooth, parameters: &[f64], mu: &'a [f64]) -> Option<Self> {
         if smooth.given.is_none() && !smooth.depends_on_time() {
             return None;
         }
         let symbols = smooth.symbols_at(parameters);
-        let values = Box::new(move |times: &[f64]| smooth.gradients(&symbols, times, mu));
+        let driven = smooth.drive.as_ref().map(|_| identity(smooth.algebra.matrix_size()));
+        let size = mu.iter().fold(0.0, |most: f64, mu| most.max(mu.abs()));
+        let values = Box::new(move |times: &[f64]| {
+            let omega = smooth.gradients(&symbols, times, mu);
+            let Some(entries) = &driven else { return omega };
+            let state = times.iter().zip(omega.chunks(mu.len()));
+            let all = state.flat_map(|(&time, omega)| {
+                let [own, torque] = smooth.acting(&symbols, time, entries, [mu, omega]);
+                let torque = torque.into_iter().map(move |torque| torque / size);
+                omega.iter().zip(own).map(|(a, b)| a + b).chain(torque).collect::<Vec<_>>()
+            });
+            all.collect()
+        });
         let splitting = smooth.kicks.as_ref().map(|kicks| kicks.splitting);
         let flows: Vec<f64> = splitting.map_or(vec![1.0], |splitting| splitting.flows().collect());
         let (mut start, mut looks) = (0.0, Vec::new());
@@ -109,30 +118,6 @@ impl<'a> Moving<'a> {
             let own = nodes(smooth.nodes());
             looks.extend(own.map(|(at, weight)| (flow.mul_add(at, start), flow * weight)));
             start += flow;
-        }
-        Some(Self { values, looks })
-    }
-
-    /// The torque of kicks at this state, where it depends on time.
-    fn torque(
-        kicks: &'a Kicks,
-        parameters: &[f64],
-        (entries, mu): (Vec<f64>, &'a [f64]),
-    ) -> Option<Self> {
-        let torque = kicks.torque().filter(|torque| torque.moves)?;
-        let potential = &kicks.kick.potential;
-        let symbols: Vec<f64> =
-            potential.symbols.iter().map(|symbol| symbol.expr.evaluate(parameters)).collect();
-        let size = mu.iter().fold(0.0, |most: f64, mu| most.max(mu.abs()));
-        let values = Box::new(move |times: &[f64]| {
-            let of = |&time| torque.torque.run(&torque.inputs(&entries, mu, time), &symbols);
-            times.iter().flat_map(of).map(|value| value / size).collect()
-        });
-        let (mut at, mut looks) = (0.0, Vec::new());
-        let flows = kicks.splitting.flows().chain([0.0]);
-        for (kick, flow) in kicks.splitting.kicks().zip(flows) {
-            looks.push((at, kick));
-            at += flow;
         }
         Some(Self { values, looks })
     }

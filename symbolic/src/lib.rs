@@ -27,6 +27,7 @@
 
 pub mod cancel;
 pub mod comoving;
+pub mod drive;
 pub mod expr;
 pub mod graph;
 pub mod hamilton_jacobi;

@@ -10,7 +10,6 @@ use crate::lie::{LieAlgebra, RationalMatrix, null_space};
 use crate::number::{Rational, integer};
 use crate::poly::{Numeric, Polynomial};
 use crate::problem::{Parameter, Symbol, values};
-use crate::signal::{self, Signal};
 
 /// A force, as its kicks are made.
 #[derive(Clone, Debug)]
@@ -24,8 +23,8 @@ pub enum Force {
 
 /// A force as programs.
 ///
-/// Their inputs are the entries of the group element's matrix, row by row; without a potential, after them the momentum, the
-/// time, and the values of the signals. Their slots are the [`Symbol`]s.
+/// Their inputs are the entries of the group element's matrix, row by row; without a potential they are those of a
+/// [`Drive`](crate::drive::Drive). Their slots are the [`Symbol`]s.
 #[derive(Clone, Debug)]
 pub struct Programs {
     /// V, where the torque has a potential.
@@ -37,12 +36,6 @@ pub struct Programs {
     pub watched: Program,
     /// The texts of the expressions watched.
     pub expressions: Vec<String>,
-    /// True if the torque depends on the momentum.
-    pub of_momentum: bool,
-    /// True if the torque depends on the time.
-    pub moves: bool,
-    /// Its inputs u(t).
-    pub signals: Vec<Signal>,
 }
 
 impl Programs {
@@ -80,37 +73,9 @@ impl Programs {
             sum
         };
         let outputs: Vec<Id> = algebra.matrices().iter().map(along).collect();
-        let (of_momentum, moves, signals) = (false, false, Vec::new());
         let torque = graph.finish(size * size, &outputs);
         let (value, watched) = (Some(autonomous(value)), autonomous(watched));
-        Self { value, torque, watched, expressions, of_momentum, moves, signals }
-    }
-
-    /// This torque and that of a potential, given by programs with this many slots. The sum has no potential.
-    pub fn beside(self, algebra: &LieAlgebra, potential: &Self, slots: usize) -> Self {
-        let entries = algebra.matrix_size().pow(2);
-        let count = entries + algebra.dim() + 1 + self.signals.len();
-        let graph = Graph::new();
-        let inputs: Vec<Id> = (0..count).map(|at| graph.input(at)).collect();
-        let both = |of_potential: &Program, own: &Program| {
-            let first = graph.call(of_potential, &inputs[..entries]);
-            (first, graph.call_from(own, &inputs, slots))
-        };
-        let (first, second) = both(&potential.torque, &self.torque);
-        let sum: Vec<Id> = first.iter().zip(second).map(|(&a, b)| graph.add(a, b)).collect();
-        let (first, second) = both(&potential.watched, &self.watched);
-        let torque = graph.finish(count, &sum);
-        let watched = graph.finish(count, &[first, second].concat());
-        let expressions = [potential.expressions.clone(), self.expressions].concat();
-        Self { torque, watched, expressions, ..self }
-    }
-
-    /// The inputs of the programs for these entries of the matrix, this momentum and this time.
-    pub fn inputs(&self, entries: &[f64], mu: &[f64], time: f64) -> Vec<f64> {
-        match self.value {
-            Some(_) => entries.to_vec(),
-            None => signal::inputs(entries.to_vec(), mu, time, &self.signals),
-        }
+        Self { value, torque, watched, expressions }
     }
 
     /// The text of the first expression that is not defined for these inputs, and its argument there.
@@ -308,11 +273,10 @@ impl Potential {
         let mut tried = 0;
         for g in self.elements(&generators, n + 5) {
             let mu: Vec<f64> = (0..n).map(|_| random()).collect();
-            let mut inputs = g;
-            if programs.value.is_none() {
-                inputs.extend_from_slice(&mu);
-                inputs.extend((0..=programs.signals.len()).map(|_| random()));
-            }
+            let mut inputs = [g, mu.clone()].concat();
+            let count = programs.torque.inputs();
+            inputs.truncate(count);
+            inputs.resize_with(count, &mut random);
             let torque = torque.run(&opened(inputs, &torque, &mut random), &symbols);
             let terms = slopes.iter().zip(&torque).map(|(slope, torque)| slope.value(&mu) * torque);
             let (sum, size) = terms.fold((0.0, 0.0), |(sum, size), x| (sum + x, size + x.abs()));

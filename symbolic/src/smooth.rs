@@ -6,6 +6,7 @@ use coadjoint_program::splitting::Splitting;
 use coadjoint_program::{Argument, Node, Program};
 use num_traits::ToPrimitive;
 
+use crate::drive::Drive;
 use crate::integrator::{Kick, Kicks};
 use crate::lie::LieAlgebra;
 use crate::potential::undefined;
@@ -28,7 +29,7 @@ pub struct Smooth {
     pub units: Vec<f64>,
     /// True if H depends on the time.
     pub moves: bool,
-    /// The inputs u(t) in H.
+    /// The inputs u(t) in H and the drive.
     pub signals: Vec<Signal>,
     /// H.
     pub value: Program,
@@ -53,6 +54,8 @@ pub struct Smooth {
     pub given: Option<Given>,
     /// The kicks between flows, where there are any; the symbols of their potential are then the last ones.
     pub kicks: Option<Kicks>,
+    /// The velocity and the torque beside H, where there are any; their symbols are then the last ones.
+    pub drive: Option<Box<Drive>>,
 }
 
 /// A Hamiltonian that is a function of the user's.
@@ -134,6 +137,44 @@ impl Smooth {
         Some(self)
     }
 
+    /// This system with a drive, the symbols of which become its last ones.
+    pub fn with_drive(mut self, drive: Drive) -> Self {
+        let first = self.symbols.len();
+        self.symbols.extend(drive.symbols.iter().cloned());
+        self.drive = Some(Box::new(Drive { first, ..drive }));
+        self
+    }
+
+    /// η and τ in a state, for these values of the symbols, by the entries of g's matrix, μ and ω = ∂H/∂μ; zeros without a drive.
+    pub fn acting(
+        &self,
+        symbols: &[f64],
+        time: f64,
+        entries: &[f64],
+        [mu, omega]: [&[f64]; 2],
+    ) -> [Vec<f64>; 2] {
+        let Some(drive) = &self.drive else { return [vec![0.0; mu.len()], vec![0.0; mu.len()]] };
+        let inputs = drive.inputs(entries, [mu, omega], time, &self.signals);
+        let mut velocity = drive.program.run(&inputs, symbols.get(drive.first..).unwrap_or(&[]));
+        let torque = velocity.split_off(mu.len());
+        [velocity, torque]
+    }
+
+    /// The text of the first expression of the drive that is not defined there, and its argument.
+    pub fn undefined_in_drive(
+        &self,
+        symbols: &[f64],
+        time: f64,
+        entries: &[f64],
+        [mu, omega]: [&[f64]; 2],
+    ) -> Option<(&str, f64)> {
+        let drive = self.drive.as_ref()?;
+        let inputs = drive.inputs(entries, [mu, omega], time, &self.signals);
+        let watched = drive.watched.run(&inputs, symbols.get(drive.first..).unwrap_or(&[]));
+        let (number, argument) = undefined(&watched)?;
+        Some((&drive.expressions[number], argument))
+    }
+
     /// True if H is known to be of degree at most two in the momentum.
     pub fn is_quadratic(&self) -> bool {
         if self.given.is_some() {
@@ -151,7 +192,8 @@ impl Smooth {
 
     /// True if the programs read the time or signals.
     pub fn depends_on_time(&self) -> bool {
-        self.moves || !self.signals.is_empty()
+        let driven = self.drive.as_ref().is_some_and(|drive| drive.moves);
+        self.moves || driven || !self.signals.is_empty()
     }
 
     /// The values of the symbols for these of the parameters that are kept.

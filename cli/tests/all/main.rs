@@ -4,10 +4,10 @@
 mod cases;
 mod check;
 mod compilers;
-mod damping;
 mod derive_and_emit;
 mod device;
 mod docs;
+mod drive;
 mod ensemble;
 mod events;
 mod file_format;

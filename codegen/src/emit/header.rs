@@ -4,6 +4,7 @@ use coadjoint_program::print::{Value, fill};
 use coadjoint_program::quoting::rust_comment;
 use coadjoint_program::{Cost, Kernel, Program};
 
+use crate::drive::Drive;
 use crate::emit::programs::step_operations;
 use crate::emit::{Options, identifier};
 use crate::integrator::{Coefficients, Integrator, Kicks};
@@ -158,6 +159,8 @@ pub(crate) struct Method<'a> {
     pub moves: bool,
     /// The rescue of a refused step.
     rescue: &'static str,
+    /// The velocity and the torque beside the Hamiltonian.
+    drive: Option<&'a Drive>,
 }
 
 impl<'a> Method<'a> {
@@ -170,7 +173,8 @@ impl<'a> Method<'a> {
         let order = integrator.order();
         let about =
             format!("Chart: {chart}. Truncation K = {truncation}, order of accuracy {order}.");
-        Self { source, about, error: "K+2".to_owned(), moves: false, rescue: RESCUE }
+        let error = "K+2".to_owned();
+        Self { source, about, error, moves: false, rescue: RESCUE, drive: None }
     }
 
     pub(crate) fn of_collocation(smooth: &'a Smooth) -> Self {
@@ -180,7 +184,8 @@ impl<'a> Method<'a> {
             2 * nodes
         );
         let (error, moves) = ((2 * nodes + 1).to_string(), smooth.depends_on_time());
-        Self { source: &smooth.source, about, error, moves, rescue: PARTS }
+        let (source, drive) = (&smooth.source, smooth.drive.as_deref());
+        Self { source, about, error, moves, rescue: PARTS, drive }
     }
 
     /// The method of a system.
@@ -199,7 +204,7 @@ pub(crate) fn system(
     method: &Method<'_>,
     quoted: fn(&str) -> String,
 ) -> Vec<Value> {
-    let Method { source, about, error, moves, .. } = method;
+    let Method { source, about, error, moves, drive, .. } = method;
     let mut values = vec![
         ("VERSION", env!("CARGO_PKG_VERSION").to_owned()),
         ("SYSTEM", quoted(facts.name)),
@@ -219,6 +224,11 @@ pub(crate) fn system(
             ("KICKED", KICKED.to_owned()),
         ]);
     }
+    values.extend(
+        drive
+            .iter()
+            .flat_map(|drive| [("DRIVE", quoted(&drive.source)), ("KICKED", DRIVEN.to_owned())]),
+    );
     values
 }
 
@@ -229,6 +239,12 @@ const NEAR: &str = ", and the energy stays near its first value for all times";
 const KICKED: &str = " This describes the flows. Between them the torque -g^-1 dV(g) of the potential kicks mu; of the spatial \
          momentum and the Casimirs, only those remain conserved that the potential leaves invariant, and the order of accuracy \
          is the lesser of both.";
+
+/// The sentences for a velocity and a torque.
+const DRIVEN: &str = " All of this is said of the Hamiltonian alone, of which dg/dt = g omega with omega = dH/dmu. Of a velocity eta and a \
+         torque tau beside it, dg/dt = g (omega + eta) and dmu/dt = ad*_(omega + eta) mu + tau, to the same order of accuracy; the step \
+         is then not symplectic, the energy is not conserved, and of the spatial momentum and the Casimirs only those remain that \
+         the torque leaves.";
 
 /// The cost of a step with one correction, and with as many as there may be.
 pub(crate) fn costs(kernel: &Kernel) -> String {

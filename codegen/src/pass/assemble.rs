@@ -6,6 +6,9 @@ use super::frame;
 use super::polynomial::{Sum, polynomial};
 use super::program::{Lowered, lower};
 use crate::diagnostic::{Diagnostic, Diagnostics, Mistake, Span};
+use crate::drive::Drive;
+#[cfg(feature = "system")]
+use crate::drive::Parts;
 use crate::expr::{Arena, ExprId, Node};
 use crate::lie::{Chart, LieAlgebra};
 use crate::number::Rational;
@@ -64,8 +67,10 @@ pub(crate) struct Draft {
     /// The place where the coordinates are named.
     pub coordinates_span: Span,
     pub hamiltonian: Energy,
-    /// The inputs of the Hamiltonian.
+    /// The inputs of the Hamiltonian and the drive.
     pub signals: Vec<Signal>,
+    /// The velocity and the torque beside the Hamiltonian, where there are any.
+    pub drive: Option<Drive>,
     pub choice: Choice,
 }
 
@@ -75,14 +80,25 @@ pub(crate) fn assemble_either(draft: Draft, diagnostics: &Diagnostics) -> Option
     let read = Read::new(&draft.hamiltonian);
     let of_series = |found: &Diagnostic| found.mistake.is_of_series();
     let smooth = match draft.choice.method {
+        Some((method, place)) if method == Method::Series && draft.drive.is_some() => {
+            let message = "`method = \"series\"`: a velocity, a torque and damping have no series";
+            diagnostics.report_other(place, message, "leave `method` out");
+            true
+        }
         Some((method, _)) => method == Method::Collocation,
-        None => draft.hamiltonian.moves() || read.found.iter().any(of_series),
+        None => {
+            draft.drive.is_some() || draft.hamiltonian.moves() || read.found.iter().any(of_series)
+        }
     };
     if smooth {
         let polynomial = match read.found.is_empty() {
             true => assemble_polynomial(draft.clone(), read, &Diagnostics::new()),
             false => {
-                let others = read.found.into_iter().filter(|found| !found.mistake.is_of_series());
+                let alone = draft.drive.is_none();
+                let others = read.found.into_iter().filter(|found| {
+                    let level = matches!(found.mistake, Mistake::NoDependence);
+                    !found.mistake.is_of_series() && (alone || !level)
+                });
                 others.for_each(|found| diagnostics.report(found.span, found.mistake));
                 None
             }
@@ -154,7 +170,7 @@ fn assemble_smooth(
     diagnostics: &Diagnostics,
 ) -> Option<Smooth> {
     let Draft { name, algebra, coordinates, coordinates_span, hamiltonian: energy, .. } = draft;
-    let (signals, choice) = (draft.signals, draft.choice);
+    let (signals, choice, drive) = (draft.signals, draft.choice, draft.drive);
     check_dimension(algebra.as_ref(), coordinates.len(), coordinates_span, diagnostics);
     let placed = |place| !matches!(place, Span::Whole);
     let chosen = [
@@ -181,15 +197,17 @@ fn assemble_smooth(
             let mut table = Table::new();
             let inputs: Vec<String> = signals.iter().map(|signal| signal.name.clone()).collect();
             let names = [&coordinates[..], &energy.scalar_names(), &inputs];
-            let lowered = lower(&energy.arena, &[root], names, &mut table, diagnostics)?;
-            if lowered.gradient.nodes().iter().all(|node| *node == coadjoint_program::Node::Zero) {
+            let roots = (&[root][..], false);
+            let lowered = lower(&energy.arena, roots, names, &mut table, diagnostics)?;
+            let level = |node: &coadjoint_program::Node| *node == coadjoint_program::Node::Zero;
+            if drive.is_none() && lowered.gradient.nodes().iter().all(level) {
                 diagnostics.report(place, Mistake::NoDependence);
                 return None;
             }
             lowered
         }
     };
-    Some(Smooth {
+    let smooth = Smooth {
         units: vec![1.0; coordinates.len()],
         moves,
         signals,
@@ -207,6 +225,11 @@ fn assemble_smooth(
         truncation: choice.truncation?,
         given,
         kicks: None,
+        drive: None,
+    };
+    Some(match drive {
+        Some(drive) => smooth.with_drive(drive),
+        None => smooth,
     })
 }
 
@@ -215,6 +238,10 @@ pub(crate) fn assemble(draft: Draft, diagnostics: &Diagnostics) -> Option<Proble
     if let Some((Method::Collocation, place)) = draft.choice.method {
         let message = "`method = \"collocation\"`: here steps are made by the series alone";
         diagnostics.report_other(place, message, "leave `method` out");
+    }
+    if draft.drive.is_some() {
+        let message = "a velocity, a torque, damping: here steps are made by the series alone";
+        diagnostics.report_other(Span::Whole, message, "leave them out");
     }
     let read = Read::new(&draft.hamiltonian);
     assemble_polynomial(draft, read, diagnostics)
@@ -281,8 +308,6 @@ fn assemble_polynomial(draft: Draft, read: Read, diagnostics: &Diagnostics) -> O
 
 /// Functions that are not H, and what they depend on.
 const POTENTIAL: [&str; 2] = ["potential", "the group element"];
-#[cfg(feature = "system")]
-const TORQUE: [&str; 2] = ["torque", "the state"];
 
 /// The program of a function of coordinates with these names and the time, without parameters, and its slots; `None` where
 /// something is wrong, which has then been reported.
@@ -294,7 +319,8 @@ pub(crate) fn function(
 ) -> Option<(coadjoint_program::Program, Vec<f64>)> {
     let (root, _) = energy.root?;
     let names = [names, &[], &[]];
-    let lowered = lower(&energy.arena, &[root], names, &mut Table::new(), diagnostics)?;
+    let roots = (&[root][..], false);
+    let lowered = lower(&energy.arena, roots, names, &mut Table::new(), diagnostics)?;
     Some((lowered.value, values(&lowered.symbols)))
 }
 
@@ -367,7 +393,7 @@ fn formula(
     diagnostics: &Diagnostics,
 ) -> Option<Lowered> {
     let found = Diagnostics::new();
-    let lowered = lower(arena, roots, names, &mut Table::new(), &found);
+    let lowered = lower(arena, (roots, of != POTENTIAL), names, &mut Table::new(), &found);
     for found in found.list() {
         diagnostics.report(found.span, found.mistake.in_formula(of));
     }
@@ -378,38 +404,62 @@ pub(crate) fn entries(size: usize) -> Vec<String> {
     (0..size * size).map(|at| format!("g[{}][{}]", at / size, at % size)).collect()
 }
 
-/// Checks what was read and turns it into a torque without potential, whose components are `roots`, beside that of a potential if
-/// there is one; its coordinates are the entries of the matrix, then the momentum.
+/// The expressions of a velocity and of a torque as a front end has read them; coordinates are the entries of the group element's
+/// matrix, row by row, then the momentum, then ∂H/∂μ.
 #[cfg(feature = "system")]
-pub(crate) fn assemble_torque(
-    algebra: LieAlgebra,
+#[derive(Debug)]
+pub(crate) struct Acting {
+    /// The nodes of the expressions, of which none is an energy.
+    pub energy: Energy,
+    /// The components of the velocity and of the torque, where they are given.
+    pub roots: [Option<Vec<ExprId>>; 2],
+}
+
+/// Checks what was read and turns it into a drive, with the diagonal of the damping and with a potential that joins it; `None` where
+/// something is wrong, which has then been reported.
+#[cfg(feature = "system")]
+pub(crate) fn assemble_drive(
+    algebra: &LieAlgebra,
     coordinates: &[String],
-    signals: Vec<Signal>,
-    (energy, roots): (Energy, Vec<ExprId>),
+    signals: &[Signal],
+    read: Option<(Acting, Option<Vec<f64>>)>,
     potential: Option<&Energy>,
     diagnostics: &Diagnostics,
-) -> Option<Potential> {
+) -> Option<Drive> {
     let size = algebra.matrix_size();
-    let names = [entries(size), coordinates.to_vec()].concat();
-    let inputs: Vec<String> = signals.iter().map(|signal| signal.name.clone()).collect();
-    let names = [&names[..], &energy.scalar_names(), &inputs];
-    let lowered = formula(&energy.arena, &roots, names, TORQUE, diagnostics)?;
-    let Lowered { value: torque, watched, expressions, mut symbols, .. } = lowered;
-    let (entries, moves) = (size * size, energy.moves());
-    let of_momentum = energy.arena.iter().any(
-        |(_, node, _)| matches!(node, Node::Coordinate(i) if (entries..entries + coordinates.len()).contains(i)),
-    );
-    let value = None;
-    let mut programs =
-        Programs { value, torque, watched, expressions, of_momentum, moves, signals };
-    if let Some(potential) = potential {
-        let (of_potential, before) = smooth_potential(&algebra, potential, diagnostics)?;
-        programs = programs.beside(&algebra, &of_potential, before.len());
-        symbols.splice(0..0, before);
+    let (acting, damping) = read.map_or((None, None), |(acting, damping)| (Some(acting), damping));
+    let mut parts = Parts { damping, ..Parts::default() };
+    let named = |energy: &Energy| format!("potential = {}", energy.source);
+    let sources = acting.iter().map(|own| own.energy.source.clone()).chain(potential.map(named));
+    parts.source = sources.collect::<Vec<_>>().join(", ");
+    if let Some(Acting { energy, roots }) =
+        acting.filter(|own| own.roots.iter().any(Option::is_some))
+    {
+        let omega = (0..coordinates.len()).map(|i| format!("omega[{i}]"));
+        let names: Vec<String> =
+            entries(size).into_iter().chain(coordinates.iter().cloned()).chain(omega).collect();
+        let inputs: Vec<String> = signals.iter().map(|signal| signal.name.clone()).collect();
+        let names = [&names[..], &energy.scalar_names(), &inputs];
+        let all: Vec<ExprId> = roots.iter().flatten().flatten().copied().collect();
+        let of = if roots[1].is_some() { "torque" } else { "velocity" };
+        let lowered = formula(&energy.arena, &all, names, [of, "the state"], diagnostics)?;
+        parts.given = [roots[0].is_some(), roots[1].is_some()];
+        parts.moves = energy.moves();
+        parts.kinks = lowered.kinks;
+        parts.own = Some((lowered.value, lowered.watched, lowered.expressions, lowered.symbols));
     }
-    let force = Force::Smooth(Box::new(programs));
-    let Energy { parameters, source, .. } = energy;
-    Some(Potential { name: "torque".to_owned(), algebra, force, symbols, parameters, source })
+    if let Some(potential) = potential {
+        let (programs, symbols) = smooth_potential(algebra, potential, diagnostics)?;
+        parts.potential = Some(Potential {
+            name: "potential".to_owned(),
+            algebra: algebra.clone(),
+            force: Force::Smooth(Box::new(programs)),
+            symbols,
+            parameters: potential.parameters.clone(),
+            source: potential.source.clone(),
+        });
+    }
+    Drive::new(algebra, signals, parts)
 }
 
 /// The polynomial in `count` variables and the symbols, and the symbols.

@@ -8,8 +8,8 @@ mod polynomial;
 mod program;
 mod sums;
 
-pub(crate) use assemble::{Draft, Energy, assemble, assemble_either, assemble_potential, linear};
 #[cfg(feature = "system")]
-pub(crate) use assemble::{assemble_given, assemble_torque, constant, entries, function};
+pub(crate) use assemble::{Acting, assemble_drive, assemble_given, constant, entries, function};
+pub(crate) use assemble::{Draft, Energy, assemble, assemble_either, assemble_potential, linear};
 pub(crate) use choice::Choice;
 pub use frame::in_other_frame;

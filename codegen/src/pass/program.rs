@@ -28,6 +28,8 @@ pub(super) struct Lowered {
     pub watched: Program,
     pub reach: Program,
     pub expressions: Vec<String>,
+    /// The texts of expressions that have a kink.
+    pub kinks: Vec<String>,
     pub symbols: Vec<Symbol>,
 }
 
@@ -48,7 +50,8 @@ enum Scale {
 
 impl Scale {
     /// The square of the way from an argument a to b, in these units; negative, infinite or no number where there is 0 between them.
-    fn square(self, graph: &Graph, a: Id, b: Id) -> Id {
+    /// Products below a floor are as small as they vary.
+    fn square(self, graph: &Graph, [a, b]: [Id; 2], floor: Id) -> Id {
         let squared = |a| graph.mul(a, a);
         let one = graph.constant(1.0);
         let way = squared(graph.sub(a, b));
@@ -62,7 +65,8 @@ impl Scale {
             Self::Beyond => graph.div(way, graph.add(one, graph.abs(graph.mul(a, b)))),
             Self::Ratio => graph.div(way, graph.mul(a, b)),
             Self::Products(count) => {
-                let share = graph.div(way, graph.max(squared(a), squared(b)));
+                let size = graph.max(graph.max(squared(a), squared(b)), squared(floor));
+                let share = graph.div(way, size);
                 let share = graph.select(way, graph.zero(), graph.zero(), share);
                 graph.mul(graph.constant(0.25 * count * count), share)
             }
@@ -88,10 +92,10 @@ impl Value {
 }
 
 /// Lowers the expressions `roots` in coordinates, scalar parameters and inputs with these names, with the gradient of their
-/// sum; `None` if something was wrong, which is then reported.
+/// sum, where they may have kinks if they are `kinked`; `None` if something was wrong, which is then reported.
 pub(super) fn lower(
     arena: &Arena,
-    roots: &[ExprId],
+    (roots, kinked): (&[ExprId], bool),
     names: [&[String]; 3],
     table: &mut Table,
     diagnostics: &Diagnostics,
@@ -106,6 +110,8 @@ pub(super) fn lower(
         slots: BTreeMap::new(),
         watched: Vec::new(),
         scales: Vec::new(),
+        kinked,
+        kinks: Vec::new(),
         values: Vec::new(),
         placed: Vec::new(),
         texts: texts(arena, names),
@@ -121,7 +127,7 @@ pub(super) fn lower(
     let roots: Option<Vec<Id>> =
         roots.iter().map(|&root| Some(pass.take(root)?).map(|root| pass.number(&root))).collect();
     let roots = roots?;
-    let Pass { graph, table, slots, watched, scales, texts, .. } = pass;
+    let Pass { graph, table, slots, watched, scales, kinks, texts, .. } = pass;
     let n = coordinates.len();
     let inputs: Vec<Id> = (0..n).map(|i| graph.input(i)).collect();
     let one = graph.constant(1.0);
@@ -129,7 +135,12 @@ pub(super) fn lower(
     let gradient = graph.pull_back(&weighted, &inputs);
     let finish = |outputs: &[Id]| graph.finish(n + 1 + signals.len(), outputs);
     let pairs: Vec<Id> = watched.iter().flat_map(|&(_, argument, test)| [argument, test]).collect();
-    let reach = reach(&scales, &finish(&scales.iter().map(|&(_, u)| u).collect::<Vec<_>>()));
+    let floors = scales.iter().map(|&(scale, u)| match scale {
+        Scale::Products(_) => floor(&graph, u, &inputs),
+        _ => graph.zero(),
+    });
+    let arguments = scales.iter().map(|&(_, u)| u).chain(floors).collect::<Vec<_>>();
+    let reach = reach(&scales, &finish(&arguments));
     let mut numbered: Vec<_> = slots.into_iter().collect();
     numbered.sort_by_key(|(_, slot)| *slot);
     let symbols = numbered.into_iter().map(|(coefficient, _)| {
@@ -143,12 +154,26 @@ pub(super) fn lower(
         watched: finish(&pairs),
         reach,
         expressions: watched.iter().map(|&(id, ..)| texts[id.index()].0.clone()).collect(),
+        kinks: kinks.into_iter().map(|id| texts[id.index()].0.clone()).collect(),
         symbols: symbols.collect(),
     })
 }
 
-/// The largest [`Scale::square`] of arguments, by the program that computes them, from one state to another, whose inputs come
-/// one after the other. What is not positive where it is not 0 becomes infinite.
+/// The share of the coordinates' size below which the argument of a power is small: what passes through zero has no size of its own.
+const SMALL: f64 = 0.25;
+
+/// The size below which an argument u of coordinates is small: by how much it varies when each of them does by a share of the
+/// largest.
+fn floor(graph: &Graph, u: Id, coordinates: &[Id]) -> Id {
+    let slopes = graph.pull_back(&[(u, graph.constant(1.0))], coordinates);
+    let sum = slopes.iter().fold(graph.zero(), |sum, &slope| graph.add(sum, graph.abs(slope)));
+    let sizes = coordinates.iter().map(|&x| graph.abs(x));
+    let largest = sizes.reduce(|a, b| graph.max(a, b)).unwrap_or_else(|| graph.zero());
+    graph.mul(graph.constant(SMALL), graph.mul(sum, largest))
+}
+
+/// The largest [`Scale::square`] of arguments, by the program that computes them and then their floors, from one state to another,
+/// whose inputs come one after the other. What is not positive where it is not 0 becomes infinite.
 fn reach(scales: &[(Scale, Id)], arguments: &Program) -> Program {
     let graph = Graph::new();
     let count = arguments.inputs();
@@ -160,8 +185,10 @@ fn reach(scales: &[(Scale, Id)], arguments: &Program) -> Program {
     // Single precision has a place for it.
     let infinite = graph.constant(f64::from(f32::MAX));
     let mut largest = zero;
-    for (&(scale, _), (&a, &b)) in scales.iter().zip(from.iter().zip(&to)) {
-        let square = scale.square(&graph, a, b);
+    for (i, &(scale, _)) in scales.iter().enumerate() {
+        let at = |state: &[Id]| [state[i], state[scales.len() + i]];
+        let ([a, floor_a], [b, floor_b]) = (at(&from), at(&to));
+        let square = scale.square(&graph, [a, b], graph.max(floor_a, floor_b));
         // Not a number, too.
         let square = graph.select(zero, square, square, infinite);
         let square = graph.select(graph.abs(graph.sub(a, b)), zero, zero, square);
@@ -182,6 +209,9 @@ struct Pass<'a> {
     watched: Vec<(ExprId, Id, Id)>,
     /// The arguments of functions that vary faster than their arguments.
     scales: Vec<(Scale, Id)>,
+    /// True if expressions may have kinks, and those that have one.
+    kinked: bool,
+    kinks: Vec<ExprId>,
     values: Vec<Option<Value>>,
     /// True for an expression that depends on coordinates, and not on the time alone.
     placed: Vec<bool>,
@@ -281,6 +311,10 @@ impl Pass<'_> {
                 self.watched.push((id, a, slope));
                 self.scales.push((Scale::Ratio, a));
                 return Some(root);
+            }
+            Function::Abs if self.kinked => {
+                self.kinks.push(id);
+                return Some(self.graph.abs(a));
             }
             Function::Abs => {
                 let (message, help) = match self.placed[id.index()] {

@@ -4,7 +4,7 @@ use super::initial::copies;
 use super::parameters::Parameters;
 use super::table::Table;
 use crate::diagnostic::Span;
-use crate::expr::{Arena, ExprId, Node};
+use crate::expr::{Arena, Node};
 use crate::lie::LieAlgebra;
 use crate::parse::{Name, Names, text};
 use crate::pass::{Energy, entries};
@@ -12,7 +12,6 @@ use crate::signal::Signal;
 
 const COORDINATES: &str = "coordinates = [\"x\", \"y\", \"z\"]";
 const HAMILTONIAN: &str = "hamiltonian = \"x^2/2 + y^2/4\"";
-const TORQUE: &str = "torque = [\"-c*x\", \"-c*y\", \"-c*z\"]";
 const POTENTIAL: &str = "potential = \"m*g[2][2]\"";
 
 /// Reads `hamiltonian`, in these coordinates; without any it would be full of unknown names.
@@ -43,6 +42,13 @@ pub(super) fn hamiltonian(
     }
     // Anything else called t comes first.
     names.known("t", Name::Time);
+    if !root.has("hamiltonian") && root.has("velocity") {
+        // A velocity may be all that moves.
+        let (mut arena, place) = (Arena::new(), Span::Whole);
+        let zero = text::parse("0", 0, &[], &names, &mut arena, root.diagnostics);
+        let (root, source) = (Some((zero, place)), "0".to_owned());
+        return Energy { arena, root, parameters: kept, source };
+    }
     if !root.has("hamiltonian") {
         root.missing("hamiltonian", HAMILTONIAN);
     }
@@ -65,49 +71,12 @@ pub(super) fn check_inputs(root: &Table<'_>, inputs: &[(Signal, Span)], energies
             |energy: &&Energy| energy.arena.iter().any(|(_, node, _)| *node == Node::Signal(i));
         if !energies.iter().any(has) {
             let what = format!(
-                "the input `{}` does not occur in the Hamiltonian or a torque",
+                "the input `{}` does not occur in the Hamiltonian, a velocity or a torque",
                 signal.name
             );
             root.diagnostics.report_other(*place, what, "name it there, or leave it out");
         }
     }
-}
-
-/// Reads `torque`, if the file has one and its group is known: a list of expressions in the entries of the group element's
-/// matrix, the momentum, the time and the inputs, one for each coordinate.
-pub(super) fn torque(
-    root: &Table<'_>,
-    algebra: Option<&LieAlgebra>,
-    coordinates: &[(String, Span)],
-    parameters: &Parameters,
-    inputs: &[(Signal, Span)],
-) -> Option<(Energy, Vec<ExprId>)> {
-    let (list, place) = root.strings("torque", "a list of expressions", TORQUE)?;
-    let entries = entries(algebra?.matrix_size());
-    let (found, needed) = (list.len(), coordinates.len());
-    if found != needed {
-        let message = format!("`torque` has {found} components, and the momentum {needed}");
-        root.diagnostics.report_other(place, message, &format!("write for example {TORQUE}"));
-        return None;
-    }
-    let entry = |name: &String| (name.clone(), Span::Whole);
-    let all: Vec<_> = entries.iter().map(entry).chain(coordinates.iter().cloned()).collect();
-    let mut names = Names::of_coordinates(&all, root.diagnostics);
-    let kept = parameters.add_to(&mut names, root.diagnostics);
-    for i in 0..needed {
-        names.alias(format!("mu[{i}]"), Name::Coordinate(entries.len() + i));
-    }
-    for (i, (signal, place)) in inputs.iter().enumerate() {
-        names.add(&signal.name, Name::Signal(i), *place, root.diagnostics);
-    }
-    names.known("t", Name::Time);
-    let mut arena = Arena::new();
-    let parse = |(text, place): &(String, Span)| {
-        text::parse(text, root.offset(*place, text), &[], &names, &mut arena, root.diagnostics)
-    };
-    let roots = list.iter().map(parse).collect();
-    let source = list.iter().map(|(text, _)| &text[..]).collect::<Vec<_>>().join(", ");
-    Some((Energy { arena, root: None, parameters: kept, source }, roots))
 }
 
 /// The names of the coordinates, and where they are given; those of the generators, or mu[0], mu[1], … where none are

@@ -37,7 +37,8 @@
 //! coordinate by its name. Nothing is computed with them.
 //!
 //! A force that breaks the symmetry is a `potential = "…"`, a polynomial in the entries `g[0][0]`, …
-//! of the group element's matrix; its kicks are composed by the `splitting` of `[integrator]`.
+//! of the group element's matrix; its kicks are composed by the `splitting` of `[integrator]`. A `velocity`, a `torque` and `damping` act
+//! within the step, as a potential beside them does.
 //!
 //! `t` in the Hamiltonian is the time. `[inputs]` has functions of it by their values, `u = [0, 0.5, 0.2, 0]` at `times = [0, 1, 2, 3]`,
 //! between which they are cubic splines.
@@ -46,7 +47,7 @@
 //! finds where it changes its sign, in the `direction` up, down or both, and ends there with `stop = true`.
 
 mod algebra;
-mod damping;
+mod drive;
 mod energies;
 mod event;
 mod initial;
@@ -62,11 +63,12 @@ mod units;
 use toml::de::DeTable;
 
 use crate::diagnostic::{Diagnostics, Mistake, Span, unclosed_quote};
+use crate::drive::Drive;
 use crate::lie::{LieAlgebra, catalogue};
 use crate::parse::Names;
 use crate::pass::{
-    Choice, Draft, Energy, assemble, assemble_either, assemble_given, assemble_potential,
-    assemble_torque,
+    Choice, Draft, Energy, assemble, assemble_drive, assemble_either, assemble_given,
+    assemble_potential,
 };
 use crate::potential::Potential;
 use crate::problem::{Parameter, Problem};
@@ -88,10 +90,8 @@ const DEFAULT_NAME: &str = "system";
 pub struct System<H = Problem> {
     /// The system.
     pub problem: H,
-    /// The potential V(g), or the torque, or both as one torque, if the file has one, and the splitting to compose its kicks by.
+    /// The potential V(g), if the file has one and it is not a part of the system's drive, and the splitting to compose its kicks by.
     pub potential: Option<(Potential, Splitting)>,
-    /// The diagonal of Γ, where there is double-bracket damping: μ̇ = ad\*_ω μ + ad\*_x μ with ω = ∂H/∂μ, x = Γ ad\*_ω μ.
-    pub damping: Option<Vec<f64>>,
     /// The initial state, the duration and the step, as far as the file gives them.
     pub run: Run,
     /// The units that plots and reports show.
@@ -101,39 +101,45 @@ pub struct System<H = Problem> {
 }
 
 impl System<Hamiltonian> {
-    /// The inputs u(t) of the Hamiltonian or of the torque.
+    /// The inputs u(t).
     #[must_use]
     pub fn signals(&self) -> &[Signal] {
-        let torque = || self.potential.as_ref().and_then(|(potential, _)| potential.alone());
-        match self.problem.smooth() {
-            Some(smooth) => &smooth.signals,
-            None => torque().map_or(&[], |torque| &torque.signals),
-        }
+        self.problem.smooth().map_or(&[], |smooth| &smooth.signals)
     }
 
-    /// True if the Hamiltonian or the torque depends on time, by inputs too.
+    /// True if the equations depend on time, by inputs too.
     #[must_use]
     pub fn depends_on_time(&self) -> bool {
-        let torque = self.potential.as_ref().and_then(|(potential, _)| potential.alone());
-        self.problem.smooth().is_some_and(|smooth| smooth.moves)
-            || torque.is_some_and(|torque| torque.moves)
+        let moves = |smooth: &Smooth| {
+            smooth.moves || smooth.drive.as_ref().is_some_and(|drive| drive.moves)
+        };
+        self.problem.smooth().is_some_and(moves)
+    }
+
+    /// The velocity and the torque beside the Hamiltonian, where there are any.
+    #[must_use]
+    pub fn drive(&self) -> Option<&Drive> {
+        self.problem.smooth()?.drive.as_deref()
+    }
+
+    /// Checks that it can be written as Rust.
+    ///
+    /// # Errors
+    /// As [`System::writable`]; refuses velocities, torques and damping too.
+    pub fn writable_as_rust(&self) -> Result<(), String> {
+        if self.drive().is_some() {
+            return Err("no Rust code is written of a velocity, a torque or damping; `--language c` writes a header, and in Rust \
+                        `Collocation::driven` makes such steps from closures"
+                .to_owned());
+        }
+        self.writable()
     }
 
     /// Checks that it can be written as code.
     ///
     /// # Errors
-    /// Refuses torques, damping and inputs; the text says so.
+    /// Refuses inputs; the text says so.
     pub fn writable(&self) -> Result<(), String> {
-        if self.potential.as_ref().is_some_and(|(potential, _)| potential.alone().is_some()) {
-            let what =
-                "no code is written of a torque: `simulate`, `ensemble` and Python make its kicks";
-            return Err(what.to_owned());
-        }
-        if self.damping.is_some() {
-            let what =
-                "no code is written of damping: `simulate`, `ensemble` and Python make its steps";
-            return Err(what.to_owned());
-        }
         self.signals().first().map_or(Ok(()), |signal| {
             Err(format!(
                 "no code is written of a system with the input `{}`, whose values it would not have: `simulate`, \
@@ -146,8 +152,8 @@ impl System<Hamiltonian> {
 
 impl From<System> for System<Hamiltonian> {
     fn from(system: System) -> Self {
-        let System { problem, potential, damping, run, units, parameters } = system;
-        Self { problem: problem.into(), potential, damping, run, units, parameters }
+        let System { problem, potential, run, units, parameters } = system;
+        Self { problem: problem.into(), potential, run, units, parameters }
     }
 }
 
@@ -295,6 +301,7 @@ fn system<H>(
         "algebra",
         "coordinates",
         "hamiltonian",
+        "velocity",
         "potential",
         "torque",
         "damping",
@@ -317,11 +324,13 @@ fn system<H>(
             Energy { source: name.clone(), parameters, ..Energy::default() }
         }
     };
-    let torque = energies::torque(&root, algebra.as_ref(), &coordinates, &parameters, &inputs);
-    // Of a wrong torque it is not known.
-    if torque.is_some() || !root.has("torque") {
-        let torque = torque.as_ref().map(|(torque, _)| torque);
-        let energies: Vec<_> = torque.into_iter().chain([&hamiltonian]).collect();
+    let driven = drive::is_given(&root);
+    let read = || drive::read(&root, algebra.as_ref(), &coordinates, &parameters, &inputs);
+    let acting = if driven { read() } else { None };
+    // Of a wrong drive it is not known.
+    if acting.is_some() || !driven {
+        let drive = acting.as_ref().map(|read| &read.acting.energy);
+        let energies: Vec<_> = drive.into_iter().chain([&hamiltonian]).collect();
         energies::check_inputs(&root, &inputs, &energies);
     }
     let coordinates: Vec<String> = coordinates.into_iter().map(|(name, _)| name).collect();
@@ -334,7 +343,6 @@ fn system<H>(
     if integrator.as_ref().is_some_and(|table| table.has("truncation")) {
         run.truncation = choice.truncation;
     }
-    let damping = damping::read(&root, algebra.as_ref());
     let of_potential = energies::potential(&root, algebra.as_ref(), &parameters);
     let splitting = splitting::read(&root, integrator.as_ref());
     // Mistakes of both energies at once.
@@ -342,16 +350,21 @@ fn system<H>(
         assemble_potential("potential".to_owned(), algebra.clone(), None, energy, diagnostics)
     });
     let signals: Vec<Signal> = inputs.into_iter().map(|(signal, _)| signal).collect();
-    let potential = match (torque, &algebra) {
-        (Some(read), Some(algebra)) => {
-            let (algebra, signals) = (algebra.clone(), signals.clone());
+    // Beside a velocity or a torque a potential has no kicks, nor where none are asked for.
+    let without_kicks =
+        || integrator.as_ref()?.string("splitting", "")?.0.eq(splitting::NONE).then_some(());
+    let joined = driven || without_kicks().is_some();
+    let drive = match (&algebra, acting.is_some() || potential.is_some()) {
+        (Some(algebra), true) if joined => {
             let of_potential = of_potential.as_ref().filter(|_| potential.is_some());
-            assemble_torque(algebra, &coordinates, signals, read, of_potential, diagnostics)
+            let read = acting.map(|read| (read.acting, read.damping));
+            assemble_drive(algebra, &coordinates, &signals, read, of_potential, diagnostics)
         }
-        _ => potential,
+        _ => None,
     };
+    let potential = potential.filter(|_| !joined);
     let draft =
-        Draft { name, algebra, coordinates, coordinates_span, hamiltonian, signals, choice };
+        Draft { name, algebra, coordinates, coordinates_span, hamiltonian, signals, drive, choice };
     let problem = (kind.assemble)(draft, diagnostics)?;
     if let Some(velocity) = velocity {
         let gradient = (kind.gradient)(&problem, run.initial_time);
@@ -360,10 +373,10 @@ fn system<H>(
     }
     let quadratic = (kind.quadratic)(&problem);
     let potential = potential.map(|potential| {
-        let splitting = splitting::choose(splitting, quadratic, &potential, diagnostics);
+        let splitting = splitting::choose(splitting, quadratic, diagnostics);
         (potential, splitting)
     });
-    Some(System { problem, potential, damping, run, units, parameters: parameters.all() })
+    Some(System { problem, potential, run, units, parameters: parameters.all() })
 }
 
 fn name(root: &Table<'_>) -> String {

@@ -84,7 +84,7 @@ impl Course {
             let (time, element) = (grid.time(n), space.matrix(&state.g));
             let force = torque.as_ref().map_or(0.0, |torque| {
                 let phase = phase_of(group, &element, &state.mu);
-                let found = torque.torque(&phase.group_element, &phase.momentum, time);
+                let found = torque.torque(&phase.group_element, time);
                 found.map_or(0.0, |torque| torque.amax())
             });
             course.places.push(Place { time, element, momentum: state.mu.clone(), force });

@@ -12,6 +12,7 @@ use std::sync::Arc;
 
 use coadjoint::groups::Exponential;
 use coadjoint::{LieGroup, Phase, StepError, laws};
+use coadjoint_codegen::drive::Drive;
 use coadjoint_codegen::step::{Seen, rounding};
 use coadjoint_program::Trajectories;
 use course::{Course, Start, starts as starts_in};
@@ -51,13 +52,13 @@ pub fn unmeasured(system: &Derived) -> Option<String> {
 /// A step cannot be made.
 pub fn check(system: &Derived, trial: &Trial) -> Result<(Vec<Law>, Option<f64>), RunError> {
     let course = Course::new(system, trial)?;
-    let alone = if system.is_damped() { None } else { system.without_kicks() };
+    let alone = system.without_kicks();
     let (mut laws, ratio) = laws_of_steps(alone.as_ref().unwrap_or(system), trial, &course)?;
-    if system.is_damped() {
+    if system.drive().is_some() {
         return Ok((laws, ratio));
     }
-    if let Some(kicks) = system.kicks() {
-        laws.extend(kicked(system, kicks.torque().is_none(), trial, &course)?);
+    if system.kicks().is_some() {
+        laws.extend(kicked(system, trial, &course)?);
     }
     if let Some((drift, steps)) = course.drift {
         let statement = "J_L along the run, as far as it is conserved";
@@ -143,6 +144,23 @@ impl<'a> Roundtrip<'a> {
         Ok(Self { system, there, back, compiled })
     }
 
+    /// The rise of an energy in a step from each of these points, relative to it, in the direction of time.
+    fn rises(
+        &self,
+        points: &[Phase<Tables>],
+        energy: &dyn Fn(f64, &Phase<Tables>) -> Option<f64>,
+    ) -> Result<Vec<f64>, RunError> {
+        let Grid { start, step: h } = self.there.grid();
+        let rise = |point: &Phase<Tables>| {
+            let mut end = point.clone();
+            one(&self.there, &mut end).map_err(RunError::at(start))?;
+            let [before, after] = [(start, point), (start + h, &end)]
+                .map(|(time, state)| energy(time, state).unwrap_or(f64::NAN));
+            Ok((after - before) * h.signum() / before.abs())
+        };
+        points.iter().map(rise).collect()
+    }
+
     /// The order of accuracy from these starts.
     fn order(&self, starts: &[Start]) -> Law {
         let Self { system, there, compiled, .. } = self;
@@ -182,16 +200,15 @@ fn laws_of_steps(
     let steps = Roundtrip::new(system, trial)?;
     let Roundtrip { there: forward, back: backward, .. } = &steps;
     let (there, back) = (|state: &mut _| one(forward, state), |state: &mut _| one(backward, state));
-    // With damping a potential is a part of these steps, which then have no law of [`LAWS`] to keep; back in time there may be
-    // none where the run has one.
-    let kicked = system.kicks().is_some();
-    let states = course.states(trial, (group, kicked), |point| {
+    // With a torque steps have no law of [`LAWS`] to keep; back in time there may be none where the run has one.
+    let forced = system.drive().is_some_and(|drive| drive.torque.is_some());
+    let states = course.states(trial, (group, forced), |point| {
         one(forward, &mut point.clone())?;
-        if kicked { Ok(()) } else { one(backward, &mut point.clone()) }
+        if forced { Ok(()) } else { one(backward, &mut point.clone()) }
     });
     let (points, starts) = states.map_err(RunError::at(start))?;
     let mut laws = Vec::new();
-    if !kicked {
+    if !forced {
         // Of groups without logarithm the function S tells the symplectic law; they have the exponential chart alone.
         let series = system.series().filter(|_| group.log(&group.identity()).is_none());
         let map = series.map(|series| Interpreter::new(series, group.clone(), h, &[])).transpose();
@@ -204,11 +221,15 @@ fn laws_of_steps(
         laws = tried.map_err(RunError::at(start))?;
     }
     laws.push(steps.order(&starts));
-    if system.damping.is_some() {
-        laws.retain(|law| !["Poisson", "symplectic"].contains(&law.name));
-        laws.iter_mut().filter(|law| law.name == "order").for_each(|law| {
-            law.statement = "steps and damping: error ∝ h²";
-        });
+    if let Some(drive) = system.drive() {
+        let of_element: &[&str] =
+            if drive.reads_element() { &["equivariant", "diagram"] } else { &[] };
+        let broken = [&["Poisson", "symplectic"][..], of_element].concat();
+        laws.retain(|law| !broken.contains(&law.name));
+    }
+    if let Some(undamped) = system.without_velocity()
+        && system.drive().is_some_and(Drive::is_dissipative)
+    {
         let energy = |time: f64, state: &Phase<Tables>| {
             let matrix = entries_of(group, &state.group_element);
             let seen = Seen { spatial: &[], matrix: &matrix, momentum: state.momentum.as_slice() };
@@ -216,14 +237,11 @@ fn laws_of_steps(
             system.invariants.energy_of(&conserved)
         };
         if points.first().and_then(|point| energy(start, point)).is_some() {
-            let mut rise = f64::NEG_INFINITY;
-            for point in &points {
-                let mut end = point.clone();
-                one(forward, &mut end).map_err(RunError::at(start))?;
-                let [before, after] = [(start, point), (start + h, &end)]
-                    .map(|(time, state)| energy(time, state).unwrap_or(f64::NAN));
-                rise = maximum(rise, (after - before) * h.signum() / before.abs());
-            }
+            let undamped = Roundtrip::new(&undamped, trial)?.rises(&points, &energy)?;
+            let rises = steps.rises(&points, &energy)?;
+            let rise = rises.into_iter().fold(f64::NEG_INFINITY, maximum);
+            // The energy of a step without damping is not exact either.
+            let own = undamped.into_iter().fold(0.0, |most, rise| maximum(most, rise.abs()));
             let statement = match (system.invariants.potential, h < 0.0) {
                 (true, false) => "(H + V)(Φ(α)) ≤ (H + V)(α)",
                 (true, true) => "(H + V)(Φ(α)) ≥ (H + V)(α), back in time",
@@ -231,7 +249,7 @@ fn laws_of_steps(
                 (false, true) => "H(Φ(α)) ≥ H(α), back in time",
             };
             let name = "dissipative";
-            laws.push(Law::at_most(name, statement, rise, 1e-14));
+            laws.push(Law::at_most(name, statement, rise, 1e-14 + own));
         }
     }
     laws.retain(|law| law.name != "order" || unmeasured(system).is_none());
@@ -240,14 +258,8 @@ fn laws_of_steps(
     Ok((laws, Some(ratio).filter(|ratio| *ratio > STEEP)))
 }
 
-/// The laws that are left to the whole step where a potential breaks the symmetry; where a torque does that is not Hamiltonian,
-/// the order alone.
-fn kicked(
-    system: &Derived,
-    hamiltonian: bool,
-    trial: &Trial,
-    course: &Course,
-) -> Result<Vec<Law>, RunError> {
+/// The laws that are left to the whole step where a potential breaks the symmetry.
+fn kicked(system: &Derived, trial: &Trial, course: &Course) -> Result<Vec<Law>, RunError> {
     let (&Trial { start, step: h, .. }, group) = (trial, &*system.group.exponential);
     let steps = Roundtrip::new(system, trial)?;
     let Roundtrip { there, back, .. } = &steps;
@@ -258,7 +270,7 @@ fn kicked(
     let (points, starts) = states.map_err(RunError::at(start))?;
     let (mut symplectic, mut symmetric): (Option<f64>, _) = (None, 0.0_f64);
     let limit = Limit::new();
-    for point in points.iter().filter(|_| hamiltonian) {
+    for point in &points {
         let mut step = |state: &mut _| limit.within(|| one(there, state));
         let defect = laws::symplectic_defect_of(group, point, &mut step);
         let defect = match limit.is_over() {
@@ -294,6 +306,5 @@ fn kicked(
         let statement = "flows and kicks: that of the splitting";
         Law { name: "order+V", statement, ..order }
     });
-    let symmetric = hamiltonian.then_some(symmetric);
-    Ok(symplectic.into_iter().chain(symmetric).chain(order).collect())
+    Ok(symplectic.into_iter().chain([symmetric]).chain(order).collect())
 }

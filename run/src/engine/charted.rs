@@ -13,7 +13,6 @@ use coadjoint_learn::{Generating, ModelFile};
 
 use super::collocation::collocated;
 use super::compiled::{Compiled, Solved};
-use super::damping::Damped;
 use super::method::{Flow, Method};
 use super::motion::Motion;
 use super::series::Series;
@@ -51,14 +50,13 @@ impl Charted {
         Space { group: self.exponential.clone(), compiled }
     }
 
-    /// The steps of this grid for these values of the parameters that a system keeps: by programs where there are any, between
-    /// halves of damping where there is any.
+    /// The steps of this grid for these values of the parameters that a system keeps: by programs where there are any.
     ///
     /// # Errors
     /// Where the size makes no sense, or a coefficient is not finite.
     pub(crate) fn steps<'a>(
         &self,
-        (origin, rates): (&'a Origin, Option<&'a [f64]>),
+        origin: &'a Origin,
         grid: Grid,
         parameters: &[f64],
         compiled: Option<&Arc<Compiled>>,
@@ -76,9 +74,7 @@ impl Charted {
             }
         };
         let (space, own) = (self.space(compiled), parameters.to_vec());
-        let motion = Motion::new(space, grid, own, method, origin.kicks())?;
-        let group = &self.exponential;
-        Ok(motion.between(rates.map(|rates| Damped::new(rates, origin, group, parameters))))
+        Motion::new(space, grid, own, method, origin.kicks())
     }
 
     /// The steps of a learned map, which are those of this grid.

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use coadjoint::collocation::{Collocation, Energy, Undefined};
+use coadjoint::collocation::{Collocation, Drive, Energy, Undefined};
 use coadjoint::groups::Exponential;
 use coadjoint::{Phase, StepError};
 use coadjoint_codegen::cancel;
@@ -11,6 +11,7 @@ use coadjoint_codegen::step;
 use nalgebra::DVector;
 
 use super::compiled::Solved;
+use super::drive::Driven;
 use super::linear::{Linear, moved};
 use super::method::{Flow, Method, Slope};
 use super::response::Response;
@@ -31,16 +32,30 @@ pub(super) fn collocated<'a>(
     if let Some(value) = symbols.into_iter().find(|value| !value.is_finite()) {
         return Err(StepError::InvalidParameter { name: "of the Hamiltonian", value });
     }
-    Ok(match smooth.nodes() {
-        1 => Box::new(Collocated::<1>::new(smooth, group, size, parameters)?),
-        2 => Box::new(Collocated::<2>::new(smooth, group, size, parameters)?),
-        3 => Box::new(Collocated::<3>::new(smooth, group, size, parameters)?),
-        4 => Box::new(Collocated::<4>::new(smooth, group, size, parameters)?),
-        5 => Box::new(Collocated::<5>::new(smooth, group, size, parameters)?),
-        6 => Box::new(Collocated::<6>::new(smooth, group, size, parameters)?),
-        7 => Box::new(Collocated::<7>::new(smooth, group, size, parameters)?),
-        _ => Box::new(Collocated::<8>::new(smooth, group, size, parameters)?),
-    })
+    match smooth.nodes() {
+        1 => at_nodes::<1>(smooth, group, size, parameters),
+        2 => at_nodes::<2>(smooth, group, size, parameters),
+        3 => at_nodes::<3>(smooth, group, size, parameters),
+        4 => at_nodes::<4>(smooth, group, size, parameters),
+        5 => at_nodes::<5>(smooth, group, size, parameters),
+        6 => at_nodes::<6>(smooth, group, size, parameters),
+        7 => at_nodes::<7>(smooth, group, size, parameters),
+        _ => at_nodes::<8>(smooth, group, size, parameters),
+    }
+}
+
+/// Collocation at `M` nodes, with the drive where there is one.
+fn at_nodes<'a, const M: usize>(
+    smooth: &'a Smooth,
+    group: &Tables,
+    size: f64,
+    parameters: &[f64],
+) -> Result<Box<dyn Method<'a> + 'a>, StepError> {
+    if smooth.drive.is_none() {
+        let make = |_: &Smooth, _: &Tables, _: &[f64]| ();
+        return Ok(Box::new(Collocated::<M, ()>::new(smooth, group, size, parameters, make)?));
+    }
+    Ok(Box::new(Collocated::<M, Driven<'a>>::new(smooth, group, size, parameters, Driven::new)?))
 }
 
 /// The energy by its programs.
@@ -79,35 +94,47 @@ impl Energy<DVector<f64>> for Interpreted<'_> {
 }
 
 /// Steps of one size that know those before them.
-type Remembering<'a, const M: usize> = Mutex<Collocation<Tables, Interpreted<'a>, M>>;
+type Remembering<'a, const M: usize, D> = Mutex<Collocation<Tables, Interpreted<'a>, M, D>>;
+
+/// Makes the drive for these values of the parameters.
+type Make<'a, D> = fn(&'a Smooth, &Tables, &[f64]) -> D;
 
 /// Collocation at `M` nodes.
-struct Collocated<'a, const M: usize> {
+struct Collocated<'a, const M: usize, D> {
     smooth: &'a Smooth,
+    group: Tables,
     energy: Interpreted<'a>,
+    drive: D,
+    make: Make<'a, D>,
     /// Of a function of the user's. Steps of a system too large for programs begin anew: so their bits do not depend on how a run is
     /// cut.
-    whole: Option<Remembering<'a, M>>,
+    whole: Option<Remembering<'a, M, D>>,
 }
 
-impl<'a, const M: usize> Collocated<'a, M> {
+impl<'a, const M: usize, D: Drive<Tables> + Clone> Collocated<'a, M, D> {
     fn new(
         smooth: &'a Smooth,
         group: &Tables,
         size: f64,
         parameters: &[f64],
+        make: Make<'a, D>,
     ) -> Result<Self, StepError> {
         let energy = Interpreted::new(step::Energy::smooth(smooth, parameters));
+        let (drive, group) = (make(smooth, group, parameters), group.clone());
         let remembers = smooth.given.is_some() && smooth.kicks.is_none();
-        let whole = || Collocation::new(group.clone(), energy.clone(), size);
+        let whole = || Collocation::driven(group.clone(), energy.clone(), drive.clone(), size);
         let whole = remembers.then(whole).transpose()?.map(Mutex::new);
-        Ok(Self { smooth, energy, whole })
+        Ok(Self { smooth, group, energy, drive, make, whole })
     }
 }
 
-impl<'a, const M: usize> Method<'a> for Collocated<'a, M> {
+impl<'a, const M: usize, D> Method<'a> for Collocated<'a, M, D>
+where
+    D: Drive<Tables> + Clone + Send + Sync + 'a,
+{
     fn flow(&self, group: &Tables, length: f64, _: &[f64]) -> Result<Flow<'a>, StepError> {
-        let flow = Collocation::<_, _, M>::new(group.clone(), self.energy.clone(), length)?;
+        let (energy, drive) = (self.energy.clone(), self.drive.clone());
+        let flow = Collocation::<_, _, M, _>::driven(group.clone(), energy, drive, length)?;
         Ok(Box::new(move |phase, time| {
             let report = flow.clone().advance(phase, time)?;
             Ok(Solved::one(report.iterations, report.residual))
@@ -121,9 +148,9 @@ impl<'a, const M: usize> Method<'a> for Collocated<'a, M> {
         Some(Solved::one(report.iterations, report.residual))
     }
 
-    /// Of a function of the user's there is no Hessian.
+    /// Of a function of the user's there is no Hessian, and of a drive no derivative.
     fn is_differentiable(&self) -> bool {
-        self.smooth.given.is_none()
+        self.smooth.given.is_none() && self.smooth.drive.is_none()
     }
 
     fn slopes(
@@ -151,10 +178,12 @@ impl<'a, const M: usize> Method<'a> for Collocated<'a, M> {
 
     fn vary(&mut self, parameters: &[f64]) {
         self.energy = Interpreted::new(step::Energy::smooth(self.smooth, parameters));
+        self.drive = (self.make)(self.smooth, &self.group, parameters);
         if let Some(whole) = &mut self.whole {
             let step = whole.get_mut().unwrap_or_else(PoisonError::into_inner);
             let (group, energy) = (step.group().clone(), self.energy.clone());
-            if let Ok(varied) = Collocation::new(group, energy, step.step()) {
+            let drive = self.drive.clone();
+            if let Ok(varied) = Collocation::driven(group, energy, drive, step.step()) {
                 *step = varied;
             }
         }
@@ -164,13 +193,25 @@ impl<'a, const M: usize> Method<'a> for Collocated<'a, M> {
         true
     }
 
-    fn defined(&self, time: f64, mu: &[f64]) -> Result<(), StepError> {
+    fn defined(
+        &self,
+        time: f64,
+        phase: &dyn Fn() -> Phase<Tables>,
+        mu: &[f64],
+    ) -> Result<(), StepError> {
         let energy = &self.energy.0;
         // A function of the user's says by its value alone that there is none.
         let lost = || self.smooth.given.is_some() && !energy.value(time, mu).is_finite();
         let found = energy.undefined(time, mu).or_else(|| lost().then_some(("H", f64::NAN)));
+        let found = found.map(|(expression, argument)| (kept(expression), argument));
+        let found = found.or_else(|| {
+            let (drive, phase) = (D::ACTS.then_some(&self.drive)?, phase());
+            let omega = DVector::from_vec(energy.gradient(time, mu));
+            let known = drive.undefined(time, &phase.group_element, &phase.momentum, &omega)?;
+            Some((known.expression, known.argument))
+        });
         found.map_or(Ok(()), |(expression, argument)| {
-            Err(StepError::Undefined { expression: kept(expression), argument, time, at: None })
+            Err(StepError::Undefined { expression, argument, time, at: None })
         })
     }
 }

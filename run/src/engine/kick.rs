@@ -19,7 +19,7 @@ use crate::error::kept;
 /// The elements of the groups known at run time.
 type Element = <Tables as LieGroup>::Element;
 
-/// The body torque −g⁻¹dV(g) of a potential, or one without, on a run-time group.
+/// The body torque −g⁻¹dV(g) of a potential, on a run-time group.
 #[derive(Debug)]
 pub(crate) struct Torque<'a> {
     kick: &'a Kick,
@@ -48,26 +48,18 @@ impl<'a> Torque<'a> {
         self.slots = varied.unwrap_or_else(|_| vec![f64::NAN; self.slots.len()]);
     }
 
-    /// The torque in a state at this time.
+    /// The torque at g, for messages at this time.
     ///
     /// # Errors
     /// Fails if an expression in it is not defined.
-    pub(crate) fn torque(
-        &self,
-        g: &Element,
-        mu: &DVector<f64>,
-        time: f64,
-    ) -> Result<DVector<f64>, StepError> {
+    pub(crate) fn torque(&self, g: &Element, time: f64) -> Result<DVector<f64>, StepError> {
         let entries = entries_of(&self.group, g);
-        let Force::Smooth(programs) = &self.kick.potential.force else {
-            return Ok(DVector::from_vec(self.kick.torque.run(&entries, &self.slots)));
-        };
-        let inputs = programs.inputs(&entries, mu.as_slice(), time);
-        let torque = DVector::from_vec(self.kick.torque.run(&inputs, &self.slots));
+        let torque = DVector::from_vec(self.kick.torque.run(&entries, &self.slots));
+        let Force::Smooth(programs) = &self.kick.potential.force else { return Ok(torque) };
         if torque.iter().all(|entry| entry.is_finite()) {
             return Ok(torque);
         }
-        let undefined = programs.undefined(&inputs, &self.slots);
+        let undefined = programs.undefined(&entries, &self.slots);
         Err(undefined.map_or(StepError::NonFiniteState, |(expression, argument)| {
             StepError::Undefined { expression: kept(expression), argument, time, at: None }
         }))
@@ -87,11 +79,10 @@ impl<'a> Torque<'a> {
         if matches!(self.kick.potential.force, Force::Polynomial(_)) {
             return Ok(());
         }
-        let phase = space.phase(state);
-        self.torque(&phase.group_element, &phase.momentum, time).map(drop)
+        self.torque(&space.phase(state).group_element, time).map(drop)
     }
 
-    /// A kick of this length; where the torque depends on μ, that of its value in the middle.
+    /// A kick of this length.
     ///
     /// # Errors
     /// As [`Torque::torque`].
@@ -101,15 +92,9 @@ impl<'a> Torque<'a> {
         time: f64,
         length: f64,
     ) -> Result<(), StepError> {
-        let Phase { group_element, momentum } = state;
-        let kicked = |torque: &DVector<f64>, length| {
-            torque.zip_map(momentum, |torque, mu| torque.times_plus(length, mu))
-        };
-        let mut torque = self.torque(group_element, momentum, time)?;
-        if self.kick.potential.alone().is_some_and(|torque| torque.of_momentum) {
-            torque = self.torque(group_element, &kicked(&torque, 0.5 * length), time)?;
-        }
-        *momentum = kicked(&torque, length);
+        let torque = self.torque(&state.group_element, time)?;
+        state.momentum =
+            torque.zip_map(&state.momentum, |torque, mu| torque.times_plus(length, mu));
         Ok(())
     }
 
@@ -196,7 +181,7 @@ impl<'a> KickSlope<'a> {
         let by_parameters =
             slopes.map(|change| self.torque.along(&self.by_coefficients, g, change));
         let by_parameters = matrix(dim, by_parameters);
-        let torque = self.torque.torque(g, &phase.momentum, time)?;
+        let torque = self.torque.torque(g, time)?;
         phase.momentum += torque * length;
         Ok(Linear::of_kick(&(by_element * length), &(by_parameters * length)))
     }

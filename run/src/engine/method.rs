@@ -70,11 +70,16 @@ pub(super) trait Method<'a>: Send + Sync {
         false
     }
 
-    /// Checks that the Hamiltonian is defined.
+    /// Checks that the Hamiltonian, and what acts beside it, are defined in a state with this momentum.
     ///
     /// # Errors
     /// The expression in it that is not.
-    fn defined(&self, _time: f64, _mu: &[f64]) -> Result<(), StepError> {
+    fn defined(
+        &self,
+        _time: f64,
+        _phase: &dyn Fn() -> Phase<Tables>,
+        _mu: &[f64],
+    ) -> Result<(), StepError> {
         Ok(())
     }
 }

@@ -4,7 +4,7 @@ mod card;
 mod charted;
 mod collocation;
 mod compiled;
-mod damping;
+mod drive;
 mod kick;
 mod linear;
 mod method;

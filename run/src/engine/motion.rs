@@ -7,7 +7,6 @@ use coadjoint::{Phase, StepError};
 use coadjoint_codegen::integrator::Kicks;
 
 use super::compiled::{Compiled, Folded, Numbers, Solved, Solves};
-use super::damping::Damped;
 use super::kick::{KickSlope, Torque};
 use super::linear::Linear;
 use super::method::{Flow, Method, Slope, advise};
@@ -66,8 +65,6 @@ pub(crate) struct Motion<'a> {
     parameters: Vec<f64>,
     method: Box<dyn Method<'a> + 'a>,
     kicked: Option<Kicked<'a>>,
-    /// The damping before and after each step.
-    damped: Option<Damped<'a>>,
     /// The step without programs, once one was needed.
     map: OnceLock<Map<'a>>,
     /// The programs of the step of another size that was made last.
@@ -93,17 +90,12 @@ impl<'a> Motion<'a> {
             Ok::<_, StepError>(Kicked { kicks, torque })
         });
         let kicked = kicked.transpose()?;
-        let (map, other, slopes, damped) = Default::default();
-        let motion = Self { space, grid, parameters, method, kicked, damped, map, other, slopes };
+        let (map, other, slopes) = Default::default();
+        let motion = Self { space, grid, parameters, method, kicked, map, other, slopes };
         if motion.space.compiled.is_none() {
             motion.whole()?;
         }
         Ok(motion)
-    }
-
-    /// These steps between halves of damping.
-    pub(super) fn between(self, damped: Option<Damped<'a>>) -> Self {
-        Self { damped, ..self }
     }
 
     /// The group that the states belong to.
@@ -158,24 +150,9 @@ impl<'a> Motion<'a> {
         state: &mut Numbers,
         [time, size]: [f64; 2],
     ) -> Result<(), StepError> {
-        self.around(state, [time, size], |state| {
-            match compiled.is_some_and(|own| own.one_at(state, time)) {
-                true => Ok(()),
-                false => self.rescue(state, time, size).map(drop),
-            }
-        })
-    }
-
-    /// `step` from this time, of this size, between halves of damping where there is any.
-    fn around<T>(
-        &self,
-        state: &mut Numbers,
-        place: [f64; 2],
-        step: impl FnOnce(&mut Numbers) -> Result<T, StepError>,
-    ) -> Result<T, StepError> {
-        match &self.damped {
-            Some(damped) => damped.around(&self.space, state, place, step),
-            None => step(state),
+        match compiled.is_some_and(|own| own.one_at(state, time)) {
+            true => Ok(()),
+            false => self.rescue(state, time, size).map(drop),
         }
     }
 
@@ -185,23 +162,6 @@ impl<'a> Motion<'a> {
     /// # Errors
     /// Returns the number of steps made and the error of the next one; the state is then the one before it.
     pub(crate) fn advance(
-        &self,
-        state: &mut Numbers,
-        first: u64,
-        count: u64,
-    ) -> Result<Solves, (u64, StepError)> {
-        if self.damped.is_none() {
-            return self.undamped(state, first, count);
-        }
-        one_by_one(first, count, |number| {
-            self.around(state, [self.grid.time(number), self.grid.step], |state| {
-                self.undamped(state, number, 1).map_err(|(_, error)| error)
-            })
-        })
-    }
-
-    /// As [`Motion::advance`], without damping.
-    fn undamped(
         &self,
         state: &mut Numbers,
         first: u64,
@@ -275,7 +235,7 @@ impl<'a> Motion<'a> {
         time: f64,
         error: &StepError,
     ) -> Option<&'static str> {
-        if self.damped.is_some() || !error.asks_for_smaller_step() {
+        if !error.asks_for_smaller_step() {
             return None;
         }
         let comoving = self.method.comoving()?;
@@ -291,7 +251,7 @@ impl<'a> Motion<'a> {
     /// # Errors
     /// The expression in them that is not.
     pub(crate) fn defined(&self, state: &Numbers, time: f64) -> Result<(), StepError> {
-        self.method.defined(time, &state.mu)?;
+        self.method.defined(time, &|| self.space.phase(state), &state.mu)?;
         self.kicked.as_ref().map_or(Ok(()), |own| own.torque.defined(&self.space, state, time))
     }
 
@@ -302,14 +262,13 @@ impl<'a> Motion<'a> {
 
     /// The programs that move many states side by side, where there are any.
     pub(crate) fn lanes(&self) -> Option<&Compiled> {
-        self.space.compiled.as_deref().filter(|_| self.damped.is_none())
+        self.space.compiled.as_deref()
     }
 
     /// q, the number of parameters that derivatives are taken in; none where the derivatives of steps are not known, as those of
-    /// torques without potential.
+    /// a velocity or a torque.
     pub(crate) fn differentiable(&self) -> Option<usize> {
-        let hamiltonian = self.damped.is_none() && self.kicks().and_then(Kicks::torque).is_none();
-        (hamiltonian && self.method.is_differentiable()).then_some(self.parameters.len())
+        self.method.is_differentiable().then_some(self.parameters.len())
     }
 
     /// The derivative of the next step of a state that `first` steps from the start of the grid have reached.
@@ -353,9 +312,6 @@ impl<'a> Motion<'a> {
         self.method.vary(parameters);
         if let Some(kicked) = &mut self.kicked {
             kicked.torque.vary(parameters);
-        }
-        if let Some(damped) = &mut self.damped {
-            damped.vary(&self.space.group, parameters);
         }
         // These are of other values.
         (self.map, self.slopes) = Default::default();

@@ -168,9 +168,7 @@ impl<'a> Engine<'a> {
             (Trajectories::Lanes, how.work)
         } else if how.device.is_some() {
             let what = match alike {
-                true => {
-                    "--device: steps with damping, or that call a function, are not made on devices"
-                }
+                true => "--device: steps that call a function are not made on devices",
                 false => "--device: parameters that vary from row to row are not made on devices",
             };
             return Err(RunError::Option(what.to_owned()));

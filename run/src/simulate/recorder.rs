@@ -79,7 +79,7 @@ pub(crate) struct Watched<'a> {
     pub invariants: &'a Invariants,
     /// The blocks of the group's matrices; none of maps learned from momenta alone, whose attitudes are not known.
     pub blocks: &'a [Block],
-    /// The effect of damping on the energy, if there is any damping.
+    /// The effect of a velocity on the energy, if there is one.
     pub damped: Option<&'static str>,
 }
 
@@ -93,8 +93,8 @@ impl Watched<'_> {
             Some([]) => Some("not conserved: a torque acts"),
             _ => None,
         };
-        let kicked = directions.is_some();
-        let none = if kicked { "none that the kicks keep" } else { "none known" };
+        let forced = directions.is_some();
+        let none = if forced { "none that the force keeps" } else { "none known" };
         let unknown = "not known: a learned map has no Hamiltonian";
         let energy = no_energy.or(self.damped).or_else(|| (!energy).then_some(unknown));
         [spatial, (*casimirs == 0).then_some(none), energy]

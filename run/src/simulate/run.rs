@@ -33,7 +33,11 @@ pub fn run(system: &Derived, setup: &Setup, sink: &mut dyn Sink) -> Result<Outco
     let (schedule, grid) = (&setup.schedule, setup.schedule.grid());
     let (compiled, motion, start) = system.begin(setup)?;
     motion.defined(&start, grid.start).map_err(RunError::at(grid.start))?;
-    let warnings = system.gave_way().map(|text| Warning::Method { text }).into_iter().collect();
+    let gave_way = system.gave_way().map(|text| Warning::Method { text });
+    let kinks = system.drive().map(|drive| drive.kinks.join(", "));
+    let kinks = kinks.filter(|kinks| !kinks.is_empty());
+    let kinks = kinks.map(|expressions| Warning::Kink { expressions });
+    let warnings = gave_way.into_iter().chain(kinks).collect();
     let subject = Subject { setup, watched: system.watched(motion.space(), grid.step), warnings };
     let made = subject.run(&motion, &start, sink);
     let code = compiled.as_ref().map(|compiled| compiled.code());
@@ -102,9 +106,11 @@ impl Derived {
     /// The quantities watched in a run in steps of this size.
     pub(crate) fn watched(&self, space: &Space, step: f64) -> Watched<'_> {
         let Facts { algebra, coordinates, .. } = self.facts();
-        let damped = self.damping.is_some().then_some(match step < 0.0 {
-            true => "rises: damping acts, and the run goes back in time",
-            false => "falls: damping acts",
+        let drive = self.drive().filter(|drive| drive.velocity);
+        let damped = drive.map(|drive| match (drive.is_dissipative(), step < 0.0) {
+            (true, true) => "rises: damping acts, and the run goes back in time",
+            (true, false) => "falls: damping acts",
+            (false, _) => "not conserved: a velocity acts beside the Hamiltonian",
         });
         let blocks = self.blocks.get_or_init(|| blocks(algebra, space.size()));
         Watched { algebra, coordinates, invariants: &self.invariants, blocks, damped }

@@ -34,7 +34,7 @@ impl<S: AsRef<Derived>> Single<S> {
         let compiled = system.as_ref().compiled(step, backend, steps, Trajectories::One)?;
         let mut single = Self { system, step, size: 0, compiled };
         // The elements that there are do not depend on the time.
-        let size = single.motion(0.0).map_err(RunError::unmade)?.space().size();
+        let size = single.motion(0.0, None).map_err(RunError::unmade)?.space().size();
         single.size = size;
         Ok(single)
     }
@@ -44,10 +44,18 @@ impl<S: AsRef<Derived>> Single<S> {
         Compiled::maker(self.compiled.as_deref())
     }
 
-    /// The steps from this time on.
-    fn motion(&self, start: f64) -> Result<Motion<'_>, StepError> {
-        let grid = Grid { start, step: self.step };
-        self.system.as_ref().steps(grid, self.compiled.as_ref())
+    /// The system.
+    pub fn system(&self) -> &Derived {
+        self.system.as_ref()
+    }
+
+    /// The steps from this time on, for these values of the parameters that the system keeps, else for those of its text.
+    fn motion(&self, start: f64, parameters: Option<&[f64]>) -> Result<Motion<'_>, StepError> {
+        let (grid, system) = (Grid { start, step: self.step }, self.system.as_ref());
+        match parameters {
+            Some(values) => system.with_parameters(grid, values, self.compiled.as_ref()),
+            None => system.steps(grid, self.compiled.as_ref()),
+        }
     }
 
     /// Rows of the group's matrices.
@@ -61,7 +69,7 @@ impl<S: AsRef<Derived>> Single<S> {
     /// # Errors
     /// Fails if it is none.
     pub fn element(&self, matrix: &[f64]) -> Result<Vec<f64>, RunError> {
-        let found = self.motion(0.0).map_err(RunError::unmade)?.space().nearest(matrix);
+        let found = self.motion(0.0, None).map_err(RunError::unmade)?.space().nearest(matrix);
         let found = found.map_err(|error| not_an_element(&self.system.as_ref().file, &error))?;
         let far = found.iter().zip(matrix).any(|(a, b)| (a - b).abs() > SAME * (1.0 + a.abs()));
         Ok(if far { found } else { matrix.to_vec() })
@@ -69,11 +77,12 @@ impl<S: AsRef<Derived>> Single<S> {
 
     /// The ratio of the last two terms of the series at a momentum, where it may be worth a warning; else 0.
     pub fn ratio(&self, mu: &[f64]) -> f64 {
-        self.motion(0.0).map_or(0.0, |motion| motion.ratio(mu))
+        self.motion(0.0, None).map_or(0.0, |motion| motion.ratio(mu))
     }
 
     /// Makes `steps` steps of the state with this matrix, row by row, and this momentum, which `first` steps from `time` on
-    /// have reached, in place. The matrix is not checked.
+    /// have reached, in place, for these values of the parameters that the system keeps, else for those of its text. The matrix is not
+    /// checked.
     ///
     /// # Errors
     /// Which step was not made, from 1, and why; the state is then that before it.
@@ -83,8 +92,9 @@ impl<S: AsRef<Derived>> Single<S> {
         mu: &mut [f64],
         time: f64,
         [first, steps]: [u64; 2],
+        parameters: Option<&[f64]>,
     ) -> Result<(), (u64, StepError)> {
-        let motion = self.motion(time).map_err(|error| (1, error))?;
+        let motion = self.motion(time, parameters).map_err(|error| (1, error))?;
         let mut state = Numbers { g: motion.space().numbers(matrix), mu: mu.to_vec() };
         let made = motion.advance(&mut state, first, steps);
         matrix.copy_from_slice(&motion.space().matrix(&state.g));

@@ -84,6 +84,11 @@ pub enum Warning {
         #[serde(skip)]
         text: String,
     },
+    /// A velocity or a torque has a kink.
+    Kink {
+        /// The expressions that have one.
+        expressions: String,
+    },
     /// The error estimated at the end is large.
     #[serde(rename = "estimated_error")]
     Inaccurate {
@@ -148,6 +153,10 @@ impl Warning {
                     .to_owned()
             }
             Self::Method { text } => text.clone(),
+            Self::Kink { expressions } => format!(
+                "a kink where the argument is zero, of {expressions}: a step across it is less accurate than the order says, as the \
+                 estimate shows"
+            ),
             Self::Inaccurate { error } => format!(
                 "the error at the end is about {:.0} %: take a smaller step or a larger truncation",
                 error * 100.0

@@ -8,6 +8,7 @@ mod found;
 mod said;
 mod states;
 
+use coadjoint_codegen::smooth::Hamiltonian;
 use coadjoint_codegen::system::System;
 
 pub use follow::{Follower, Sample, judge_of};
@@ -15,15 +16,11 @@ pub use found::Found;
 
 /// The reason for which runs with kicks are not judged.
 pub const KICKED: &str =
-    "a system with a potential or a torque is not judged: between its kicks the motion is free";
+    "a system with a potential is not judged: between its kicks the motion is free";
 
 /// The reason for which runs of a system are not judged; `None` if they are.
-pub fn unjudged<H>(system: &System<H>) -> Option<&'static str> {
-    match (&system.potential, &system.damping) {
-        (Some(_), _) => Some(KICKED),
-        (None, Some(_)) => {
-            Some("a system with damping is not judged: its steps are those of two motions")
-        }
-        (None, None) => None,
-    }
+pub fn unjudged(system: &System<Hamiltonian>) -> Option<&'static str> {
+    let driven = "a system with a velocity, a torque or damping is not judged";
+    let acts = || system.drive().is_some().then_some(driven);
+    system.potential.as_ref().map(|_| KICKED).or_else(acts)
 }

@@ -65,6 +65,10 @@ pub struct Undefined {
     pub argument: f64,
 }
 
+/// One of a drive of which nothing is known.
+pub(super) const UNKNOWN_DRIVE: Undefined =
+    Undefined { expression: "the velocity or the torque", argument: f64::NAN };
+
 /// One of which nothing is known.
 pub(super) const UNKNOWN: Undefined = Undefined { expression: "∂H/∂μ", argument: f64::NAN };
 

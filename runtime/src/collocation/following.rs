@@ -1,10 +1,11 @@
 //! The judgement of a solution: its nodes have to resolve it, and where it is not ordinary it is made again in parts that are.
 
 use coadjoint_program::collocation::{
-    LARGEST_FORCE, LARGEST_REACH, LARGEST_TAIL, NEAR_LIMIT, ordinary_sweeps,
+    LARGEST_FORCE, LARGEST_REACH, LARGEST_TAIL, NEAR_LIMIT, SLOW, ordinary_sweeps,
 };
 use nalgebra::SimdComplexField;
 
+use super::drive::Drive;
 use super::energy::{Energy, UNKNOWN, Undefined};
 use super::rates::{Rates, largest, total};
 use super::solving::{Attempt, Ending, Equations};
@@ -28,10 +29,11 @@ const CLOSURE_SWEEPS: u32 = 8;
 /// exp(x), and the momentum after the step.
 pub(super) type Moved<G> = (<G as LieGroup>::Element, <G as LieGroup>::Vector);
 
-impl<G, E, const M: usize> Equations<'_, G, E, M>
+impl<G, E, D, const M: usize> Equations<'_, G, E, D, M>
 where
     G: LieGroup<Scalar = f64>,
     E: Energy<G::Vector>,
+    D: Drive<G>,
 {
     /// The step of an attempt: solved, in the chart, with velocities that the nodes resolve, and with the end of its parts where it is
     /// not an ordinary step. One from a cold guess has no steps before it.
@@ -54,10 +56,10 @@ where
         let time = self.step.times_plus(0.5, self.middle);
         let omega = self.energy.gradient(time, end);
         if (0..end.dim()).any(|i| !omega[i].all_finite()) {
-            return Err(self.undefined(time, end, circumstances(attempt)));
+            return Err(self.undefined(time, end, None, circumstances(attempt)));
         }
         let known = self.energy.reach((time, end), (time, end)).is_some();
-        let parts = self.in_parts(LEAST[usize::from(!known)], MOST)?;
+        let (_, parts) = self.in_parts(LEAST[usize::from(!known)], MOST)?;
         let size = self.mu.largest_entry();
         let scale = if size > 0.0 { size } else { 1.0 };
         let difference = end.clone().minus(&parts).largest_entry() / scale;
@@ -66,25 +68,27 @@ where
         within(attempt, square, LARGEST_REACH[M - 1])
     }
 
-    /// The momentum after parts that are ordinary steps, made by this many halvings at least and at most: in the shortest parts, which a
+    /// The state after parts that are ordinary steps, made by this many halvings at least and at most: in the shortest parts, which a
     /// jump in time may be short against, the time stands still for this.
-    fn in_parts(&self, least: u32, most: u32) -> Result<G::Vector, StepError> {
+    fn in_parts(&self, least: u32, most: u32) -> Result<Moved<G>, StepError> {
         if least == 0 {
             let attempt = self.solve(Rates::zero(self.mu.dim()));
             let moves = if most == 0 { 0.0 } else { 1.0 };
-            let made = self.resolve(&attempt).and_then(|((_, end), measure)| {
-                self.ordinary(&attempt, &end, measure, (false, moves)).map(|()| end)
+            let made = self.resolve(&attempt).and_then(|((increment, end), measure)| {
+                self.ordinary(&attempt, &end, measure, (false, moves))?;
+                Ok((self.group.compose(self.element, &increment), end))
             });
             if made.is_ok() || most == 0 {
                 return made;
             }
         }
-        let half = |mu: &G::Vector, part: f64| {
+        let half = |element: &G::Element, mu: &G::Vector, part: f64| {
             let (step, middle) = (0.5 * self.step, part.times_plus(self.step, self.middle));
-            let equations = Equations::<G, E, M> { mu, middle, step, ..*self };
+            let equations = Equations::<G, E, D, M> { element, mu, middle, step, ..*self };
             equations.in_parts(least.saturating_sub(1), most - 1)
         };
-        half(&half(self.mu, -0.25)?, 0.25)
+        let (element, mu) = half(self.element, self.mu, -0.25)?;
+        half(&element, &mu, 0.25)
     }
 
     /// Checks that an attempt is solved, in the chart and resolved by its nodes: where to it moves, and its measure as a share of the limit.
@@ -96,7 +100,9 @@ where
                 let Attempt { sweeps, residual, .. } = *attempt;
                 return Err(StepError::NotConverged { iterations: sweeps, residual, at });
             }
-            Ending::Undefined(time, node) => return Err(self.undefined(*time, node, at)),
+            Ending::Undefined(time, node, known) => {
+                return Err(self.undefined(*time, node, *known, at));
+            }
         }
         let extent = self.group.exp_extent(&attempt.x);
         if extent.is_nan() || extent > 1.0 {
@@ -105,11 +111,11 @@ where
         let limit = LARGEST_TAIL[M - 1];
         let [tail, force] = match M {
             1 => [self.bend(attempt), 0.0],
-            _ => self.tails(&attempt.rates),
+            _ => self.tails(attempt),
         };
         within(attempt, tail, limit)?;
         within(attempt, force, LARGEST_FORCE)?;
-        let moved = self.group.exp_transport(&attempt.x, self.mu);
+        let moved = self.group.exp_transport(&attempt.x, &attempt.pushed);
         Ok((moved, (tail / limit).max(force / LARGEST_FORCE)))
     }
 
@@ -125,7 +131,9 @@ where
         (cold, moves): (bool, f64),
     ) -> Result<(), StepError> {
         let dim = self.mu.dim();
-        within(attempt, f64::from(attempt.sweeps), ordinary_sweeps(dim))?;
+        // Of a drive the linear model knows nothing, and sweeps converge linearly.
+        let most = ordinary_sweeps(if D::ACTS { usize::MAX } else { dim });
+        within(attempt, f64::from(attempt.sweeps), most)?;
         let time = |at: f64| (moves * at).times_plus(self.step, self.middle);
         let mut last = (time(-0.5), self.mu.clone());
         for node in 0..=M {
@@ -148,14 +156,17 @@ where
 
     /// The highest polynomials through two nodes and more: of the velocity, as a share of it, and of the force, times the
     /// step and relative to the momentum.
-    fn tails(&self, rates: &Rates<G::Vector, M>) -> [f64; 2] {
-        let dim = self.mu.dim();
+    fn tails(&self, attempt: &Attempt<G::Vector, M>) -> [f64; 2] {
+        let (dim, rates) = (self.mu.dim(), &attempt.rates);
         let [x, p] = [&rates.x, &rates.p].map(|rows| {
             let part: G::Vector = total(dim, &Self::NODES.highest, rows);
             part.largest_entry()
         });
         let share = |part, whole| if part == 0.0 { 0.0 } else { part / whole };
-        [share(x, largest::<G::Vector, M>(dim, &rates.x)), share(p, self.mu.largest_entry())]
+        let velocity = largest::<G::Vector, M>(dim, &rates.x);
+        // Two nodes see the acceleration alone.
+        let velocity = if M == 2 { velocity.worse(SLOW) } else { velocity };
+        [share(x, velocity), share(p, self.scale(attempt))]
     }
 
     /// The error of a step with one node, about, which has no polynomial to show it: the product of its velocity, of its
@@ -168,7 +179,7 @@ where
         if force == 0.0 {
             return 0.0;
         }
-        let force = force / self.mu.largest_entry();
+        let force = force / self.scale(attempt);
         let bend = |gain: f64| force * size(&attempt.rates.x) * (gain + force);
         let about = bend(attempt.gain);
         match about <= NEAR_LIMIT * LARGEST_TAIL[0] {
@@ -177,10 +188,21 @@ where
         }
     }
 
-    /// The error of a gradient that is not finite at a node.
+    /// The size of the momentum, or of that with the impulse where it is larger.
+    fn scale(&self, attempt: &Attempt<G::Vector, M>) -> f64 {
+        self.mu.largest_entry().max(if D::ACTS { attempt.pushed.largest_entry() } else { 0.0 })
+    }
+
+    /// The error of a gradient, or of a known expression, that is not finite at a node.
     #[cold]
-    fn undefined(&self, time: f64, node: &G::Vector, at: Circumstances) -> StepError {
-        let known = self.energy.undefined(time, node);
+    fn undefined(
+        &self,
+        time: f64,
+        node: &G::Vector,
+        known: Option<Undefined>,
+        at: Circumstances,
+    ) -> StepError {
+        let known = known.or_else(|| self.energy.undefined(time, node));
         let Undefined { expression, argument } = known.unwrap_or(UNKNOWN);
         let at = (node != self.mu).then_some(at);
         StepError::Undefined { expression, argument, time, at }

@@ -11,10 +11,19 @@
 //! x = h Σ bᵢ ẋᵢ                 P: the momentum in the middle of the step from μ by x
 //! ```
 //!
+//! With a [`Drive`], a velocity η and a torque τ of t, g, μ and ω, ωᵢ + ηᵢ takes the place of ωᵢ, and at gᵢ = g exp(x/2) exp(xᵢ)
+//!
+//! ```text
+//! ṗᵢ += (d^R exp_{−xᵢ})ᵀ τᵢ     K = h Σ bᵢ Ad*_{exp(xᵢ)} τᵢ        μ″ = Ad*_{exp(−x)} (μ + Ad*_{exp(x/2)} K)
+//! P   = ½ [(d^R exp_{x/2})ᵀ μ + (d^R exp_{−x/2})ᵀ μ″]              which without τ is (d^R exp_x)ᵀ μ
+//! ```
+//!
+//! The order stays 2M. Casimirs and J_L stay without τ, whatever η is; with it J_L changes by h Σ bᵢ (gᵢ·τᵢ), and by nothing else.
+//!
 //! J_R has the powers of x up to 2M − 2, in closed form on SO(3), SU(2), SE(3) and SE(2); the programs of kernels compute the same
 //! map. Gauss's method: E. Hairer, C. Lubich, G. Wanner, *Geometric Numerical Integration*, II.1.3.
 
-mod damping;
+mod drive;
 mod energy;
 mod following;
 mod rates;
@@ -23,7 +32,7 @@ mod solution;
 mod solving;
 
 pub use coadjoint_program::collocation::MAX_NODES;
-pub use damping::Damping;
+pub use drive::{DoubleBracket, Drive};
 pub use energy::{Energy, Undefined};
 #[doc(hidden)]
 pub use refused::collocated;
@@ -68,9 +77,10 @@ use solving::{Attempt, Equations};
 /// A step starts from a guess that follows the steps before it, where it goes on from their end; its bits then depend on
 /// them, within rounding. A step from any other state starts anew.
 #[derive(Clone, Debug)]
-pub struct Collocation<G: LieGroup<Scalar = f64>, E, const M: usize> {
+pub struct Collocation<G: LieGroup<Scalar = f64>, E, const M: usize, D = ()> {
     group: G,
     energy: E,
+    drive: D,
     step: f64,
     /// The rates of the last steps in a ring, and how many were noted since the first guess.
     rates: [Option<Rates<G::Vector, M>>; KEPT],
@@ -89,10 +99,25 @@ where
     /// # Errors
     /// [`StepError::InvalidStep`].
     pub fn new(group: G, energy: E, step: f64) -> Result<Self, StepError> {
+        Self::driven(group, energy, (), step)
+    }
+}
+
+impl<G, E, D, const M: usize> Collocation<G, E, M, D>
+where
+    G: LieGroup<Scalar = f64>,
+    E: Energy<G::Vector>,
+    D: Drive<G>,
+{
+    /// Steps of size `step`, which may be negative, of the flow of `energy` with a drive beside it.
+    ///
+    /// # Errors
+    /// [`StepError::InvalidStep`].
+    pub fn driven(group: G, energy: E, drive: D, step: f64) -> Result<Self, StepError> {
         if step == 0.0 || !step.all_finite() {
             return Err(StepError::InvalidStep { step });
         }
-        Ok(Self { group, energy, step, rates: [const { None }; KEPT], noted: 0, end: None })
+        Ok(Self { group, energy, drive, step, rates: [const { None }; KEPT], noted: 0, end: None })
     }
 
     /// The step size.
@@ -131,14 +156,14 @@ where
         }
         let middle = self.step.times_plus(0.5, time);
         let (attempt, (increment, momentum)) = if self.noted > 0 {
-            let equations = self.equations(mu, middle);
+            let equations = self.equations(phase, middle);
             let attempt = equations.solve(self.guess(mu.dim()));
             match equations.judge(&attempt, false) {
                 Ok(moved) => (attempt, moved),
-                Err(_) => self.anew(mu, middle)?,
+                Err(_) => self.anew(phase, middle)?,
             }
         } else {
-            self.anew(mu, middle)?
+            self.anew(phase, middle)?
         };
         let Attempt { rates, sweeps, residual, .. } = attempt;
         let element = self.group.compose(&phase.group_element, &increment);
@@ -173,20 +198,22 @@ where
         Ok(worst)
     }
 
-    fn equations<'a>(&'a self, mu: &'a G::Vector, middle: f64) -> Equations<'a, G, E, M> {
-        Equations { group: &self.group, energy: &self.energy, mu, middle, step: self.step }
+    fn equations<'a>(&'a self, phase: &'a Phase<G>, middle: f64) -> Equations<'a, G, E, D, M> {
+        let Self { group, energy, drive, step, .. } = self;
+        let Phase { group_element: element, momentum: mu } = phase;
+        Equations { group, energy, drive, element, mu, middle, step: *step }
     }
 
     /// The step from a guess that knows no steps before it.
     #[cold]
     fn anew(
         &mut self,
-        mu: &G::Vector,
+        phase: &Phase<G>,
         middle: f64,
     ) -> Result<(Attempt<G::Vector, M>, Moved<G>), StepError> {
         self.noted = 0;
-        let equations = self.equations(mu, middle);
-        let attempt = equations.solve(Rates::zero(mu.dim()));
+        let equations = self.equations(phase, middle);
+        let attempt = equations.solve(Rates::zero(phase.momentum.dim()));
         let moved = equations.judge(&attempt, true)?;
         Ok((attempt, moved))
     }

@@ -4,11 +4,13 @@ use crate::group::middle::add;
 use crate::linear::coordinates::Coordinates;
 use crate::number::Scalar;
 
-/// hẋᵢ and hṗᵢ at the nodes.
+/// hẋᵢ and hṗᵢ at the nodes, and the impulse of the torque.
 #[derive(Clone, Debug)]
 pub(super) struct Rates<V: Coordinates<f64>, const M: usize> {
     pub x: V::Rows<M>,
     pub p: V::Rows<M>,
+    /// h Σ bᵢ Ad\*_{exp(xᵢ)} τᵢ.
+    pub impulse: V,
 }
 
 /// start + Σⱼ weightsⱼᵢ rowsⱼ at each node i.
@@ -76,21 +78,31 @@ where
     worst
 }
 
+/// The largest coordinate, each times a factor; NaN if one is.
+#[inline(always)]
+pub(super) fn in_units<V: Coordinates<f64>>(vector: &V, unit: impl Fn(usize) -> f64) -> f64 {
+    let sizes = (0..vector.dim()).map(|i| vector[i].abs() * unit(i));
+    sizes.fold(0.0, |largest, size| size.worse(largest))
+}
+
 impl<V: Coordinates<f64>, const M: usize> Rates<V, M> {
     pub(super) fn zero(dim: usize) -> Self {
-        Self { x: V::zero_rows::<M>(dim), p: V::zero_rows::<M>(dim) }
+        let (x, p) = (V::zero_rows::<M>(dim), V::zero_rows::<M>(dim));
+        Self { x, p, impulse: V::zeros(dim) }
     }
 
     #[inline(always)]
     pub(super) fn add(&mut self, dim: usize, s: f64, other: &Self) {
         add::<f64, V, M>(dim, &mut self.x, s, &other.x);
         add::<f64, V, M>(dim, &mut self.p, s, &other.p);
+        self.impulse = V::from_entries(dim, |i| s.times_plus(other.impulse[i], self.impulse[i]));
     }
 
     /// The largest coordinate, those of p in these units and divided by `scale`, those of x by the units.
     #[inline(always)]
     pub(super) fn size(&self, dim: usize, scale: f64, unit: impl Fn(usize) -> f64) -> f64 {
         let x = largest_by::<V, M>(dim, &self.x, |k| 1.0 / unit(k));
-        x.worse(largest_by::<V, M>(dim, &self.p, unit) / scale)
+        let p = largest_by::<V, M>(dim, &self.p, &unit);
+        x.worse(p.worse(in_units(&self.impulse, unit)) / scale)
     }
 }

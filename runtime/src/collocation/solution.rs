@@ -8,6 +8,7 @@ use super::rates::{Rates, mixed};
 use super::solving::Attempt;
 use crate::error::StepError;
 use crate::group::LieGroup;
+use crate::group::phase::Phase;
 use crate::linear::coordinates::Coordinates;
 use crate::number::Scalar;
 
@@ -48,7 +49,8 @@ where
     /// [`StepError`], as [`Collocation::advance`].
     pub fn solution(&self, mu: &G::Vector, time: f64) -> Result<Solution<G::Vector, M>, StepError> {
         let (dim, middle) = (mu.dim(), self.step().times_plus(0.5, time));
-        let equations = self.equations(mu, middle);
+        let anywhere = Phase::new(self.group().identity(), mu.clone());
+        let equations = self.equations(&anywhere, middle);
         let attempt = equations.solve(Rates::zero(dim));
         equations.judge(&attempt, true)?;
         let Attempt { rates, x, .. } = attempt;

@@ -2,8 +2,9 @@
 
 use coadjoint_program::collocation::{LARGEST_MODEL, MAX_SWEEPS, Nodes, ROUNDING, SOLVED, degree};
 
-use super::energy::Energy;
-use super::rates::{Rates, mixed, total};
+use super::drive::Drive;
+use super::energy::{Energy, Undefined};
+use super::rates::{Rates, in_units, mixed, total};
 use crate::group::LieGroup;
 use crate::group::middle::add;
 use crate::linear::coordinates::Coordinates;
@@ -12,10 +13,12 @@ use crate::number::Scalar;
 /// The growth of a momentum over that at the start beyond which sweeps have diverged.
 const DIVERGED: f64 = 1e30;
 
-/// The equations of one step from μ.
-pub(super) struct Equations<'a, G: LieGroup, E, const M: usize> {
+/// The equations of one step from (g, μ).
+pub(super) struct Equations<'a, G: LieGroup, E, D, const M: usize> {
     pub group: &'a G,
     pub energy: &'a E,
+    pub drive: &'a D,
+    pub element: &'a G::Element,
     pub mu: &'a G::Vector,
     /// The time in the middle of the step.
     pub middle: f64,
@@ -35,6 +38,8 @@ pub(super) struct Attempt<V: Coordinates<f64>, const M: usize> {
     pub gain: f64,
     /// The momenta at the nodes.
     pub momenta: V::Rows<M>,
+    /// The momentum at the start, with the impulse of the torque as the start sees it.
+    pub pushed: V,
     pub ending: Ending<V>,
 }
 
@@ -42,8 +47,8 @@ pub(super) struct Attempt<V: Coordinates<f64>, const M: usize> {
 pub(super) enum Ending<V> {
     Solved,
     NotConverged,
-    /// The gradient is not finite at this time and momentum.
-    Undefined(f64, V),
+    /// The gradient is not finite at this time and momentum, or an expression of the drive is not.
+    Undefined(f64, V, Option<Undefined>),
 }
 
 /// The Hessian and the momentum in the middle about which changes of rates are linear.
@@ -53,10 +58,11 @@ struct Model<'a, V: Coordinates<f64>, const M: usize> {
     nodes: &'a Nodes<M>,
 }
 
-impl<G, E, const M: usize> Equations<'_, G, E, M>
+impl<G, E, D, const M: usize> Equations<'_, G, E, D, M>
 where
     G: LieGroup<Scalar = f64>,
     E: Energy<G::Vector>,
+    D: Drive<G>,
 {
     pub(super) const NODES: Nodes<M> = Nodes::new();
 
@@ -65,31 +71,44 @@ where
     pub(super) fn solve(&self, guess: Rates<G::Vector, M>) -> Attempt<G::Vector, M> {
         let dim = self.mu.dim();
         let unit = |i| self.energy.unit(i);
-        let largest =
-            (0..dim).fold(0.0, |largest, i| f64::max(largest, self.mu[i].abs() * unit(i)));
-        let scale = if largest > 0.0 { largest } else { 1.0 };
+        let scale_with = |impulse: &G::Vector| {
+            let largest = in_units(self.mu, unit).max(in_units(impulse, unit));
+            if largest > 0.0 { largest } else { 1.0 }
+        };
+        let mut scale = scale_with(&guess.impulse);
         let whole = |rates: &Rates<G::Vector, M>| {
             let x: G::Vector = total(dim, &Self::NODES.weights, &rates.x);
-            let p = self.group.dexp_transpose(&x, self.mu);
+            let mut p = self.group.dexp_transpose(&x, self.mu);
+            if D::ACTS {
+                // ½[(d^R exp_{x/2})ᵀ μ + (d^R exp_{−x/2})ᵀ μ″]
+                let half = self.group.dexp_transpose(&scaled(&x, 0.5), &rates.impulse);
+                p = G::Vector::from_entries(dim, |i| half[i].times_plus(0.5, p[i]));
+            }
             (x, p)
         };
         let mut rates = guess;
         let (mut x, mut p) = whole(&rates);
         let model = self.model(&p);
         let mut momenta = G::Vector::zero_rows::<M>(dim);
+        let mut pushed = self.mu.clone();
         let (mut sweeps, mut residual, mut before) = (0, f64::INFINITY, f64::INFINITY);
         let ending = loop {
-            let mut change = match self.sweep(&rates, &p, &mut momenta) {
+            let mut change = match self.sweep(&rates, (&x, &p), &mut momenta) {
                 Ok(next) => next,
                 // A momentum this large shows that sweeps diverge, not that the gradient has no value there.
-                Err((_, mu))
+                Err((_, mu, _))
                     if (0..dim).any(|i| !mu[i].all_finite() || mu[i].abs() > DIVERGED * scale) =>
                 {
                     break Ending::NotConverged;
                 }
-                Err((time, mu)) => break Ending::Undefined(time, mu),
+                Err((time, mu, known)) => break Ending::Undefined(time, mu, known),
             };
             sweeps += 1;
+            if D::ACTS {
+                let turned = self.group.exp_transport(&scaled(&x, -0.5), &change.impulse).1;
+                pushed = G::Vector::from_entries(dim, |i| self.mu[i] + turned[i]);
+                scale = scale_with(&change.impulse);
+            }
             change.add(dim, -1.0, &rates);
             residual = change.size(dim, scale, unit);
             if let Some(model) = &model {
@@ -108,7 +127,7 @@ where
             before = residual;
         };
         let gain = model.filter(|_| M == 1).map_or(1.0, |model| model.gain(self.group));
-        Attempt { rates, x, sweeps, residual, gain, momenta, ending }
+        Attempt { rates, x, sweeps, residual, gain, momenta, pushed, ending }
     }
 
     /// [`Attempt::gain`] at the momentum in the middle that belongs to x.
@@ -117,17 +136,17 @@ where
         model.map_or(1.0, |model| model.gain(self.group))
     }
 
-    /// The rates that follow from others with the momentum `p` in the middle, and the momenta at the nodes.
+    /// The rates that follow from others, with the increment of the step and the momentum in the middle, and the momenta at the nodes.
     ///
     /// # Errors
-    /// The time and the momentum at which the gradient is not finite.
+    /// The time and the momentum at which the gradient or the drive is not finite, and the expression of the drive that is not.
     #[inline(always)]
     fn sweep(
         &self,
         rates: &Rates<G::Vector, M>,
-        p: &G::Vector,
+        (whole, p): (&G::Vector, &G::Vector),
         mu: &mut <G::Vector as Coordinates<f64>>::Rows<M>,
-    ) -> Result<Rates<G::Vector, M>, (f64, G::Vector)> {
+    ) -> Result<Rates<G::Vector, M>, (f64, G::Vector, Option<Undefined>)> {
         let (nodes, degree, dim) = (&Self::NODES, degree(M), p.dim());
         let x = mixed(&G::Vector::zeros(dim), &nodes.matrix, &rates.x);
         let p = mixed(p, &nodes.matrix, &rates.p);
@@ -149,11 +168,40 @@ where
         for i in 0..M {
             if poison[i] != 0.0 {
                 let time = nodes.times[i].times_plus(self.step, self.middle);
-                return Err((time, G::Vector::at::<M>(dim, mu, i)));
+                return Err((time, G::Vector::at::<M>(dim, mu, i), None));
             }
         }
-        let [x, p] = self.group.node_rates::<M>(&x, &p, &omega, degree);
-        Ok(Rates { x, p })
+        let mut impulse = G::Vector::zeros(dim);
+        let mut forces = G::Vector::zero_rows::<M>(if D::ACTS { dim } else { 0 });
+        if D::ACTS {
+            let middle = self.group.compose(self.element, &self.group.exp(&scaled(whole, 0.5)));
+            for i in 0..M {
+                let time = nodes.times[i].times_plus(self.step, self.middle);
+                let place = G::Vector::at::<M>(dim, &x, i);
+                let back = scaled(&place, -1.0);
+                let g = self.group.compose(&middle, &self.group.exp(&place));
+                let momentum = G::Vector::at::<M>(dim, mu, i);
+                let own = scaled(&G::Vector::at::<M>(dim, &omega, i), 1.0 / self.step);
+                let [velocity, torque] = self.drive.acting(time, &g, &momentum, &own);
+                if (0..dim).any(|k| !velocity[k].all_finite() || !torque[k].all_finite()) {
+                    let known = self.drive.undefined(time, &g, &momentum, &own);
+                    return Err((time, momentum, known.or(Some(super::energy::UNKNOWN_DRIVE))));
+                }
+                let torque = scaled(&torque, self.step);
+                let force = self.group.dexp_transpose(&back, &torque);
+                let turned = self.group.exp_transport(&back, &torque).1;
+                for k in 0..dim {
+                    omega[k][i] = velocity[k].times_plus(self.step, omega[k][i]);
+                    forces[k][i] = force[k];
+                    impulse[k] = nodes.weights[i].times_plus(turned[k], impulse[k]);
+                }
+            }
+        }
+        let [x, mut p] = self.group.node_rates::<M>(&x, &p, &omega, degree);
+        if D::ACTS {
+            add::<f64, G::Vector, M>(dim, &mut p, 1.0, &forces);
+        }
+        Ok(Rates { x, p, impulse })
     }
 
     /// The linear model about the momentum `p`, where its Hessian is finite and not too large.
@@ -219,6 +267,12 @@ impl<V: Coordinates<f64>, const M: usize> Model<'_, V, M> {
         add::<f64, V, M>(dim, &mut force, 0.5, &group.ad_stars::<M>(&velocity, &here));
         add::<f64, V, M>(dim, &mut force, 0.5, &group.ad_stars::<M>(&rates.x, &p));
         add::<f64, V, M>(dim, &mut velocity, 0.5, &group.brackets::<M>(&x, &rates.x));
-        Rates { x: velocity, p: force }
+        Rates { x: velocity, p: force, impulse: V::zeros(dim) }
     }
+}
+
+/// s·v
+#[inline(always)]
+fn scaled<V: Coordinates<f64>>(v: &V, s: f64) -> V {
+    V::from_entries(v.dim(), |i| s * v[i])
 }

@@ -6,13 +6,12 @@ use super::Integrator;
 use super::coefficients::Coefficients;
 use super::lower::{collect, value_program, vector_program};
 use crate::graph::Program;
-use crate::potential::{Force, Potential, Programs};
+use crate::potential::{Force, Potential};
 
 /// Everything a back end needs to write or run kicks.
 ///
-/// Programs read the entries of the group element's matrix as inputs, row by row (without a potential also what
-/// [`Programs`](crate::potential::Programs) says), and folded coefficients as slots. The coefficients hold no power of the
-/// step size.
+/// Programs read the entries of the group element's matrix as inputs, row by row, and folded coefficients as slots. The
+/// coefficients hold no power of the step size.
 #[derive(Clone, Debug)]
 pub struct Kick {
     /// The potential.
@@ -21,7 +20,7 @@ pub struct Kick {
     pub coefficients: Coefficients,
     /// g ↦ V(g), where there is a potential.
     pub energy: Option<Program>,
-    /// g ↦ the body torque −g⁻¹dV(g), or g, μ, t, the signals ↦ a torque without potential.
+    /// g ↦ the body torque −g⁻¹dV(g).
     pub torque: Program,
 }
 
@@ -60,18 +59,6 @@ pub struct Kicks {
     pub first: usize,
     /// The composition of kicks and flows.
     pub splitting: Splitting,
-}
-
-impl Kicks {
-    /// The torque, where it has no potential.
-    pub fn torque(&self) -> Option<&Programs> {
-        self.kick.potential.alone()
-    }
-
-    /// True if the torque depends on the time.
-    pub fn moves(&self) -> bool {
-        self.torque().is_some_and(|torque| torque.moves)
-    }
 }
 
 impl Integrator {

@@ -51,14 +51,19 @@ impl Invariants {
         Self::new(algebra, None, None)
     }
 
-    /// Of the motion with this Hamiltonian, where it is known, with the kicks of a potential if there is one.
+    /// Of the motion with this Hamiltonian and its drive, where they are known, with the kicks of a potential if there is one.
     pub fn new(
         algebra: &LieAlgebra,
         hamiltonian: Option<&Hamiltonian>,
         potential: Option<&Potential>,
     ) -> Self {
-        let moves = hamiltonian.and_then(Hamiltonian::smooth).is_some_and(|smooth| smooth.moves);
-        let torque = potential.is_some_and(|potential| potential.alone().is_some());
+        let smooth = hamiltonian.and_then(Hamiltonian::smooth);
+        let moves = smooth.is_some_and(|smooth| smooth.moves);
+        let drive = smooth.and_then(|smooth| smooth.drive.as_ref());
+        let of_drive = drive.and_then(|drive| drive.potential.as_ref());
+        let energetic = of_drive.map(|(potential, _)| potential).or(potential);
+        let force = drive.and_then(|drive| drive.torque.as_ref()).or(potential);
+        let torque = force.is_some_and(|force| force.alone().is_some());
         let no_energy = match (torque, moves) {
             (true, _) => Some("not conserved: a torque acts, which is not Hamiltonian"),
             (_, true) => Some("not conserved: the Hamiltonian depends on time"),
@@ -66,14 +71,14 @@ impl Invariants {
         };
         let hamiltonian = hamiltonian.filter(|_| no_energy.is_none());
         let smooth = hamiltonian.and_then(Hamiltonian::smooth);
-        let potential_of_energy = potential.filter(|_| !torque);
+        let potential_of_energy = energetic.filter(|_| !torque);
         let mut casimirs = watched_casimirs(algebra);
-        casimirs.retain(|casimir| potential.is_none_or(|potential| potential.keeps(casimir)));
+        casimirs.retain(|casimir| force.is_none_or(|force| force.keeps(casimir)));
         let mut symbols =
             smooth.map_or_else(Vec::new, |smooth| smooth.symbols_at(&smooth.facts().defaults()));
         let first = symbols.len();
         symbols.extend(potential_of_energy.iter().flat_map(|own| values(&own.symbols)));
-        let directions = potential.map(Potential::directions);
+        let directions = force.map(Potential::directions);
         let parts = Parts {
             algebra,
             directions: directions.as_deref(),

@@ -29,7 +29,7 @@ use coadjoint_program::{Clock, Kernel, Precision};
 
 use crate::expr::ParameterExpr;
 use crate::graph::{Graph, Id, Program};
-use crate::integrator::{FoldTable, Integrator, Kicks};
+use crate::integrator::{FoldTable, Integrator};
 use crate::lie::{Chart, LieAlgebra, catalogue};
 use crate::signal::Signal;
 use crate::smooth::Smooth;
@@ -99,14 +99,8 @@ impl Step {
         let fold = FoldTable::placed(integrator, |at| (at <= radius_at).then_some(at));
         let symbols = integrator.problem.symbols.iter().map(|symbol| symbol.expr.clone()).collect();
         let splitting = integrator.kicks.as_ref().map(|kicks| kicks.splitting);
-        let torque = integrator.kicks.as_ref().and_then(Kicks::torque);
-        let moving = torque.filter(|torque| torque.moves);
-        let moving = moving.map(|torque| Moving {
-            first: radius_at + 2,
-            times: vec![0.0],
-            signals: torque.signals.clone(),
-        });
-        Ok(Self { kernel, group, fold, symbols, radius_at, splitting, moving, memory: 0 })
+        let (moving, memory) = (None, 0);
+        Ok(Self { kernel, group, fold, symbols, radius_at, splitting, moving, memory })
     }
 
     /// The programs of a step of collocation in numbers of this precision, in the exponential chart about its middle. Without
@@ -138,8 +132,7 @@ impl Step {
         let mut kernel = collocation::kernel(smooth, &group)?.in_precision(precision);
         let symbols = smooth.symbols.iter().map(|symbol| symbol.expr.clone()).collect();
         let (radius_at, kicks) = (collocation::radius_at(smooth), smooth.kicks.as_ref());
-        let moves = kicks.is_some_and(Kicks::moves);
-        let moving = (moves || smooth.depends_on_time()).then(|| Moving {
+        let moving = smooth.depends_on_time().then(|| Moving {
             first: collocation::first_time(smooth),
             times: collocation::times(smooth.nodes()),
             signals: smooth.signals.clone(),

@@ -4,6 +4,7 @@ use coadjoint_program::Precision;
 use coadjoint_program::splitting::Splitting;
 
 use super::{Elements, Step, StepError};
+use crate::drive::Drive;
 use crate::hamilton_jacobi::{DeriveError, TermLimit};
 use crate::integrator::{Integrator, Kick, Kicks};
 use crate::problem::Symbol;
@@ -61,6 +62,14 @@ impl Origin {
             Self::Collocation(smooth) => smooth.kicks = None,
         }
         Some(alone)
+    }
+
+    /// This system without the velocity of its drive, where it has one.
+    pub fn without_velocity(&self) -> Option<Self> {
+        let Self::Collocation(smooth) = self else { return None };
+        let drive = smooth.drive.as_ref().filter(|drive| drive.velocity)?;
+        let drive = Some(Box::new(drive.without_velocity()));
+        Some(Self::from(Smooth { drive, ..(**smooth).clone() }))
     }
 
     /// The programs of a step in numbers of this precision.
@@ -125,21 +134,19 @@ impl Origin {
     /// The inputs u(t).
     pub fn signals(&self) -> &[Signal] {
         match self {
-            Self::Series(_) => {
-                let torque = self.kicks().and_then(Kicks::torque);
-                torque.map_or(&[], |torque| &torque.signals)
-            }
+            Self::Series(_) => &[],
             Self::Collocation(smooth) => &smooth.signals,
         }
     }
 
     /// True if the equations depend on the time other than through the state.
     pub fn depends_on_time(&self) -> bool {
-        let flow = match self {
-            Self::Series(_) => false,
-            Self::Collocation(smooth) => smooth.depends_on_time(),
-        };
-        flow || self.kicks().is_some_and(Kicks::moves)
+        self.smooth().is_some_and(Smooth::depends_on_time)
+    }
+
+    /// The velocity and the torque beside the Hamiltonian, where there are any.
+    pub fn drive(&self) -> Option<&Drive> {
+        self.smooth()?.drive.as_deref()
     }
 
     /// True if the Hamiltonian is a function of the user's, of which there are no programs.
@@ -163,6 +170,9 @@ impl Origin {
             }
             Self::Collocation(smooth) => format!("collocation, {} nodes", smooth.nodes()),
         };
+        if self.drive().is_some_and(Drive::is_dissipative) {
+            label.push_str(", damped");
+        }
         if let Some(kicks) = self.kicks() {
             label.push_str(", ");
             label.push_str(kicks.splitting.name());

@@ -6,9 +6,10 @@ use coadjoint_program::{Kernel, KernelParts, Programs};
 use super::solving::{ROUNDINGS, Scheme, inputs, squares_of_series, tolerance};
 use super::vector::{all_at_most, finite};
 use crate::graph::{Graph, Id, Program};
-use crate::integrator::{Integrator, Kick, Kicks};
+use crate::integrator::{Integrator, Kicks};
 use crate::lie::{self, LieAlgebra};
 use crate::poly::Numeric;
+use crate::potential::Potential;
 use crate::step::StepError;
 use crate::step::product::{ESTIMATED, Part, Product};
 
@@ -37,7 +38,8 @@ pub(crate) fn kernel(
         sound: sound(group),
         watch: watch(
             |graph, mu| graph.call(&integrator.energy, mu),
-            (&integrator.problem.algebra, integrator.kicks.as_ref()),
+            &integrator.problem.algebra,
+            integrator.kicks.as_ref().map(Acting::of_kicks),
             group,
         ),
         matrix: matrix(group),
@@ -67,34 +69,16 @@ pub(super) fn kicked(
     Ok(kernel.with_kicks(kick(kicks, group, length), flows)?)
 }
 
-/// g, μ ↦ μ + l·τ(g), with the torque τ and the length l of the kick. A torque without potential reads the time and the
-/// signals from the slots after the length; where it depends on μ, the kick is that of its value in the middle.
+/// g, μ ↦ μ + l·τ(g), with the torque τ of the potential and the length l of the kick.
 fn kick(kicks: &Kicks, group: &Product, length: usize) -> Program {
     let (n, m) = (group.dim(), group.element());
     let graph = Graph::new();
     let (g, mu) = (inputs(&graph, 0, m), inputs(&graph, m, n));
     let matrix = group.matrix(&graph, &g);
-    let Kicks { kick: Kick { potential, torque: program, .. }, first, .. } = kicks;
-    let mut arguments = matrix.entries().to_vec();
-    if let Some(alone) = potential.alone() {
-        arguments.extend_from_slice(&mu);
-        arguments.extend((1..=1 + alone.signals.len()).map(|i| graph.slot(length + i)));
-    }
-    let mut torque = graph.call_from(program, &arguments, *first);
+    let torque = graph.call_from(&kicks.kick.torque, matrix.entries(), kicks.first);
     let length = graph.slot(length);
-    let kicked = |torque: &[Id], length| -> Vec<Id> {
-        torque.iter().zip(&mu).map(|(&torque, &mu)| graph.times_plus(torque, length, mu)).collect()
-    };
-    if potential.alone().is_some_and(|alone| alone.of_momentum) {
-        let half = graph.constant(0.5);
-        let half = graph.mul(half, length);
-        let middle = kicked(&torque, half);
-        let from = matrix.entries().len();
-        arguments[from..from + n].copy_from_slice(&middle);
-        torque = graph.call_from(program, &arguments, *first);
-    }
-    let outputs = kicked(&torque, length);
-    graph.finish(m + n, &outputs)
+    let kicked = torque.iter().zip(&mu).map(|(&torque, &mu)| graph.times_plus(torque, length, mu));
+    graph.finish(m + n, &kicked.collect::<Vec<_>>())
 }
 
 /// g, μ, x ↦ the state moved by the increment, then by the frame of one flow.
@@ -176,10 +160,26 @@ pub(super) fn sound(group: &Product) -> Program {
     graph.finish(m + n, &[all_at_most(&graph, &[(defect, graph.sqrt(limit))])])
 }
 
+/// What a force changes of the quantities that are watched.
+pub(super) struct Acting<'a> {
+    /// V, and the number of its first slot, where it has a potential.
+    pub energy: Option<(&'a Program, usize)>,
+    /// The potential, or the torque without one, if there is a torque.
+    pub torque: Option<&'a Potential>,
+}
+
+impl<'a> Acting<'a> {
+    pub(super) fn of_kicks(kicks: &'a Kicks) -> Self {
+        let energy = kicks.kick.energy.as_ref().map(|energy| (energy, kicks.first));
+        Self { energy, torque: Some(&kicks.kick.potential) }
+    }
+}
+
 /// g, μ ↦ the energy H_red(μ) + V(g), the first being given, then the Casimirs of low degree that are conserved.
 pub(super) fn watch(
     energy: impl Fn(&Graph, &[Id]) -> Vec<Id>,
-    (algebra, kicks): (&LieAlgebra, Option<&Kicks>),
+    algebra: &LieAlgebra,
+    acting: Option<Acting<'_>>,
     group: &Product,
 ) -> Program {
     let (n, m) = (group.dim(), group.element());
@@ -187,14 +187,14 @@ pub(super) fn watch(
     let (g, mu) = (inputs(&graph, 0, m), inputs(&graph, m, n));
     let mut outputs = energy(&graph, &mu);
     let mut casimirs = lie::watched_casimirs(algebra);
-    if let Some(Kicks { kick, first, .. }) = kicks {
-        let matrix = group.matrix(&graph, &g);
-        if let Some(energy) = &kick.energy {
-            for energy in graph.call_from(energy, matrix.entries(), *first) {
+    if let Some(Acting { energy, torque }) = acting {
+        if let Some((energy, first)) = energy {
+            let matrix = group.matrix(&graph, &g);
+            for energy in graph.call_from(energy, matrix.entries(), first) {
                 outputs[0] = graph.add(outputs[0], energy);
             }
         }
-        casimirs.retain(|casimir| kick.potential.keeps(casimir));
+        casimirs.retain(|casimir| torque.is_none_or(|torque| torque.keeps(casimir)));
     }
     let casimirs = casimirs.iter();
     outputs.extend(casimirs.map(|casimir| Numeric::new(casimir, n, &[]).node(&graph, &mu)));

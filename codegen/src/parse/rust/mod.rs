@@ -51,8 +51,16 @@ fn assembled<T>(
     let Some((_, coordinates, coordinates_span)) = variable else { return Err(diagnostics) };
     let name = function.sig.ident.to_string();
     let signals = Vec::new();
-    let draft =
-        Draft { name, algebra, coordinates, coordinates_span, hamiltonian, signals, choice };
+    let draft = Draft {
+        name,
+        algebra,
+        coordinates,
+        coordinates_span,
+        hamiltonian,
+        signals,
+        drive: None,
+        choice,
+    };
     let assembled = assemble(draft, &diagnostics);
     diagnostics.into_result(assembled)
 }

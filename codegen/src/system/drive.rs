@@ -1,0 +1,103 @@
+//! The keys `velocity`, `torque` and `damping`: what moves a system beside its Hamiltonian.
+
+use super::initial::coordinates;
+use super::parameters::Parameters;
+use super::table::{Table, span};
+use crate::diagnostic::Span;
+use crate::expr::{Arena, ExprId};
+use crate::lie::LieAlgebra;
+use crate::number::nearest_float;
+use crate::parse::{Name, Names, text};
+use crate::pass::{Acting, Energy, entries};
+use crate::signal::Signal;
+
+const DAMPING: &str = "damping = \"1/100\"";
+const VELOCITY: &str = "velocity = [\"0\", \"0\", \"c*z\"]";
+const TORQUE: &str = "torque = [\"-c*x\", \"-c*y\", \"-c*z\"]";
+
+/// The keys that make a drive.
+const KEYS: [&str; 3] = ["velocity", "torque", "damping"];
+
+/// True if a file has a key that makes a drive.
+pub(super) fn is_given(root: &Table<'_>) -> bool {
+    KEYS.iter().any(|key| root.has(key))
+}
+
+/// What the keys say; none where there is no such key, or where it is a mistake.
+#[derive(Debug)]
+pub(super) struct Read {
+    /// The expressions of `velocity` and `torque`.
+    pub acting: Acting,
+    /// The diagonal of Γ; none where all of it is 0.
+    pub damping: Option<Vec<f64>>,
+}
+
+/// Reads `velocity` and `torque`, lists of expressions in the entries of the group element's matrix, the momentum, ω = ∂H/∂μ, the
+/// time and the inputs, one for each coordinate; and `damping`.
+pub(super) fn read(
+    root: &Table<'_>,
+    algebra: Option<&LieAlgebra>,
+    coordinates: &[(String, Span)],
+    parameters: &Parameters,
+    inputs: &[(Signal, Span)],
+) -> Option<Read> {
+    let damping = damping(root, algebra);
+    let lists = [("velocity", VELOCITY), ("torque", TORQUE)]
+        .map(|(key, example)| (key, example, root.strings(key, "a list of expressions", example)));
+    let entries = entries(algebra?.matrix_size());
+    let entry = |name: &String| (name.clone(), Span::Whole);
+    let all: Vec<_> = entries.iter().map(entry).chain(coordinates.iter().cloned()).collect();
+    let mut names = Names::of_coordinates(&all, root.diagnostics);
+    let kept = parameters.add_to(&mut names, root.diagnostics);
+    let dim = coordinates.len();
+    for i in 0..dim {
+        names.alias(format!("mu[{i}]"), Name::Coordinate(entries.len() + i));
+    }
+    let own = names.get("omega").is_some() || names.entries("omega").is_some();
+    for i in (0..dim).filter(|_| !own) {
+        names.alias(format!("omega[{i}]"), Name::Coordinate(entries.len() + dim + i));
+    }
+    for (i, (signal, place)) in inputs.iter().enumerate() {
+        names.add(&signal.name, Name::Signal(i), *place, root.diagnostics);
+    }
+    names.known("t", Name::Time);
+    let (mut arena, mut sources, mut sound) = (Arena::new(), Vec::new(), true);
+    let roots = lists.map(|(key, example, list)| {
+        let (list, place) = list?;
+        if list.len() != dim {
+            let message = format!("`{key}` has {} components, and the momentum {dim}", list.len());
+            root.diagnostics.report_other(place, message, &format!("write for example {example}"));
+            sound = false;
+            return None;
+        }
+        let texts = list.iter().map(|(text, _)| &text[..]).collect::<Vec<_>>().join(", ");
+        sources.push(format!("{key} = [{texts}]"));
+        let parse = |(text, place): &(String, Span)| {
+            text::parse(text, root.offset(*place, text), &[], &names, &mut arena, root.diagnostics)
+        };
+        Some(list.iter().map(parse).collect::<Vec<ExprId>>())
+    });
+    let wrong = KEYS[..2].iter().zip(&roots).any(|(key, roots)| root.has(key) && roots.is_none());
+    if wrong || !sound {
+        return None;
+    }
+    sources.extend(damping.iter().map(|rates| format!("damping = {rates:?}")));
+    let energy = Energy { arena, root: None, parameters: kept, source: sources.join(", ") };
+    Some(Read { acting: Acting { energy, roots }, damping })
+}
+
+/// Reads `damping`: a number, or a list of one for each coordinate. None where all of them are 0.
+fn damping(root: &Table<'_>, algebra: Option<&LieAlgebra>) -> Option<Vec<f64>> {
+    let value = root.get("damping")?;
+    let numbers = match value.get_ref().as_array() {
+        Some(_) => coordinates(root, "damping", DAMPING, algebra)?.0,
+        None => vec![root.exact("damping", value, DAMPING)?; algebra?.dim()],
+    };
+    let rates: Vec<f64> = numbers.iter().map(nearest_float).collect();
+    if rates.iter().any(|rate| *rate < 0.0) {
+        let what = "`damping` must not be negative: the energy would rise";
+        root.refuse(span(value), what, DAMPING);
+        return None;
+    }
+    rates.iter().any(|rate| *rate > 0.0).then_some(rates)
+}
