@@ -13,10 +13,10 @@ use coadjoint_geometry::number::Number;
 use coadjoint_geometry::vector::{V3, cross, difference, dot, each, plus, plus_by, scaled, sum};
 use coadjoint_program::collocation::{MAX_SWEEPS, Nodes, ROUNDING, SOLVED};
 
-use super::couplings::{Couplings, Energies, multiplied};
+use super::couplings::{Couplings, Driven, Energies, Own, multiplied};
 use super::error::{LatticeError, check_spins, check_step};
 use super::lanes::{LANES, Pack, larger};
-use super::layout::{Piece, Spins, Vectors, pieces, split, store};
+use super::layout::{Column, Piece, Spins, Vectors, pieces, split, store};
 use super::threads;
 use crate::error::{Circumstances, StepError, Stopped};
 
@@ -50,7 +50,12 @@ pub type NoField = fn(&[[f64; 3]], &mut [[f64; 3]]);
 pub struct GaussStep<const M: usize, F = NoField> {
     couplings: Couplings,
     /// The field, and twice the anisotropy.
-    equation: Equation,
+    equation: Equation<M>,
+    /// The field without that which depends on time.
+    held: V3<f64>,
+    driven: Option<Driven>,
+    /// The times of the nodes, in steps.
+    times: [f64; M],
     gradient: Option<F>,
     step: f64,
     /// aᵢⱼ by i, then by j, and bⱼ, in halves of the step.
@@ -100,9 +105,13 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
         let anisotropic = energies.anisotropy.iter().any(|entry| *entry != 0.0);
         Ok(Self {
             equation: Equation {
-                constant: energies.field.into(),
+                constant: [energies.field.into(); M],
+                own: energies.own.iter().map(|own| own.placed(&couplings.places)).collect(),
                 anisotropy: anisotropic.then(|| from_fn(|i| from_fn(|j| twice[(i, j)]))),
             },
+            held: energies.field.into(),
+            driven: energies.driven.clone(),
+            times,
             matrix: from_fn(|i| from_fn(|j| 0.5 * step * (matrix[j][i] + 0.5 * weights[j]))),
             weights: weights.map(|weight| 0.5 * step * weight),
             guess,
@@ -129,6 +138,19 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
     /// [`LatticeError::Sites`] and [`LatticeError::NonFinite`], with the spins as they were; [`LatticeError::Stopped`] where
     /// the equations of a step were not solved and [`LatticeError::TooLong`], with the spins before that step.
     pub fn advance_by(&mut self, spins: &mut [[f64; 3]], steps: u64) -> Result<(), LatticeError> {
+        self.advance_from(spins, 0.0, steps)
+    }
+
+    /// As [`GaussStep::advance_by`], from this time on, of which the field that depends on time is a function.
+    ///
+    /// # Errors
+    /// As [`GaussStep::advance_by`].
+    pub fn advance_from(
+        &mut self,
+        spins: &mut [[f64; 3]],
+        time: f64,
+        steps: u64,
+    ) -> Result<(), LatticeError> {
         let Self { couplings, now, .. } = self;
         check_spins(couplings.places.sites(), spins)?;
         let mut goes_on = self.end == spins;
@@ -137,6 +159,11 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
         let mut made = Ok(());
         for steps in 0..steps {
             self.start(goes_on);
+            if let Some(Driven(field)) = &self.driven {
+                let now = time + steps as f64 * self.step;
+                self.equation.constant =
+                    self.times.map(|at| sum(self.held, field(now + at * self.step)));
+            }
             goes_on = true;
             if let Err(error) = self.solve(size, steps) {
                 made = Err(error);
@@ -307,21 +334,32 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
 }
 
 /// The part of ∂H/∂s that does not depend on neighbours.
-struct Equation {
-    constant: V3<f64>,
+struct Equation<const M: usize> {
+    constant: [V3<f64>; M],
+    own: Vec<Own<Option<Column>>>,
     anisotropy: Option<[[f64; 3]; 3]>,
 }
 
-impl Equation {
+impl<const M: usize> Equation<M> {
     /// ∂H/∂s at the nodes, with what is further known of it.
     #[inline(always)]
-    fn rates<const M: usize>(
+    fn rates(
         &self,
         spins: &[V3<Pack>; M],
         further: Option<&[[&[f64]; 3]; M]>,
         place: usize,
     ) -> [V3<Pack>; M] {
-        let mut rates = [each(|axis| Pack::of(self.constant[axis])); M];
+        let mut rates = [[Pack::of(0.0); 3]; M];
+        for i in 0..M {
+            rates[i] = each(|axis| Pack::of(self.constant[i][axis]));
+        }
+        for own in &self.own {
+            let direction = each(|axis| Pack::of(own.direction[axis]));
+            for i in 0..M {
+                let rate = own.rate(dot(spins[i], direction), place);
+                rates[i] = plus(rates[i], rate, direction);
+            }
+        }
         if let Some(matrix) = &self.anisotropy {
             for i in 0..M {
                 rates[i] = multiplied(rates[i], matrix, spins[i]);
