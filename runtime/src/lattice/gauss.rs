@@ -185,26 +185,30 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
         let Self { guess, now, nodes, couplings, .. } = self;
         let (places, now) = (couplings.places.len(), now.all());
         let columns = nodes.each_mut().map(Spins::all_mut);
-        threads::each(pieces(columns, places), |(first, mut nodes)| {
-            for at in (0..nodes[0][0].len()).step_by(LANES) {
-                let start = now.row(first + at);
-                let mut before = [[Pack::of(0.0); 3]; M];
-                for i in 0..M {
-                    before[i] = own(&nodes[i], at);
-                }
-                for i in 0..M {
-                    let mut spin = start;
-                    if goes_on {
-                        let (weights, weight) = &guess[i];
-                        spin = scaled(Pack::of(*weight), start);
-                        for j in 0..M {
-                            spin = plus_by(spin, weights[j], before[j]);
-                        }
+        threads::each(
+            pieces(columns, places),
+            #[inline(always)]
+            |(first, mut nodes)| {
+                for at in (0..nodes[0][0].len()).step_by(LANES) {
+                    let start = now.row(first + at);
+                    let mut before = [[Pack::of(0.0); 3]; M];
+                    for i in 0..M {
+                        before[i] = own(&nodes[i], at);
                     }
-                    write(&mut nodes[i], at, spin);
+                    for i in 0..M {
+                        let mut spin = start;
+                        if goes_on {
+                            let (weights, weight) = &guess[i];
+                            spin = scaled(Pack::of(*weight), start);
+                            for j in 0..M {
+                                spin = plus_by(spin, weights[j], before[j]);
+                            }
+                        }
+                        write(&mut nodes[i], at, spin);
+                    }
                 }
-            }
-        });
+            },
+        );
     }
 
     /// Finds the spins at the nodes, whose largest component is `size`, after `steps` steps.
@@ -269,33 +273,37 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
         let columns = parts.map(|part| part.1);
         let (equation, matrix, first_place) = (&self.equation, &self.matrix, range.start);
         let pieces = pieces(columns, range.len());
-        let changes = threads::each(pieces, |(first, mut nodes)| {
-            let [mut change, mut speed, mut all] = [Pack::of(0.0); 3];
-            for at in (0..nodes[0][0].len()).step_by(LANES) {
-                let place = first_place + first + at;
-                let mut spins = [[Pack::of(0.0); 3]; M];
-                for i in 0..M {
-                    spins[i] = own(&nodes[i], at);
+        let changes = threads::each(
+            pieces,
+            #[inline(always)]
+            |(first, mut nodes)| {
+                let [mut change, mut speed, mut all] = [Pack::of(0.0); 3];
+                for at in (0..nodes[0][0].len()).step_by(LANES) {
+                    let place = first_place + first + at;
+                    let mut spins = [[Pack::of(0.0); 3]; M];
+                    for i in 0..M {
+                        spins[i] = own(&nodes[i], at);
+                    }
+                    let mut rates = equation.rates(&spins, further.as_ref(), place);
+                    rates = couplings.fields(rates, around.each_ref(), place / LANES);
+                    let turns = solved(matrix, &rates);
+                    let start = now.row(place);
+                    let [mut gaps, mut squares] = [Pack::of(0.0); 2];
+                    for i in 0..M {
+                        let (spin, _) = turned(turns[i], start);
+                        let gap = difference(spin, spins[i]);
+                        gaps = gaps + dot(gap, gap);
+                        squares = squares + dot(rates[i], rates[i]);
+                        write(&mut nodes[i], at, spin);
+                    }
+                    change = change.larger(gaps);
+                    all = all + gaps;
+                    speed = speed.larger(squares);
                 }
-                let mut rates = equation.rates(&spins, further.as_ref(), place);
-                rates = couplings.fields(rates, around.each_ref(), place / LANES);
-                let turns = solved(matrix, &rates);
-                let start = now.row(place);
-                let [mut gaps, mut squares] = [Pack::of(0.0); 2];
-                for i in 0..M {
-                    let (spin, _) = turned(turns[i], start);
-                    let gap = difference(spin, spins[i]);
-                    gaps = gaps + dot(gap, gap);
-                    squares = squares + dot(rates[i], rates[i]);
-                    write(&mut nodes[i], at, spin);
-                }
-                change = change.larger(gaps);
-                all = all + gaps;
-                speed = speed.larger(squares);
-            }
-            // The sum is not finite where a change is not a number, which the larger of two may lose.
-            [(change + all.by(0.0)).largest(), speed.largest()]
-        });
+                // The sum is not finite where a change is not a number, which the larger of two may lose.
+                [(change + all.by(0.0)).largest(), speed.largest()]
+            },
+        );
         let largest = |a: [f64; 2], b: [f64; 2]| [larger(a[0], b[0]), larger(a[1], b[1])];
         changes.into_iter().fold([0.0; 2], largest)
     }
@@ -310,26 +318,32 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
         let nodes = nodes.each_ref().map(Spins::all);
         let further = further.as_ref().map(|nodes| nodes.each_ref().map(Spins::all));
         let pieces = pieces([now.all_mut()], couplings.places.len());
-        threads::each(pieces, |(first, [mut now])| {
-            for at in (0..now[0].len()).step_by(LANES) {
-                let place = first + at;
-                let mut spins = [[Pack::of(0.0); 3]; M];
-                for i in 0..M {
-                    spins[i] = nodes[i].row(place);
+        threads::each(
+            pieces,
+            #[inline(always)]
+            |(first, [mut now])| {
+                for at in (0..now[0].len()).step_by(LANES) {
+                    let place = first + at;
+                    let mut spins = [[Pack::of(0.0); 3]; M];
+                    for i in 0..M {
+                        spins[i] = nodes[i].row(place);
+                    }
+                    let mut rates = equation.rates(&spins, further.as_ref(), place);
+                    rates = couplings.fields(rates, nodes, place / LANES);
+                    let turns = solved(matrix, &rates);
+                    let mut turn = one();
+                    for j in 0..M {
+                        let part = product(
+                            [Pack::of(0.0), rates[j][0], rates[j][1], rates[j][2]],
+                            turns[j],
+                        );
+                        turn = each(|k| part[k].by_plus(-weights[j], turn[k]));
+                    }
+                    let (spin, norm) = turned(turn, own(&now, at));
+                    write(&mut now, at, scaled(Pack::of(1.0) / norm, spin));
                 }
-                let mut rates = equation.rates(&spins, further.as_ref(), place);
-                rates = couplings.fields(rates, nodes, place / LANES);
-                let turns = solved(matrix, &rates);
-                let mut turn = one();
-                for j in 0..M {
-                    let part =
-                        product([Pack::of(0.0), rates[j][0], rates[j][1], rates[j][2]], turns[j]);
-                    turn = each(|k| part[k].by_plus(-weights[j], turn[k]));
-                }
-                let (spin, norm) = turned(turn, own(&now, at));
-                write(&mut now, at, scaled(Pack::of(1.0) / norm, spin));
-            }
-        });
+            },
+        );
     }
 }
 

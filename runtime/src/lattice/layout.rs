@@ -237,14 +237,18 @@ impl Copies {
         let sites = &*sites;
         let copies = &mut copies[lists.start * LANES..lists.end * LANES];
         let count = copies.len();
-        threads::each(pieces([[copies]], count), |(first, [[copies]])| {
-            let lists = &self.lists[lists.start + first / LANES..];
-            for (copy, list) in copies.as_chunks_mut::<LANES>().0.iter_mut().zip(lists) {
-                for lane in 0..LANES {
-                    copy[lane] = sites[list[lane] as usize];
+        threads::each(
+            pieces([[copies]], count),
+            #[inline(always)]
+            |(first, [[copies]])| {
+                let lists = &self.lists[lists.start + first / LANES..];
+                for (copy, list) in copies.as_chunks_mut::<LANES>().0.iter_mut().zip(lists) {
+                    for lane in 0..LANES {
+                        copy[lane] = sites[list[lane] as usize];
+                    }
                 }
-            }
-        });
+            },
+        );
     }
 }
 

@@ -166,7 +166,12 @@ impl RotationStep {
                     let x = each(|axis| Pack::of(field[axis] * time));
                     let turn = turn::<false>(x);
                     let places = self.couplings.places.len();
-                    each_pack(self.spins.all_mut(), places, |_, spin| turn.back(spin));
+                    each_pack(
+                        self.spins.all_mut(),
+                        places,
+                        #[inline(always)]
+                        |_, spin| turn.back(spin),
+                    );
                     continue;
                 }
                 match (time * slope.times_plus(length, least)).abs() <= SHORT_TURN {
@@ -193,15 +198,23 @@ impl RotationStep {
                     }
                     couplings.copies.refresh(along.all_mut(), couplings.copies.all());
                     let along = along.all();
-                    each_pack(spins.all_mut(), places, |pack, spin| {
-                        let field = part.rate(couplings, along, pack);
-                        about::<SHORT>(part.direction.direction, field.by(time), spin)
-                    });
+                    each_pack(
+                        spins.all_mut(),
+                        places,
+                        #[inline(always)]
+                        |pack, spin| {
+                            let field = part.rate(couplings, along, pack);
+                            about::<SHORT>(part.direction.direction, field.by(time), spin)
+                        },
+                    );
                 }
             },
             Summand::Pairs(pairs, exchange) => {
                 let columns = spins.all_mut();
-                threads::wide(|| exchange_all::<SHORT>(pairs, *exchange, time, columns));
+                threads::wide(
+                    #[inline(always)]
+                    || exchange_all::<SHORT>(pairs, *exchange, time, columns),
+                );
             }
             Summand::Colour(colour, field) => {
                 let range = &couplings.places.colours[*colour];
@@ -211,22 +224,32 @@ impl RotationStep {
                 }
                 let (around, own) = split(spins, range);
                 let first = range.start / LANES;
-                each_pack(own, range.len(), |pack, spin| {
-                    let field = each(|axis| Pack::of(field[axis]));
-                    let [field] = couplings.fields([field], [&around], first + pack);
-                    let x = scaled(Pack::of(time), field);
-                    turn::<SHORT>(x).back(spin)
-                });
+                each_pack(
+                    own,
+                    range.len(),
+                    #[inline(always)]
+                    |pack, spin| {
+                        let field = each(|axis| Pack::of(field[axis]));
+                        let [field] = couplings.fields([field], [&around], first + pack);
+                        let x = scaled(Pack::of(time), field);
+                        turn::<SHORT>(x).back(spin)
+                    },
+                );
             }
             Summand::Sites(site, own) => {
-                each_pack(spins.all_mut(), places, |pack, spin| {
-                    let along = dot(spin, each(|axis| Pack::of(site.direction[axis])));
-                    let mut rate = site.rate(along);
-                    if let Some(own) = own {
-                        rate = rate + own.rate(along, pack * LANES);
-                    }
-                    about::<SHORT>(site.direction, rate.by(time), spin)
-                });
+                each_pack(
+                    spins.all_mut(),
+                    places,
+                    #[inline(always)]
+                    |pack, spin| {
+                        let along = dot(spin, each(|axis| Pack::of(site.direction[axis])));
+                        let mut rate = site.rate(along);
+                        if let Some(own) = own {
+                            rate = rate + own.rate(along, pack * LANES);
+                        }
+                        about::<SHORT>(site.direction, rate.by(time), spin)
+                    },
+                );
             }
             // Its time is not known here.
             Summand::Driven(_) => {}
@@ -285,21 +308,25 @@ fn each_pack<const K: usize>(
     places: usize,
     work: impl Fn(usize, [Pack; K]) -> [Pack; K] + Sync,
 ) {
-    threads::each(pieces([columns], places), |(first, [columns])| {
-        let [first, count] = [first, columns[0].len()].map(|places| places / LANES);
-        // Packs by number, in plain loops: iterators over several columns stay calls.
-        let columns = columns.map(|column| column.as_chunks_mut::<LANES>().0);
-        for at in 0..count {
-            let mut packs = [Pack::of(0.0); K];
-            for k in 0..K {
-                packs[k] = Pack(columns[k][at]);
+    threads::each(
+        pieces([columns], places),
+        #[inline(always)]
+        |(first, [columns])| {
+            let [first, count] = [first, columns[0].len()].map(|places| places / LANES);
+            // Packs by number, in plain loops: iterators over several columns stay calls.
+            let columns = columns.map(|column| column.as_chunks_mut::<LANES>().0);
+            for at in 0..count {
+                let mut packs = [Pack::of(0.0); K];
+                for k in 0..K {
+                    packs[k] = Pack(columns[k][at]);
+                }
+                let packs = work(first + at, packs);
+                for k in 0..K {
+                    columns[k][at] = packs[k].0;
+                }
             }
-            let packs = work(first + at, packs);
-            for k in 0..K {
-                columns[k][at] = packs[k].0;
-            }
-        }
-    });
+        },
+    );
 }
 
 /// The flow of the energies along an axis, in which the other two components turn.
@@ -318,14 +345,19 @@ fn about_axis<const SHORT: bool>(
     };
     couplings.copies.refresh(along.all_mut(), couplings.copies.all());
     let along = along.all();
-    each_pack([u.all_mut(), v.all_mut()], couplings.places.len(), |pack, [u, v]| {
-        let by = part.rate(couplings, along, pack).by(time);
-        let angle = Angle::new([by], reach(SHORT));
-        let half = angle.half_sine * by;
-        let sine = (half * angle.half_cosine).by(2.0);
-        let cosine = half.by_plus(-2.0, Pack::of(0.0)).times_plus(half, Pack::of(1.0));
-        [u.times_plus(cosine, v * sine), v.times_plus(cosine, -u * sine)]
-    });
+    each_pack(
+        [u.all_mut(), v.all_mut()],
+        couplings.places.len(),
+        #[inline(always)]
+        |pack, [u, v]| {
+            let by = part.rate(couplings, along, pack).by(time);
+            let angle = Angle::new([by], reach(SHORT));
+            let half = angle.half_sine * by;
+            let sine = (half * angle.half_cosine).by(2.0);
+            let cosine = half.by_plus(-2.0, Pack::of(0.0)).times_plus(half, Pack::of(1.0));
+            [u.times_plus(cosine, v * sine), v.times_plus(cosine, -u * sine)]
+        },
+    );
 }
 
 /// The flow of energies of pairs, none of which share a site.
