@@ -10,6 +10,8 @@ mod sums;
 
 pub(crate) use assemble::{Draft, Energy, assemble, assemble_either, assemble_potential, linear};
 #[cfg(feature = "system")]
-pub(crate) use assemble::{assemble_given, assemble_torque, constant, entries, function};
+pub(crate) use assemble::{
+    OfSites, assemble_given, assemble_torque, constant, entries, function, of_sites,
+};
 pub(crate) use choice::Choice;
 pub use frame::in_other_frame;
