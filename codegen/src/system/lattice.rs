@@ -27,6 +27,8 @@ const MATRIX: &str = "matrix = [[-1, 0, 0], [0, -1, 0], [0, 0, -1]]";
 const EDGES: &str = "edges = \"edges.npy\"";
 const TABLE: &str = "D = { table = \"D.npy\" }";
 const MOMENTUM: &str = "momentum = { table = \"spins.npy\" }";
+/// Steps have order 8 at most.
+const MOST_TRUNCATION: usize = 7;
 const SEED: &str = "seed = 1";
 
 /// Spins on a graph and a run of them, as a file describes them.
@@ -532,13 +534,12 @@ fn method(table: &Table<'_>) -> (&'static str, Option<usize>) {
         );
     }
     let splitting = if method == "collocation" { method } else { splitting };
-    let most = if splitting == "collocation" { 9 } else { 7 };
     let mut choice = Choice::default();
     let given = table.integer("truncation", "truncation = 5");
     let Some((k, place)) = given else { return (splitting, None) };
     choice.set_truncation(k, place, table.diagnostics);
-    if k > most {
-        table.diagnostics.report(place, Mistake::TruncationLarge(k, most));
+    if k > MOST_TRUNCATION {
+        table.diagnostics.report(place, Mistake::TruncationLarge(k, MOST_TRUNCATION));
     }
     (splitting, choice.truncation)
 }

@@ -30,7 +30,7 @@ const TRUNCATION: usize = 5;
 pub enum Method {
     /// Exact rotations.
     Rotations(Family, Order),
-    /// Gauss's method with this number of nodes, 1 to 5.
+    /// Gauss's method with this number of nodes, 1 to 4.
     Gauss(usize),
 }
 

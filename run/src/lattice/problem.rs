@@ -378,20 +378,17 @@ impl Problem {
             Method::Gauss(1) => self.gauss::<1>(step),
             Method::Gauss(2) => self.gauss::<2>(step),
             Method::Gauss(3) => self.gauss::<3>(step),
-            Method::Gauss(4) => self.gauss::<4>(step),
-            Method::Gauss(_) => self.gauss::<5>(step),
+            Method::Gauss(_) => self.gauss::<4>(step),
         }
     }
 
     fn gauss<const M: usize>(&self, step: f64) -> Result<Box<dyn Steps + '_>, LatticeError> {
-        if self.functions.is_empty() {
-            return Ok(Box::new(self.lattice.gauss::<M>(step)?));
-        }
         let gradient = |spins: &[[f64; 3]], out: &mut [[f64; 3]]| {
             out.fill([0.0; 3]);
             self.further(spins, out);
         };
-        Ok(Box::new(self.lattice.gauss_of::<M, _>(step, gradient)?))
+        let gradient = (!self.functions.is_empty()).then_some(gradient);
+        Ok(Box::new(self.lattice.gauss_with::<M, _>(step, gradient)?))
     }
 }
 

@@ -225,7 +225,7 @@ impl Lattice {
     /// # Errors
     /// [`LatticeError::Stopped`] for a step that is zero or not finite.
     pub fn gauss<const M: usize>(&self, step: f64) -> Result<GaussStep<M>, LatticeError> {
-        GaussStep::new(self.graph.sites(), &self.energies, step, None)
+        self.gauss_with(step, None)
     }
 
     /// As [`Lattice::gauss`], of this energy and a further one: `gradient` is given all spins and writes its ∂H/∂s.
@@ -237,7 +237,19 @@ impl Lattice {
         step: f64,
         gradient: F,
     ) -> Result<GaussStep<M, F>, LatticeError> {
-        GaussStep::new(self.graph.sites(), &self.energies, step, Some(gradient))
+        self.gauss_with(step, Some(gradient))
+    }
+
+    /// As [`Lattice::gauss_of`], or, without a gradient, as [`Lattice::gauss`].
+    ///
+    /// # Errors
+    /// As [`Lattice::gauss`].
+    pub fn gauss_with<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])>(
+        &self,
+        step: f64,
+        gradient: Option<F>,
+    ) -> Result<GaussStep<M, F>, LatticeError> {
+        GaussStep::new(self.graph.sites(), &self.energies, step, gradient)
     }
 
     /// The energy of a state.
