@@ -3,6 +3,7 @@
 //! Steps are exact rotations of a [`Family`], or Gauss's method. Which one is chosen, the step for a tolerance, and the error at the
 //! end are found on a cut of at most 16 cells an axis, so that they take no longer than on a small lattice.
 
+mod method;
 mod problem;
 
 use std::path::{Path, PathBuf};
@@ -15,6 +16,7 @@ use crate::asked::Accuracy;
 use crate::error::RunError;
 use crate::grid::Grid;
 use crate::simulate::Schedule;
+pub use method::Method;
 pub use problem::Arrays;
 use problem::{Files, Misplaced, Problem, Spins, StartError, Tables};
 
@@ -24,49 +26,6 @@ const MOST_HALVINGS: u32 = 8;
 const ROUNDING: f64 = 1e-9;
 /// The truncation of a run with a step that asks for none: order 6.
 const TRUNCATION: usize = 5;
-
-/// The method of steps.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Method {
-    /// Exact rotations.
-    Rotations(Family, Order),
-    /// Gauss's method with this number of nodes, 1 to 4.
-    Gauss(usize),
-}
-
-impl Method {
-    /// The order of accuracy.
-    #[must_use]
-    pub fn order(self) -> u32 {
-        match self {
-            Self::Rotations(_, order) => order.number(),
-            Self::Gauss(nodes) => 2 * nodes as u32,
-        }
-    }
-
-    /// The name of the family, or `collocation`.
-    #[must_use]
-    pub fn name(self) -> String {
-        match self {
-            Self::Rotations(family, _) => family.to_string(),
-            Self::Gauss(_) => "collocation".to_owned(),
-        }
-    }
-
-    /// The method in words, with what it does not keep.
-    #[must_use]
-    pub fn label(self) -> String {
-        let (name, order) = (self.name(), self.order());
-        match self {
-            Self::Rotations(Family::Sublattices, _) => {
-                format!(
-                    "{name}, order {order}, not symplectic; the energy is exact without anisotropy"
-                )
-            }
-            _ => format!("{name}, order {order}"),
-        }
-    }
-}
 
 /// A lattice and its spins, ready to run.
 #[derive(Debug)]
@@ -275,9 +234,11 @@ impl Lattice {
                 made.advance(&mut spins, start, steps)?;
                 Ok::<_, LatticeError>((spins, clock.elapsed().as_secs_f64()))
             };
-            let pair = at(trial, count as u64)
-                .and_then(|coarse| Ok((coarse, at(0.5 * trial, 2 * count as u64)?)));
-            let (coarse, fine) = match pair {
+            let pair = || {
+                let fine = [at(0.5 * trial, 2 * count as u64)?, at(0.5 * trial, 2 * count as u64)?];
+                Ok((at(trial, count as u64)?, fine))
+            };
+            let (coarse, [fine, again]) = match pair() {
                 Ok(pair) => pair,
                 Err(error) => {
                     reason = Some(error);
@@ -286,7 +247,7 @@ impl Lattice {
             };
             let order = method.order() as i32;
             let error = distance(&coarse.0, &fine.0) / (1.0 - 0.5_f64.powi(order));
-            found.push((method, error.max(f64::MIN_POSITIVE), fine.1));
+            found.push((method, error.max(f64::MIN_POSITIVE), fine.1.min(again.1)));
         }
         let Some(&(_, first, _)) = found.first() else {
             return Err(failed(reason.unwrap_or(LatticeError::NoEdges)));
@@ -339,7 +300,8 @@ impl Lattice {
         )))
     }
 
-    /// Runs to the end; a record every so many steps, if any, and at the end. `told` is given the news and returns false to stop.
+    /// Makes all steps. With `every`, every n-th of them is recorded, and the last. `told` is given the news and returns false to
+    /// stop.
     ///
     /// # Errors
     /// As [`Lattice::plan`]; steps that cannot be made; [`RunError::Halted`] where it was told to stop.

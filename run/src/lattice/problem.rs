@@ -10,7 +10,7 @@ use coadjoint_learn::table::array;
 use coadjoint_program::Program;
 use nalgebra::{Matrix3, Vector3};
 
-use super::Method;
+use super::method::Method;
 use crate::error::RunError;
 
 /// Sites along each axis of a cut, on which steps are chosen and errors are estimated.
@@ -209,8 +209,8 @@ impl Problem {
         Self::build(text, graph, &tables.site, |at, bond| (edges(bond), tables.bonds[at].clone()))
     }
 
-    /// A cut of at most 16 cells an axis, or of so many sites of a graph by edges; the whole lattice where that has no more, or
-    /// where a bond is too long for it.
+    /// The problem on at most 16 cells an axis, or on as many sites of a graph by edges as a cube of these has. A lattice that has no
+    /// more, or a bond too long for the cut, is left whole.
     pub(super) fn cut(text: &text::Lattice, tables: &Tables, whole: &Graph) -> Placed<Self> {
         let shape: Vec<usize> = text.shape.iter().map(|length| (*length).min(CUT)).collect();
         let small =
