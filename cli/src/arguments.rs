@@ -142,6 +142,9 @@ pub(crate) struct SimulateOptions {
     /// Until the run is complete the file is named FILE.partial
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
+    /// Write the spins of a lattice at the end to this .npy file, an array (sites, 3)
+    #[arg(long = "final", value_name = "FILE")]
+    pub last: Option<PathBuf>,
     /// Keep the state in this file, so that the same command resumes a run that was stopped
     #[arg(long, value_name = "FILE")]
     pub checkpoint: Option<PathBuf>,

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from ._core import __version__
 from .errors import CoadjointWarning, Error, InputError, RunError
+from .lattice import Lattice, LatticeRun
 from .learning import Model, learn
 from .results import Drift, Failure, Run, States, Unknown
 from .system import Law, Laws, System, Verdict
@@ -25,6 +26,8 @@ __all__ = [
     "Error",
     "Failure",
     "InputError",
+    "Lattice",
+    "LatticeRun",
     "Law",
     "Laws",
     "Model",

@@ -15,6 +15,7 @@ __all__ = [
     "largest_exponent",
     "learn",
     "read_text",
+    "simulate_lattice",
     "write_text",
 ]
 
@@ -23,6 +24,16 @@ __version__: str
 _Asked = dict[str, Any]
 _Progress = Callable[[int, int], object]
 
+def simulate_lattice(
+    text: str,
+    name: str,
+    arrays: dict[str, NDArray[np.float64]],
+    asked: _Asked,
+    *,
+    every: int | None,
+    estimate: bool,
+    progress: _Progress | None,
+) -> dict[str, Any]: ...
 @final
 class Core:
     def __new__(

@@ -17,6 +17,7 @@ from . import _arrays, _core, _text
 from ._arrays import Backend, Floats, Numbers, Real, Rotation
 from ._progress import Progress, listener
 from .errors import CoadjointWarning, InputError
+from .lattice import Lattice, lattice
 from .results import Run, States
 
 if TYPE_CHECKING:
@@ -177,6 +178,39 @@ class System:
     def from_file(cls, path: str | os.PathLike[str]) -> System:
         """The system of a file, in TOML."""
         return cls.from_text(_core.read_text(path), os.fspath(path))
+
+    @staticmethod
+    def lattice(
+        shape: Sequence[int] | None = None,
+        group: str = "SO3",
+        *,
+        bonds: Mapping[Any, Any],
+        site: str | None = None,
+        kind: str | None = None,
+        boundary: str | Sequence[str] | None = None,
+        edges: Any = None,
+        parameters: Mapping[str, Any] | None = None,
+        name: str = "lattice",
+    ) -> Lattice:
+        """Spins on a lattice, of any number, with one energy over its edges.
+
+        ``bonds`` has a 3 × 3 matrix M of the energy a·M b, or an energy as text such as ``"-J*dot(a, b)"``, for each offset of the
+        cells of its two spins, or for (offset, from, to) with the numbers of the sites in these cells; with ``edges``, rows (i, j) or
+        (i, j, type), for each type, or for None. ``site`` is the energy of a site in x, y and z. ``kind`` is ``"cubic"``,
+        ``"triangular"``, ``"honeycomb"`` or ``"kagome"``, ``boundary`` ``"periodic"`` or ``"open"``, or one of them an axis. Arrays of more
+        than 16 numbers among ``parameters`` are tables with one number a site.
+
+        >>> import coadjoint as ca, numpy as np
+        >>> cube = ca.System.lattice([4, 4, 4], bonds={(1, 0, 0): -np.eye(3), (0, 1, 0): "-dot(a, b)"}, site="D*z^2",
+        ...                          parameters=dict(D=np.linspace(0, 1, 64)))
+        >>> run = cube.simulate(np.ones((64, 3)), time=1, step=0.1, splitting="bonds")
+        >>> run.method
+        'bonds, order 6'
+        """
+        return lattice(
+            shape, group=group, bonds=bonds, site=site, kind=kind, boundary=boundary, edges=edges, parameters=parameters,
+            name=name,
+        )
 
     def _read(
         self,

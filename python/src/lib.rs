@@ -10,6 +10,7 @@ mod error;
 mod event;
 mod files;
 mod function;
+mod lattice;
 mod learn;
 mod outcome;
 mod record;
@@ -26,6 +27,8 @@ mod _core {
     use super::derivative::{backward, forward, largest_exponent};
     #[pymodule_export]
     use super::files::{read_text, write_text};
+    #[pymodule_export]
+    use super::lattice::simulate_lattice;
     #[pymodule_export]
     use super::learn::{ModelCore, learn};
     #[pymodule_export]

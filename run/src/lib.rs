@@ -11,6 +11,7 @@ pub mod ensemble;
 mod error;
 mod grid;
 mod inputs;
+pub mod lattice;
 mod load;
 pub mod number;
 mod resolution;

@@ -341,6 +341,82 @@ fn irregular_graphs_make_the_same_steps() {
     assert!(distance(&end[9..10].to_vec(), &all[9..10].to_vec()) < 1e-14);
 }
 
+/// Factors of sites and of edges: the energy is the sum written out, and families and Gauss's method follow its gradient.
+#[test]
+fn sites_and_edges_have_factors() {
+    let edges: Vec<[usize; 2]> = (0..21).map(|i| [i, (i + 1) % 21]).chain([[3, 11]]).collect();
+    let of_edges: Vec<f64> = (0..22).map(|i| (1.7 * f64::from(i)).sin()).collect();
+    let of_sites: Vec<f64> = (0..21).map(|i| (0.9 * f64::from(i)).cos()).collect();
+    let (field, square) = (Vector3::new(0.2, -0.1, 0.4), symmetric() * 0.5);
+    let twisted = symmetric() + dzyaloshinskii(Vector3::new(0.2, 0.5, -0.3));
+    let start = disordered(21);
+    for (coupling, families) in [(symmetric(), &FAMILIES[..]), (twisted, &FAMILIES[1..])] {
+        let graph = Graph::from_edges(21, &edges).unwrap();
+        let lattice = Lattice::new(graph).edges_each(&edges, coupling, of_edges.clone()).unwrap();
+        let lattice = lattice.nearest(Matrix3::identity() * 0.1).unwrap();
+        let lattice = lattice.site_each(&of_sites, field, square).unwrap();
+        let spin = |i: usize| Vector3::from(start[i]);
+        let matrix = |at: usize| coupling * of_edges[at] + Matrix3::identity() * 0.1;
+        let pairs = edges.iter().enumerate();
+        let pairs = pairs.map(|(at, &[a, b])| spin(a).dot(&(matrix(at) * spin(b))));
+        let site =
+            |i: usize| of_sites[i] * (field.dot(&spin(i)) + spin(i).dot(&(square * spin(i))));
+        let direct = pairs.sum::<f64>() + (0..21).map(site).sum::<f64>();
+        assert!((lattice.energy(&start).unwrap() - direct).abs() < 1e-13);
+        let gradient = lattice.gradient(&start).unwrap();
+        for at in 0..63 {
+            let energy = |change: f64| {
+                let mut spins = start.clone();
+                spins[at / 3][at % 3] += change;
+                lattice.energy(&spins).unwrap()
+            };
+            // Exact, for energies of degree two.
+            let slope = (energy(0.5) - energy(-0.5)) - gradient[at / 3][at % 3];
+            assert!(slope.abs() < 1e-13, "{slope:e}");
+        }
+        let gradient = |s: &[[f64; 3]], out: &mut [[f64; 3]]| {
+            out.copy_from_slice(&lattice.gradient(s).unwrap());
+        };
+        let mut exact = start.clone();
+        let free = Lattice::new(Graph::chain(21).unwrap());
+        free.gauss_of::<5, _>(0.1, gradient).unwrap().advance_by(&mut exact, 10).unwrap();
+        assert!(distance(&collocated::<5>(&lattice, 0.1, 10, &start), &exact) < 1e-12);
+        for family in families {
+            let gap = distance(&rotated(&lattice, *family, Order::Six, 0.02, 50, &start), &exact);
+            assert!(gap < 1e-9, "{family}: {gap:e}");
+        }
+    }
+}
+
+/// A field that depends on time is read at the right times: steps keep their orders.
+#[test]
+fn driven_fields_keep_the_order() {
+    let field = |t: f64| [0.8 * (1.3 * t).cos(), 0.8 * (1.3 * t).sin(), 0.3 * t];
+    let lattice = ring(6, symmetric()).driven(field);
+    let (start, begin) = (disordered(6), 0.7);
+    let gauss = |h: f64, steps: u64| {
+        let mut spins = start.clone();
+        lattice.gauss::<6>(h).unwrap().advance_from(&mut spins, begin, steps).unwrap();
+        spins
+    };
+    let exact = gauss(0.05, 40);
+    assert!(distance(&gauss(0.025, 80), &exact) < 1e-13);
+    for family in FAMILIES {
+        for (kind, steps) in [(Order::Four, 20), (Order::Six, 16)] {
+            let after = |n: u64| {
+                let mut spins = start.clone();
+                let mut step = lattice.rotations(family, kind, 2.0 / n as f64).unwrap();
+                // In two parts.
+                step.advance_from(&mut spins, begin, n / 2).unwrap();
+                step.advance_from(&mut spins, begin + 1.0, n / 2).unwrap();
+                spins
+            };
+            let found = order(&exact, &after(steps), &after(2 * steps));
+            assert!((found - f64::from(kind.number())).abs() < 0.7, "{family} {kind:?}: {found}");
+        }
+    }
+}
+
 #[cfg(feature = "ensemble")]
 #[test]
 fn threads_make_the_same_bits() {
@@ -396,6 +472,11 @@ fn mistakes_are_refused_in_words() {
         ),
         (ring(4, one).rotations(AXES, Order::Four, 0.0).unwrap_err(), "step size 0 is not usable"),
         (ring(4, one).gauss::<2>(f64::NAN).unwrap_err(), "step size NaN is not usable"),
+        (
+            chain(4).site_each(&[1.0; 3], Vector3::x(), one).unwrap_err(),
+            "3 factors, and 4 are needed",
+        ),
+        (chain(4).bond_each([1], [0, 0], one, vec![f64::NAN; 4]).unwrap_err(), "not finite"),
         (ring(4, one).energy(&disordered(3)).unwrap_err(), "3 spins, and the lattice 4 sites"),
     ] {
         assert!(message(error).contains(words), "{error}");

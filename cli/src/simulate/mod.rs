@@ -2,6 +2,7 @@
 
 mod interrupt;
 mod keep;
+mod lattice;
 mod plot;
 mod records;
 mod report;
@@ -26,6 +27,14 @@ use target::{Destination, Place, paths};
 
 /// Runs every truncation asked for.
 pub(crate) fn run(options: &SimulateOptions) -> Result<(), CliError> {
+    if options.input.model.is_none() && lattice::run(options)? {
+        return Ok(());
+    }
+    if let Some(path) = &options.last {
+        let what =
+            "is the end of a lattice, and this system is none: the report and --out have its end";
+        return Err(CliError::Option(format!("--final {}: {what}", path.display())));
+    }
     let mut inputs = settings::inputs(options);
     let mut out = settings::check_names(options, &inputs)?;
     let (runs, units) = match &options.input.model {

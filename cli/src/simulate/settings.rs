@@ -251,6 +251,11 @@ impl Header {
         Self(list)
     }
 
+    /// The description that these entries are.
+    pub(crate) fn of_entries(list: Vec<(&'static str, Value)>) -> Self {
+        Self(list)
+    }
+
     /// Adds the scales of the drifts that exist.
     pub(crate) fn with_scales(mut self, known: [bool; 3], scales: &Scales) -> Self {
         let list = [

@@ -78,6 +78,7 @@ chapters! {
     faster: 1;
     forces: 1;
     ensembles: 2;
+    lattices: 1;
     spins: 2;
     cluster: 2;
     learning: 4;

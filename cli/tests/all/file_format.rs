@@ -5,7 +5,7 @@ use coadjoint_codegen::expr::Function;
 use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
 use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::problem::{FrameChoice, Method, Solver};
-use coadjoint_codegen::system::{Options, Splitting, read, read_either};
+use coadjoint_codegen::system::{Options, Splitting, read, read_either, read_lattice};
 
 fn page() -> String {
     text_of("docs/book/src/file-format.md")
@@ -24,6 +24,11 @@ fn every_example_of_the_page_works() {
     assert!(examples.len() >= 11, "{}", examples.len());
     let mut runs = 0;
     for text in &examples {
+        if text.contains("[lattice]") {
+            let ran = Folder::with(text).run("simulate system.toml");
+            ran.ok().prints(&["estimated relative error"]);
+            continue;
+        }
         let system = read_either(text, Options::default(), &[])
             .unwrap_or_else(|mistakes| panic!("{text}\n{}", mistakes.render("page", text)));
         if let Some(problem) = system.problem.polynomial() {
@@ -75,9 +80,19 @@ fn every_key_and_every_name_is_on_the_page() {
         format!("{start}[units]\nunknown_ = \"s\"\n"),
         format!("{own}unknown_ = 1\n"),
     ];
+    let lattice = "group = \"SO3\"\n[lattice]\nshape = [4]\nsite = \"z\"\n";
+    let of_lattice = [
+        format!("unknown_ = 1\n{lattice}"),
+        format!("{lattice}unknown_ = 1\n"),
+        format!("{lattice}[[lattice.bond]]\noffset = [1]\nenergy = \"dot(a, b)\"\nunknown_ = 1\n"),
+        format!("{lattice}[initial]\nunknown_ = 1\n"),
+        format!("{lattice}[integrator]\nunknown_ = 1\n"),
+    ];
     let mut seen = 0;
-    for text in cases {
-        let said = read(&text, Options::default()).unwrap_err().render("system.toml", &text);
+    let ordinary = cases.map(|text| (read(&text, Options::default()).unwrap_err(), text));
+    let of_lattice = of_lattice.map(|text| (read_lattice(&text).unwrap_err(), text));
+    for (mistakes, text) in ordinary.into_iter().chain(of_lattice) {
+        let said = mistakes.render("system.toml", &text);
         let known = said.split("known keys: ").nth(1).unwrap_or_else(|| panic!("{said}"));
         for key in known.lines().next().unwrap().split(", ").filter(|key| *key != "mu") {
             assert!(page.contains(&format!("`{key}`")), "{key}");

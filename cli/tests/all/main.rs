@@ -12,6 +12,7 @@ mod ensemble;
 mod events;
 mod file_format;
 mod groups;
+mod lattice;
 mod learn;
 mod mistakes;
 mod no_c;

@@ -472,8 +472,16 @@ fn mistakes_about_inputs() {
         ("1.0875, -2.1]", "1.0875]", "`u` has 4 values for 5 times"),
         ("1.0875, -2.1]", "nan, -2.1]", "`nan` is not a number"),
         ("v = [0.5", "x = [0.5", "the name `x` is already taken by a coordinate"),
-        (" + v*z", " + z", "the input `v` does not occur in the Hamiltonian or a torque"),
-        ("u*z^2/2 + v*z", "z^2", "the input `u` does not occur in the Hamiltonian or a torque"),
+        (
+            " + v*z",
+            " + z",
+            "the input `v` does not occur in the Hamiltonian, a velocity or a torque",
+        ),
+        (
+            "u*z^2/2 + v*z",
+            "z^2",
+            "the input `u` does not occur in the Hamiltonian, a velocity or a torque",
+        ),
         ("u*z^2/2", "u*w", "unknown variable `w`"),
     ] {
         let folder = Folder::with(&STEERED.replace(given, instead));

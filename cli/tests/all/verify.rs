@@ -311,7 +311,7 @@ fn what_cannot_be_judged_is_refused() {
     let refused = |word: &str| folder.refused(&[("verify run.csv", word)]);
     let simulate = |run: &str| folder.run(&format!("simulate {run} --out run.csv")).ok();
     simulate("examples/satellite.toml --time 1");
-    refused("a system with a potential or a torque is not judged");
+    refused("a system with a potential is not judged");
     // Earlier versions made such runs.
     for (entry, refusal) in [("tuned: true", "was tuned"), ("fitted: 10", "was fitted")] {
         simulate(&format!("{BODY} --time 3"));

@@ -7,6 +7,7 @@ pub mod rust;
 mod sum;
 pub(crate) mod text;
 mod token;
+mod vectors;
 
 pub(crate) use brackets::bracket;
 pub use decimal::rational;

@@ -14,6 +14,7 @@ use crate::number::integer;
 use crate::parse::names::{Name, Names, is_word};
 use crate::parse::sum::{self, Scope};
 use crate::parse::token::{Token, Tokens};
+use crate::parse::vectors;
 
 /// The most operations an expression with sums may have.
 const MOST_OPERATIONS: usize = 1_000_000;
@@ -59,6 +60,14 @@ fn parse_in(
             (call, expects_operand, token == Token::Name("sum".into()))
         {
             let end = parser.sum(text, range.start, open);
+            tokens = Tokens::new(text, end).peekable();
+            expects_operand = false;
+            continue;
+        }
+        if let (Some(open), true, true) =
+            (call, expects_operand, token == Token::Name("dot".into()))
+        {
+            let end = parser.dot(text, range.start, open);
             tokens = Tokens::new(text, end).peekable();
             expects_operand = false;
             continue;
@@ -233,6 +242,29 @@ impl Parser<'_> {
         let call = Some(Callee { name, function });
         // The parenthesis itself follows and completes this entry.
         self.operators.push((Operator::Open { call, arguments: 0 }, span));
+    }
+
+    /// Reads a product of two vectors that begins at `start`, its parenthesis at `open`; returns where it ends.
+    fn dot(&mut self, text: &str, start: usize, open: usize) -> usize {
+        let (sum, end) = match vectors::dot(text, open, self.scope.names) {
+            Ok(found) => found,
+            Err(end) => {
+                let what =
+                    "dot(a, b) is of two vectors: names of three numbers each, or cross(a, b)";
+                let help = Some("write for example dot(d, cross(a, b)), with d = [0, 0, 1]".into());
+                let mistake = Mistake::Other(what.to_owned(), help);
+                let excused = self.scope.names.excuses(&text[start..end]);
+                match excused {
+                    true => self.operand(Node::Wrong, self.span(start..end)),
+                    false => self.wrong(self.span(start..end), mistake),
+                }
+                return end;
+            }
+        };
+        let offset = self.offset + start;
+        let product = parse_in(&sum, offset, self.scope, self.arena, self.diagnostics);
+        self.operands.push((product, self.span(start..end)));
+        end
     }
 
     /// Reads a sum that begins at `start`, its parenthesis at `open`; returns where it ends.

@@ -64,6 +64,10 @@ impl<'a> Tokens<'a> {
     fn name(&self) -> usize {
         let mut length = self.run(0, continues_name);
         let rest = self.rest();
+        // `a.x` is a component.
+        if rest[length..].strip_prefix('.').is_some_and(|rest| rest.starts_with(begins_name)) {
+            length += 1 + self.run(length + 1, continues_name);
+        }
         // `inv(J)` is the name of a matrix, `len(P)` of a number.
         if let Some(inside) = rest.strip_prefix("inv(").or_else(|| rest.strip_prefix("len("))
             && let Some((matrix, _)) = inside.split_once(')')

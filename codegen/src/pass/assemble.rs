@@ -324,6 +324,47 @@ pub(crate) fn function(
     Some((lowered.value, values(&lowered.symbols)))
 }
 
+/// An energy of sites.
+#[cfg(feature = "system")]
+pub(crate) enum OfSites {
+    /// Of degree at most two in the coordinates, with symbols after them.
+    Quadratic(Polynomial, Vec<Symbol>),
+    /// Any other: its value and its gradient, with their symbols.
+    Programs(Box<[coadjoint_program::Program; 2]>, Vec<Symbol>),
+}
+
+/// Checks what was read and turns it into an energy of sites with these coordinates; `None` where something is wrong, which has
+/// then been reported.
+#[cfg(feature = "system")]
+pub(crate) fn of_sites(
+    energy: &Energy,
+    coordinates: &[String],
+    diagnostics: &Diagnostics,
+) -> Option<OfSites> {
+    let Read { mut table, sum, found } = Read::new(energy);
+    let (root, _) = energy.root?;
+    let (scalars, count) = (energy.scalar_names(), coordinates.len());
+    let (of_series, others): (Vec<_>, Vec<_>) =
+        found.into_iter().partition(|found| found.mistake.is_of_series());
+    if !others.is_empty() {
+        others.into_iter().for_each(|found| diagnostics.report(found.span, found.mistake));
+        return None;
+    }
+    if of_series.is_empty() {
+        let (polynomial, symbols) = exact(sum?, count, &mut table, &scalars);
+        let degree = |factors: Vec<(u32, u32)>| {
+            let own = factors.iter().filter(|(variable, _)| (*variable as usize) < count);
+            own.map(|(_, power)| power).sum::<u32>()
+        };
+        if polynomial.factors().all(|(factors, _)| degree(factors) <= 2) {
+            return Some(OfSites::Quadratic(polynomial, symbols));
+        }
+    }
+    let names = [coordinates, &scalars, &[]];
+    let lowered = lower(&energy.arena, (&[root], false), names, &mut Table::new(), diagnostics)?;
+    Some(OfSites::Programs(Box::new([lowered.value, lowered.gradient]), lowered.symbols))
+}
+
 /// Checks what was read and turns it into a potential; `None` where something is wrong, which has then been reported.
 /// `declared` are the rows and columns of the matrix where the input says them, and where.
 pub(crate) fn assemble_potential(

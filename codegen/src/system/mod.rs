@@ -52,6 +52,7 @@ mod energies;
 mod event;
 mod initial;
 mod inputs;
+pub mod lattice;
 mod options;
 mod parameters;
 mod project;
@@ -78,6 +79,7 @@ use table::Table;
 
 pub use coadjoint_program::splitting::Splitting;
 pub use event::Event;
+pub use lattice::read_lattice;
 pub use options::{Options, Parameters};
 pub use run::Run;
 pub use units::Units;
@@ -293,6 +295,12 @@ fn system<H>(
 ) -> Option<System<H>> {
     let nothing = Names::default();
     let root = Table::root(document, text, &nothing, diagnostics);
+    if let Some(table) = root.get("lattice") {
+        let what = "a lattice runs by `coadjoint simulate` and by `System.lattice` of Python: other commands are not made for one";
+        let help = "without [lattice], and with the group of all sites such as SO3^64, the file is an ordinary system";
+        diagnostics.report_other(table::span(table), what, help);
+        return None;
+    }
     let parameters = parameters::Parameters::read(&root, options, varied);
     let root = root.with(&parameters.constants);
     root.check_keys(&[

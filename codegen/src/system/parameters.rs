@@ -35,6 +35,16 @@ impl Parameters {
     /// Reads the table: values may use other parameters. Those in `[algebra]` and `damping`, in indices, in ranges of sums and in
     /// `inv(…)` are numbers and never kept. Those called in `varied` are kept, whatever the options say, or refused.
     pub(super) fn read(root: &Table<'_>, options: Options, varied: &[String]) -> Self {
+        Self::read_those(root, options, varied, |_| true)
+    }
+
+    /// As [`Parameters::read`], of the entries whose values are such.
+    pub(super) fn read_those(
+        root: &Table<'_>,
+        options: Options,
+        varied: &[String],
+        such: impl Fn(&DeValue<'_>) -> bool,
+    ) -> Self {
         let mut result = Self { list: Vec::new(), constants: Names::default() };
         let Some(table) = root.table("parameters") else { return result };
         let of_key = |key| root.get(key).map_or(BTreeSet::new(), |value| words_of(value.get_ref()));
@@ -51,7 +61,8 @@ impl Parameters {
             let ranges = text.match_indices("..").flat_map(|(at, _)| range(at)).flatten();
             numbers.extend(after("inv(", ')').chain(after("[", ']')).chain(ranges).flat_map(words));
         }
-        let entries = table.entries();
+        let mut entries = table.entries();
+        entries.retain(|(.., value)| such(value.get_ref()));
         let used: Vec<_> = entries.iter().map(|(.., value)| words_of(value.get_ref())).collect();
         for (at, circular) in order(&entries, &used) {
             let (name, place, value) = entries[at];

@@ -260,9 +260,15 @@ impl<'a> Table<'a> {
         parameters: Vec<Parameter>,
     ) -> Option<Energy> {
         let (text, place) = self.string(key, example)?;
+        Some(Energy { parameters, ..self.formula(text, place, names) })
+    }
+
+    /// The formula that the text of a value is, in these names.
+    pub(super) fn formula(&self, text: &str, place: Span, names: &Names) -> Energy {
         let (mut arena, offset) = (Arena::new(), self.offset(place, text));
         let root = text::parse(text, offset, &[], names, &mut arena, self.diagnostics);
-        Some(Energy { arena, root: Some((root, place)), parameters, source: text.to_owned() })
+        let root = Some((root, place));
+        Energy { arena, root, parameters: Vec::new(), source: text.to_owned() }
     }
 
     /// The offset in the file of a string's content.

@@ -359,6 +359,30 @@ impl Table {
     }
 }
 
+/// The shape and the numbers, row by row, of an array in a file: of any shape in `.npy`, of rows in other formats.
+///
+/// # Errors
+/// Fails if the file cannot be read or is not in the format of its ending.
+pub fn array(path: &Path) -> Result<(Vec<usize>, Vec<f64>), LearnError> {
+    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("npy")) {
+        let bytes = file::read(path).map_err(LearnError::file(path))?;
+        let damaged = |error| LearnError::format(path, "NumPy", error);
+        let header = NpyHeader::read(&mut &bytes[..], bytes.len() as u64).map_err(damaged)?;
+        let mut numbers = Vec::new();
+        header.decode(bytes.get(header.length as usize..).unwrap_or_default(), &mut numbers);
+        numbers.truncate(header.count);
+        let turned = header.fortran && header.shape.len() > 1;
+        let numbers = if turned { row_major(&header.shape, &numbers) } else { numbers };
+        return Ok((header.shape, numbers));
+    }
+    let (mut table, mut row, mut numbers) = (Table::open(path)?, Row::default(), Vec::new());
+    while table.read(&mut row)? {
+        numbers.extend((0..table.width()).map(|column| row.number(column).unwrap_or(f64::NAN)));
+    }
+    let width = table.width();
+    Ok((vec![numbers.len() / width.max(1), width], numbers))
+}
+
 /// Lines of CSV; cells are in quotes where they would be read as something else without.
 pub fn csv_lines<R>(rows: impl IntoIterator<Item = R>) -> Vec<u8>
 where

@@ -17,7 +17,7 @@ use crate::error::LearnError;
 /// The longest header that is read; that of a plain array has about a hundred bytes.
 const LONGEST: u64 = 1 << 16;
 
-/// The header of an array of 64- or 32-bit floats.
+/// The header of an array of floats or signed integers of 64 or 32 bits.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct NpyHeader {
     /// The lengths along each axis.
@@ -30,6 +30,8 @@ pub(crate) struct NpyHeader {
     pub(crate) width: usize,
     /// True if the first byte of a number is the most significant.
     big_endian: bool,
+    /// True if numbers are integers.
+    integers: bool,
     /// The number of numbers; all of them are in the file.
     pub(crate) count: usize,
 }
@@ -49,7 +51,9 @@ pub(crate) enum NpyError {
     HeaderLength { claimed: u64, rest: u64 },
     #[error("its header cannot be read: {0}")]
     Header(String),
-    #[error("its numbers are of type {0}; 64- or 32-bit floats are needed (<f8, <f4)")]
+    #[error(
+        "its numbers are of type {0}; 64- or 32-bit floats or integers are needed (<f8, <f4, <i8, <i4)"
+    )]
     Type(Value),
     #[error("its shape {shape:?} needs more than the {rest} bytes that the file has left")]
     Shape { shape: Vec<usize>, rest: u64 },
@@ -82,13 +86,12 @@ impl NpyHeader {
         let dictionary = Dictionary::parse(&String::from_utf8_lossy(&text));
         let Dictionary { descr, fortran_order: fortran, shape } =
             dictionary.map_err(|error| NpyError::Header(error.to_string()))?;
-        let (big_endian, width) = match descr.as_str() {
-            Some("<f8") => (false, 8),
-            Some("<f4") => (false, 4),
-            Some(">f8") => (true, 8),
-            Some(">f4") => (true, 4),
-            _ => return Err(NpyError::Type(descr)),
+        let known = ["<f8", "<f4", ">f8", ">f4", "<i8", "<i4", ">i8", ">i4"];
+        let Some(kind) = descr.as_str().filter(|kind| known.contains(kind)) else {
+            return Err(NpyError::Type(descr));
         };
+        let (big_endian, integers) = (kind.starts_with('>'), kind.contains('i'));
+        let width = if kind.ends_with('8') { 8 } else { 4 };
         let (length, rest) = (before + claimed, rest - claimed);
         let outside = || NpyError::Shape { shape: shape.clone(), rest };
         // If one length is zero, nothing in the file bounds the others.
@@ -101,16 +104,20 @@ impl NpyHeader {
         if bytes as u64 > rest {
             return Err(outside());
         }
-        Ok(Self { shape, fortran, length, width, big_endian, count })
+        Ok(Self { shape, fortran, length, width, big_endian, integers, count })
     }
 
     /// Adds the numbers of `bytes`; an incomplete one at the end is left.
     pub(crate) fn decode(&self, bytes: &[u8], values: &mut Vec<f64>) {
         let wide = |b: &[u8; 8]| {
-            if self.big_endian { f64::from_be_bytes(*b) } else { f64::from_le_bytes(*b) }
+            let bits =
+                if self.big_endian { u64::from_be_bytes(*b) } else { u64::from_le_bytes(*b) };
+            if self.integers { bits as i64 as f64 } else { f64::from_bits(bits) }
         };
         let narrow = |b: &[u8; 4]| {
-            f64::from(if self.big_endian { f32::from_be_bytes(*b) } else { f32::from_le_bytes(*b) })
+            let bits =
+                if self.big_endian { u32::from_be_bytes(*b) } else { u32::from_le_bytes(*b) };
+            if self.integers { f64::from(bits as i32) } else { f64::from(f32::from_bits(bits)) }
         };
         match self.width {
             8 => values.extend(bytes.as_chunks::<8>().0.iter().map(wide)),
@@ -359,7 +366,7 @@ mod tests {
             let found = read(&array(1, dictionary));
             assert!(matches!(found, Err(NpyError::Header(_))), "{dictionary}: {found:?}");
         }
-        let integers = "{'descr': '<i8', 'fortran_order': False, 'shape': (0,), }";
+        let integers = "{'descr': '<u8', 'fortran_order': False, 'shape': (0,), }";
         assert!(matches!(read(&array(1, integers)), Err(NpyError::Type(_))));
     }
 }

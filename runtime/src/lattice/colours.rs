@@ -5,12 +5,12 @@ use alloc::vec::Vec;
 use super::graph::Edge;
 use super::layout::Adjacency;
 
-/// The edges by their colours: those of one colour share no site.
-pub fn edges(sites: usize, edges: &[Edge]) -> Vec<Vec<Edge>> {
-    let mut colours: Vec<Vec<Edge>> = Vec::new();
+/// The edges, by their numbers, of each colour: those of one colour share no site.
+pub fn edges(sites: usize, edges: &[Edge]) -> Vec<Vec<u32>> {
+    let mut colours: Vec<Vec<u32>> = Vec::new();
     // The colours of the edges of each site, 64 to a word; few sites need a second word.
     let mut used: Vec<Vec<u64>> = Vec::new();
-    for &[a, b] in edges {
+    for (at, &[a, b]) in edges.iter().enumerate() {
         let mut word = 0;
         let (word, bit) = loop {
             if word == used.len() {
@@ -28,7 +28,7 @@ pub fn edges(sites: usize, edges: &[Edge]) -> Vec<Vec<Edge>> {
         if colour == colours.len() {
             colours.push(Vec::new());
         }
-        colours[colour].push([a, b]);
+        colours[colour].push(at as u32);
     }
     colours
 }

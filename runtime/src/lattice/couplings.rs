@@ -1,25 +1,116 @@
 //! Energies as numbers: the fields of neighbours, and matrices in parts whose flows are rotations.
 
+use alloc::sync::Arc;
 use alloc::vec::Vec;
+use core::fmt;
 
 use coadjoint_geometry::number::Number;
-use coadjoint_geometry::vector::{V3, plus_by, sum};
+use coadjoint_geometry::vector::{V3, plus, plus_by, sum};
 use nalgebra::{Matrix3, Vector3};
 
 use super::colours;
 use super::graph::Edge;
 use super::lanes::Pack;
-use super::layout::{Adjacency, Copies, Neighbours, Places, Vectors, row};
+use super::layout::{Adjacency, Column, Copies, Neighbours, Places, Vectors, row};
 
 /// The energies of a lattice.
 #[derive(Clone, Debug, Default)]
 pub struct Energies {
-    /// Edges (a, b) with the energy a·M b.
-    pub bonds: Vec<(Vec<Edge>, Matrix3<f64>)>,
+    pub bonds: Vec<Bond>,
     /// Of each site s: f·s
     pub field: Vector3<f64>,
     /// Of each site s: s·A s
     pub anisotropy: Matrix3<f64>,
+    /// Energies that are not those of all sites.
+    pub own: Vec<Own>,
+    pub driven: Option<Driven>,
+}
+
+/// Edges (a, b) with the energy a·M b, times a factor for each if there are any.
+#[derive(Clone, Debug)]
+pub struct Bond {
+    pub edges: Vec<Edge>,
+    pub matrix: Matrix3<f64>,
+    pub factors: Option<Vec<f64>>,
+}
+
+/// The energies linear·c + ½ square·c² of sites, c their component along a direction; none where a list is empty.
+#[derive(Clone, Debug)]
+pub struct Own<L = Vec<f64>> {
+    pub direction: [f64; 3],
+    pub linear: L,
+    pub square: L,
+}
+
+/// A field on all sites that depends on time: ∂H/∂s.
+#[derive(Clone)]
+pub struct Driven(pub Arc<dyn Fn(f64) -> [f64; 3] + Send + Sync>);
+
+impl fmt::Debug for Driven {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Driven")
+    }
+}
+
+impl Energies {
+    /// Adds factor·(f·s + s·A s), with a factor for each site.
+    pub fn add_own(&mut self, factors: &[f64], field: Vector3<f64>, anisotropy: Matrix3<f64>) {
+        let linear = [field.x, field.y, field.z, 0.0, 0.0, 0.0];
+        let square = by_directions(&(2.0 * anisotropy));
+        for (at, direction) in directions().into_iter().enumerate() {
+            if [linear[at], square[at]] == [0.0; 2] {
+                continue;
+            }
+            let known = self.own.iter().position(|own| own.direction == direction);
+            let known = known.unwrap_or_else(|| {
+                self.own.push(Own { direction, linear: Vec::new(), square: Vec::new() });
+                self.own.len() - 1
+            });
+            let Own { linear: of_linear, square: of_square, .. } = &mut self.own[known];
+            for (list, weight) in [(of_linear, linear[at]), (of_square, square[at])] {
+                if weight != 0.0 {
+                    list.resize(factors.len(), 0.0);
+                    list.iter_mut().zip(factors).for_each(|(sum, own)| *sum += own * weight);
+                }
+            }
+        }
+    }
+}
+
+impl Own {
+    /// The energy of a site, and its derivative by the component.
+    pub fn of(&self, site: usize, spin: [f64; 3]) -> [f64; 2] {
+        let along: f64 = spin.iter().zip(self.direction).map(|(s, d)| s * d).sum();
+        let number = |list: &Vec<f64>| list.get(site).copied().unwrap_or(0.0);
+        let (linear, square) = (number(&self.linear), number(&self.square));
+        [along * (linear + 0.5 * square * along), linear + square * along]
+    }
+
+    /// The numbers at the places of sites.
+    pub fn placed(&self, places: &Places) -> Own<Option<Column>> {
+        let column = |list: &Vec<f64>| (!list.is_empty()).then(|| places.column(list, 4));
+        let (linear, square) = (column(&self.linear), column(&self.square));
+        Own { direction: self.direction, linear, square }
+    }
+}
+
+impl Own<Option<Column>> {
+    /// The derivative by the component along the direction, which is `along`, of a pack from this place on.
+    #[inline(always)]
+    pub fn rate(&self, along: Pack, place: usize) -> Pack {
+        let number = |column: &Column| row(column.all(), place);
+        let linear = self.linear.as_ref().map_or(Pack::of(0.0), number);
+        self.square.as_ref().map_or(linear, |square| number(square).times_plus(along, linear))
+    }
+
+    /// The largest derivative of spins of length zero, and by how much it grows with their length.
+    pub fn speed(&self) -> [f64; 2] {
+        let largest = |column: &Option<Column>| {
+            let all = column.iter().flat_map(|column| column.all());
+            all.fold(0.0_f64, |largest, number| largest.max(number.abs()))
+        };
+        [largest(&self.linear), largest(&self.square)]
+    }
 }
 
 /// A matrix of a coupling, in the way that is cheapest to apply.
@@ -45,31 +136,45 @@ pub struct Couplings {
 }
 
 impl Couplings {
-    pub fn new(sites: usize, bonds: &[(Vec<Edge>, Matrix3<f64>)]) -> Self {
-        let turned = |[a, b]: Edge| [b, a];
-        let edges = || bonds.iter().flat_map(|(edges, _)| edges);
-        let all = Adjacency::new(sites, || edges().flat_map(|edge| [*edge, turned(*edge)]));
+    pub fn new(sites: usize, bonds: &[Bond]) -> Self {
+        let edges = || bonds.iter().flat_map(|bond| &bond.edges);
+        let all = Adjacency::new(sites, || edges().flat_map(|&[a, b]| [(a, b), (b, a)]));
         let (colours, count) = colours::sites(&all);
         let places = Places::new(&colours, count);
-        let mut matrices: Vec<Matrix3<f64>> = Vec::new();
-        for (_, matrix) in bonds {
+        // Bonds with factors have lists of their own.
+        let mut matrices: Vec<(Matrix3<f64>, Option<usize>)> = Vec::new();
+        for (number, Bond { matrix, factors, .. }) in bonds.iter().enumerate() {
             for matrix in [*matrix, matrix.transpose()] {
-                if !matrices.contains(&matrix) {
-                    matrices.push(matrix);
+                let key = (matrix, factors.is_some().then_some(number));
+                if !matrices.contains(&key) {
+                    matrices.push(key);
                 }
             }
         }
-        let adjacency = matrices.iter().map(|matrix| {
+        let adjacency = matrices.iter().map(|(matrix, number)| {
+            let of = |at: usize, bond: &Bond| match number {
+                Some(number) => at == *number,
+                None => bond.factors.is_none(),
+            };
+            let those = || bonds.iter().enumerate().filter(|(at, bond)| of(*at, bond));
+            // The number of an edge of a bond, from one of its ends to the other.
             let directed = || {
-                bonds.iter().flat_map(|(edges, own)| {
-                    let ahead = (own == matrix).then_some(edges).into_iter().flatten();
-                    let back = (own.transpose() == *matrix).then_some(edges).into_iter().flatten();
-                    ahead.copied().chain(back.map(|edge| turned(*edge)))
+                those().flat_map(|(_, Bond { edges, matrix: own, .. })| {
+                    let numbered = |taken: bool| taken.then_some(edges).into_iter().flatten();
+                    let ahead = numbered(own == matrix).enumerate();
+                    let back = numbered(own.transpose() == *matrix).enumerate();
+                    let ahead = ahead.map(|(at, &[a, b])| (a, b, at));
+                    ahead.chain(back.map(|(at, &[a, b])| (b, a, at)))
                 })
             };
-            Adjacency::new(sites, directed)
+            let factors = number.and_then(|number| bonds[number].factors.as_ref());
+            let factors = factors.map(|factors| {
+                Adjacency::new(sites, || directed().map(|(from, _, at)| (from, factors[at])))
+            });
+            (Adjacency::new(sites, || directed().map(|(from, to, _)| (from, to))), factors)
         });
         let (copies, neighbours) = Copies::new(&places, &adjacency.collect::<Vec<_>>());
+        let matrices = matrices.into_iter().map(|(matrix, _)| matrix);
         let group = |(matrix, neighbours): (Matrix3<f64>, Neighbours)| {
             let diagonal = Matrix3::from_diagonal(&matrix.diagonal()) == matrix;
             let applied = match <[f64; 3]>::from(matrix.diagonal()) {
@@ -79,7 +184,7 @@ impl Couplings {
             };
             Bundle { matrix, applied, neighbours }
         };
-        Self { groups: matrices.into_iter().zip(neighbours).map(group).collect(), places, copies }
+        Self { groups: matrices.zip(neighbours).map(group).collect(), places, copies }
     }
 
     /// The matrices, in the order of the weights of [`Couplings::along`].
@@ -87,9 +192,10 @@ impl Couplings {
         self.groups.iter().map(|group| &group.matrix)
     }
 
-    /// The most neighbours of a site that have each matrix, in the same order.
+    /// The most neighbours of a site that have each matrix, in the same order, times the largest factor.
     pub fn most(&self) -> impl Iterator<Item = f64> {
-        self.groups.iter().map(|group| f64::from(group.neighbours.most()))
+        let lists = self.groups.iter().map(|group| &group.neighbours);
+        lists.map(|list| f64::from(list.most()) * list.largest())
     }
 
     /// `fields` and those of the neighbours of a pack of sites, for several states side by side.
@@ -102,11 +208,19 @@ impl Couplings {
     ) -> [V3<Pack>; M] {
         for group in &self.groups {
             let mut sums = [[Pack::of(0.0); 3]; M];
-            for &start in group.neighbours.of(pack) {
-                for i in 0..M {
-                    sums[i] = sum(sums[i], spins[i].row(start as usize));
-                }
-            }
+            group.neighbours.each(
+                pack,
+                #[inline(always)]
+                |start, factor| {
+                    for i in 0..M {
+                        let own = spins[i].row(start);
+                        sums[i] = match factor {
+                            Some(factor) => plus(sums[i], factor, own),
+                            None => sum(sums[i], own),
+                        };
+                    }
+                },
+            );
             for i in 0..M {
                 match &group.applied {
                     Applied::Isotropic(factor) => fields[i] = plus_by(fields[i], *factor, sums[i]),
@@ -128,9 +242,14 @@ impl Couplings {
         let mut total = Pack::of(0.0);
         for (at, group) in self.groups.iter().enumerate() {
             let mut sum = Pack::of(0.0);
-            for &start in group.neighbours.of(pack) {
-                sum = sum + row(numbers, start as usize);
-            }
+            group.neighbours.each(
+                pack,
+                #[inline(always)]
+                |start, factor| {
+                    let own = row(numbers, start);
+                    sum = factor.map_or(sum + own, |factor| own.times_plus(factor, sum));
+                },
+            );
             total = sum.by_plus(weights[at], total);
         }
         total

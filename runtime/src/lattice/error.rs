@@ -58,6 +58,16 @@ pub enum LatticeError {
     /// An entry of a coupling, a field or an anisotropy is infinite or not a number.
     #[error("a coefficient of the energy is not finite")]
     Coefficient,
+    /// A list of factors has the wrong length.
+    #[error(
+        "there are {found} factors, and {expected} are needed: one a site, or one an edge of the bond"
+    )]
+    Factors {
+        /// The sites of the lattice, or the edges of the bond.
+        expected: usize,
+        /// The factors given.
+        found: usize,
+    },
     /// A family of exact rotations does not admit the energy.
     #[error(
         "{family} admit couplings by symmetric matrices only: take {}, which admit any matrix, or `gauss`",
@@ -100,6 +110,12 @@ pub enum LatticeError {
 pub(super) fn finite(numbers: &[f64]) -> Result<(), LatticeError> {
     let all = numbers.iter().all(|number| number.is_finite());
     if all { Ok(()) } else { Err(LatticeError::Coefficient) }
+}
+
+/// Refuses factors of another number, and those that are not finite.
+pub(super) fn check_factors(factors: &[f64], expected: usize) -> Result<(), LatticeError> {
+    let found = factors.len();
+    if found == expected { finite(factors) } else { Err(LatticeError::Factors { expected, found }) }
 }
 
 /// Refuses a step that is zero or not finite.

@@ -13,10 +13,10 @@ use coadjoint_geometry::number::Number;
 use coadjoint_geometry::vector::{V3, cross, difference, dot, each, plus, plus_by, scaled, sum};
 use coadjoint_program::collocation::{MAX_SWEEPS, Nodes, ROUNDING, SOLVED};
 
-use super::couplings::{Couplings, Energies, multiplied};
+use super::couplings::{Couplings, Driven, Energies, Own, multiplied};
 use super::error::{LatticeError, check_spins, check_step};
 use super::lanes::{LANES, Pack, larger};
-use super::layout::{Piece, Spins, Vectors, pieces, split, store};
+use super::layout::{Column, Piece, Spins, Vectors, pieces, split, store};
 use super::threads;
 use crate::error::{Circumstances, StepError, Stopped};
 
@@ -50,7 +50,12 @@ pub type NoField = fn(&[[f64; 3]], &mut [[f64; 3]]);
 pub struct GaussStep<const M: usize, F = NoField> {
     couplings: Couplings,
     /// The field, and twice the anisotropy.
-    equation: Equation,
+    equation: Equation<M>,
+    /// The field without that which depends on time.
+    held: V3<f64>,
+    driven: Option<Driven>,
+    /// The times of the nodes, in steps.
+    times: [f64; M],
     gradient: Option<F>,
     step: f64,
     /// aᵢⱼ by i, then by j, and bⱼ, in halves of the step.
@@ -100,9 +105,13 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
         let anisotropic = energies.anisotropy.iter().any(|entry| *entry != 0.0);
         Ok(Self {
             equation: Equation {
-                constant: energies.field.into(),
+                constant: [energies.field.into(); M],
+                own: energies.own.iter().map(|own| own.placed(&couplings.places)).collect(),
                 anisotropy: anisotropic.then(|| from_fn(|i| from_fn(|j| twice[(i, j)]))),
             },
+            held: energies.field.into(),
+            driven: energies.driven.clone(),
+            times,
             matrix: from_fn(|i| from_fn(|j| 0.5 * step * (matrix[j][i] + 0.5 * weights[j]))),
             weights: weights.map(|weight| 0.5 * step * weight),
             guess,
@@ -129,6 +138,19 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
     /// [`LatticeError::Sites`] and [`LatticeError::NonFinite`], with the spins as they were; [`LatticeError::Stopped`] where
     /// the equations of a step were not solved and [`LatticeError::TooLong`], with the spins before that step.
     pub fn advance_by(&mut self, spins: &mut [[f64; 3]], steps: u64) -> Result<(), LatticeError> {
+        self.advance_from(spins, 0.0, steps)
+    }
+
+    /// As [`GaussStep::advance_by`], from this time on, of which the field that depends on time is a function.
+    ///
+    /// # Errors
+    /// As [`GaussStep::advance_by`].
+    pub fn advance_from(
+        &mut self,
+        spins: &mut [[f64; 3]],
+        time: f64,
+        steps: u64,
+    ) -> Result<(), LatticeError> {
         let Self { couplings, now, .. } = self;
         check_spins(couplings.places.sites(), spins)?;
         let mut goes_on = self.end == spins;
@@ -137,6 +159,11 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
         let mut made = Ok(());
         for steps in 0..steps {
             self.start(goes_on);
+            if let Some(Driven(field)) = &self.driven {
+                let now = time + steps as f64 * self.step;
+                self.equation.constant =
+                    self.times.map(|at| sum(self.held, field(now + at * self.step)));
+            }
             goes_on = true;
             if let Err(error) = self.solve(size, steps) {
                 made = Err(error);
@@ -158,26 +185,30 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
         let Self { guess, now, nodes, couplings, .. } = self;
         let (places, now) = (couplings.places.len(), now.all());
         let columns = nodes.each_mut().map(Spins::all_mut);
-        threads::each(pieces(columns, places), |(first, mut nodes)| {
-            for at in (0..nodes[0][0].len()).step_by(LANES) {
-                let start = now.row(first + at);
-                let mut before = [[Pack::of(0.0); 3]; M];
-                for i in 0..M {
-                    before[i] = own(&nodes[i], at);
-                }
-                for i in 0..M {
-                    let mut spin = start;
-                    if goes_on {
-                        let (weights, weight) = &guess[i];
-                        spin = scaled(Pack::of(*weight), start);
-                        for j in 0..M {
-                            spin = plus_by(spin, weights[j], before[j]);
-                        }
+        threads::each(
+            pieces(columns, places),
+            #[inline(always)]
+            |(first, mut nodes)| {
+                for at in (0..nodes[0][0].len()).step_by(LANES) {
+                    let start = now.row(first + at);
+                    let mut before = [[Pack::of(0.0); 3]; M];
+                    for i in 0..M {
+                        before[i] = own(&nodes[i], at);
                     }
-                    write(&mut nodes[i], at, spin);
+                    for i in 0..M {
+                        let mut spin = start;
+                        if goes_on {
+                            let (weights, weight) = &guess[i];
+                            spin = scaled(Pack::of(*weight), start);
+                            for j in 0..M {
+                                spin = plus_by(spin, weights[j], before[j]);
+                            }
+                        }
+                        write(&mut nodes[i], at, spin);
+                    }
                 }
-            }
-        });
+            },
+        );
     }
 
     /// Finds the spins at the nodes, whose largest component is `size`, after `steps` steps.
@@ -242,33 +273,37 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
         let columns = parts.map(|part| part.1);
         let (equation, matrix, first_place) = (&self.equation, &self.matrix, range.start);
         let pieces = pieces(columns, range.len());
-        let changes = threads::each(pieces, |(first, mut nodes)| {
-            let [mut change, mut speed, mut all] = [Pack::of(0.0); 3];
-            for at in (0..nodes[0][0].len()).step_by(LANES) {
-                let place = first_place + first + at;
-                let mut spins = [[Pack::of(0.0); 3]; M];
-                for i in 0..M {
-                    spins[i] = own(&nodes[i], at);
+        let changes = threads::each(
+            pieces,
+            #[inline(always)]
+            |(first, mut nodes)| {
+                let [mut change, mut speed, mut all] = [Pack::of(0.0); 3];
+                for at in (0..nodes[0][0].len()).step_by(LANES) {
+                    let place = first_place + first + at;
+                    let mut spins = [[Pack::of(0.0); 3]; M];
+                    for i in 0..M {
+                        spins[i] = own(&nodes[i], at);
+                    }
+                    let mut rates = equation.rates(&spins, further.as_ref(), place);
+                    rates = couplings.fields(rates, around.each_ref(), place / LANES);
+                    let turns = solved(matrix, &rates);
+                    let start = now.row(place);
+                    let [mut gaps, mut squares] = [Pack::of(0.0); 2];
+                    for i in 0..M {
+                        let (spin, _) = turned(turns[i], start);
+                        let gap = difference(spin, spins[i]);
+                        gaps = gaps + dot(gap, gap);
+                        squares = squares + dot(rates[i], rates[i]);
+                        write(&mut nodes[i], at, spin);
+                    }
+                    change = change.larger(gaps);
+                    all = all + gaps;
+                    speed = speed.larger(squares);
                 }
-                let mut rates = equation.rates(&spins, further.as_ref(), place);
-                rates = couplings.fields(rates, around.each_ref(), place / LANES);
-                let turns = solved(matrix, &rates);
-                let start = now.row(place);
-                let [mut gaps, mut squares] = [Pack::of(0.0); 2];
-                for i in 0..M {
-                    let (spin, _) = turned(turns[i], start);
-                    let gap = difference(spin, spins[i]);
-                    gaps = gaps + dot(gap, gap);
-                    squares = squares + dot(rates[i], rates[i]);
-                    write(&mut nodes[i], at, spin);
-                }
-                change = change.larger(gaps);
-                all = all + gaps;
-                speed = speed.larger(squares);
-            }
-            // The sum is not finite where a change is not a number, which the larger of two may lose.
-            [(change + all.by(0.0)).largest(), speed.largest()]
-        });
+                // The sum is not finite where a change is not a number, which the larger of two may lose.
+                [(change + all.by(0.0)).largest(), speed.largest()]
+            },
+        );
         let largest = |a: [f64; 2], b: [f64; 2]| [larger(a[0], b[0]), larger(a[1], b[1])];
         changes.into_iter().fold([0.0; 2], largest)
     }
@@ -283,45 +318,62 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
         let nodes = nodes.each_ref().map(Spins::all);
         let further = further.as_ref().map(|nodes| nodes.each_ref().map(Spins::all));
         let pieces = pieces([now.all_mut()], couplings.places.len());
-        threads::each(pieces, |(first, [mut now])| {
-            for at in (0..now[0].len()).step_by(LANES) {
-                let place = first + at;
-                let mut spins = [[Pack::of(0.0); 3]; M];
-                for i in 0..M {
-                    spins[i] = nodes[i].row(place);
+        threads::each(
+            pieces,
+            #[inline(always)]
+            |(first, [mut now])| {
+                for at in (0..now[0].len()).step_by(LANES) {
+                    let place = first + at;
+                    let mut spins = [[Pack::of(0.0); 3]; M];
+                    for i in 0..M {
+                        spins[i] = nodes[i].row(place);
+                    }
+                    let mut rates = equation.rates(&spins, further.as_ref(), place);
+                    rates = couplings.fields(rates, nodes, place / LANES);
+                    let turns = solved(matrix, &rates);
+                    let mut turn = one();
+                    for j in 0..M {
+                        let part = product(
+                            [Pack::of(0.0), rates[j][0], rates[j][1], rates[j][2]],
+                            turns[j],
+                        );
+                        turn = each(|k| part[k].by_plus(-weights[j], turn[k]));
+                    }
+                    let (spin, norm) = turned(turn, own(&now, at));
+                    write(&mut now, at, scaled(Pack::of(1.0) / norm, spin));
                 }
-                let mut rates = equation.rates(&spins, further.as_ref(), place);
-                rates = couplings.fields(rates, nodes, place / LANES);
-                let turns = solved(matrix, &rates);
-                let mut turn = one();
-                for j in 0..M {
-                    let part =
-                        product([Pack::of(0.0), rates[j][0], rates[j][1], rates[j][2]], turns[j]);
-                    turn = each(|k| part[k].by_plus(-weights[j], turn[k]));
-                }
-                let (spin, norm) = turned(turn, own(&now, at));
-                write(&mut now, at, scaled(Pack::of(1.0) / norm, spin));
-            }
-        });
+            },
+        );
     }
 }
 
 /// The part of ∂H/∂s that does not depend on neighbours.
-struct Equation {
-    constant: V3<f64>,
+struct Equation<const M: usize> {
+    constant: [V3<f64>; M],
+    own: Vec<Own<Option<Column>>>,
     anisotropy: Option<[[f64; 3]; 3]>,
 }
 
-impl Equation {
+impl<const M: usize> Equation<M> {
     /// ∂H/∂s at the nodes, with what is further known of it.
     #[inline(always)]
-    fn rates<const M: usize>(
+    fn rates(
         &self,
         spins: &[V3<Pack>; M],
         further: Option<&[[&[f64]; 3]; M]>,
         place: usize,
     ) -> [V3<Pack>; M] {
-        let mut rates = [each(|axis| Pack::of(self.constant[axis])); M];
+        let mut rates = [[Pack::of(0.0); 3]; M];
+        for i in 0..M {
+            rates[i] = each(|axis| Pack::of(self.constant[i][axis]));
+        }
+        for own in &self.own {
+            let direction = each(|axis| Pack::of(own.direction[axis]));
+            for i in 0..M {
+                let rate = own.rate(dot(spins[i], direction), place);
+                rates[i] = plus(rates[i], rate, direction);
+            }
+        }
         if let Some(matrix) = &self.anisotropy {
             for i in 0..M {
                 rates[i] = multiplied(rates[i], matrix, spins[i]);

@@ -174,6 +174,20 @@ impl Graph {
         self.cell
     }
 
+    /// The edges from a site of every cell to a site of the cell at an offset, in the order of the cells; `sites` are their
+    /// numbers in the cells.
+    ///
+    /// # Errors
+    /// As [`Lattice::bond_between`](super::Lattice::bond_between).
+    pub fn edges_between(
+        &self,
+        offset: &[isize],
+        sites: [usize; 2],
+    ) -> Result<Vec<[usize; 2]>, LatticeError> {
+        let edges = self.edges(Offset { by: offset, sites })?;
+        Ok(edges.into_iter().map(|edge| edge.map(|site| site as usize)).collect())
+    }
+
     /// The edges between nearest neighbours, a list for each direction.
     pub(super) fn nearest(&self) -> Result<Vec<Vec<Edge>>, LatticeError> {
         match &self.nearest {

@@ -7,29 +7,30 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
+use coadjoint_geometry::number::Number;
 use coadjoint_geometry::vector::V3;
 
 use super::graph::Edge;
 use super::lanes::{LANES, Pack};
 use super::threads::{self, share};
 
-/// A list of sites for each site.
-pub struct Adjacency {
+/// A list of sites, or of something else of them, for each site.
+pub struct Adjacency<T = u32> {
     first: Vec<u32>,
-    others: Vec<u32>,
+    others: Vec<T>,
 }
 
-impl Adjacency {
+impl<T: Copy + Default> Adjacency<T> {
     /// The ends of directed edges (from, to) by their start, in the order of the edges.
-    pub fn new<I: Iterator<Item = Edge>>(sites: usize, edges: impl Fn() -> I) -> Self {
+    pub fn new<I: Iterator<Item = (u32, T)>>(sites: usize, edges: impl Fn() -> I) -> Self {
         let mut first = alloc::vec![0; sites + 1];
-        edges().for_each(|[from, _]| first[from as usize + 1] += 1);
+        edges().for_each(|(from, _)| first[from as usize + 1] += 1);
         for site in 0..sites {
             first[site + 1] += first[site];
         }
         let mut next = first.clone();
-        let mut others = alloc::vec![0; first[sites] as usize];
-        for [from, to] in edges() {
+        let mut others = alloc::vec![T::default(); first[sites] as usize];
+        for (from, to) in edges() {
             others[next[from as usize] as usize] = to;
             next[from as usize] += 1;
         }
@@ -40,7 +41,7 @@ impl Adjacency {
         self.first.len() - 1
     }
 
-    pub fn of(&self, site: usize) -> &[u32] {
+    pub fn of(&self, site: usize) -> &[T] {
         &self.others[self.first[site] as usize..self.first[site + 1] as usize]
     }
 }
@@ -84,6 +85,16 @@ impl Places {
         self.of[site as usize]
     }
 
+    /// Numbers of sites at their places, and zeros.
+    pub fn column(&self, numbers: &[f64], number: usize) -> Column {
+        let mut column = Column::new(self.len() + LANES, number);
+        let all = column.all_mut();
+        for (number, place) in numbers.iter().zip(&self.of) {
+            all[*place as usize] = *number;
+        }
+        column
+    }
+
     /// Vectors of sites to their places.
     pub fn scatter(&self, from: &[[f64; 3]], to: &mut Spins) {
         let to = to.all_mut();
@@ -109,9 +120,31 @@ pub struct Neighbours {
     /// The first place of each pack of neighbours, and where those of each pack of sites begin.
     starts: Vec<u32>,
     begin: Vec<u32>,
+    /// The factors of each pack of neighbours, where there are any.
+    factors: Vec<Pack>,
 }
 
 impl Neighbours {
+    /// The largest size of a factor.
+    pub fn largest(&self) -> f64 {
+        match self.factors.is_empty() {
+            true => 1.0,
+            false => self.factors.iter().map(|own| Number::abs(*own).largest()).fold(0.0, f64::max),
+        }
+    }
+
+    /// Calls for each neighbour of a pack, by the first place of a pack, with its factors if there are any.
+    #[inline(always)]
+    pub fn each(&self, pack: usize, mut call: impl FnMut(usize, Option<Pack>)) {
+        if self.factors.is_empty() {
+            return self.of(pack).iter().for_each(|start| call(*start as usize, None));
+        }
+        let first = self.begin.get(pack).map_or(0, |first| *first as usize);
+        for (start, factor) in self.of(pack).iter().zip(&self.factors[first..]) {
+            call(*start as usize, Some(*factor));
+        }
+    }
+
     /// The most neighbours of a pack.
     pub fn most(&self) -> u32 {
         let counts = self.begin.windows(2).map(|pair| pair[1] - pair[0]);
@@ -139,7 +172,10 @@ pub struct Copies {
 
 impl Copies {
     /// The neighbours of all packs of sites, for each of some lists of neighbours, and what must be copied.
-    pub fn new(places: &Places, adjacency: &[Adjacency]) -> (Self, Vec<Neighbours>) {
+    pub fn new(
+        places: &Places,
+        adjacency: &[(Adjacency, Option<Adjacency<f64>>)],
+    ) -> (Self, Vec<Neighbours>) {
         let mut sites = alloc::vec![None; places.len()];
         for (site, place) in places.of.iter().enumerate() {
             sites[*place as usize] = Some(site);
@@ -150,7 +186,7 @@ impl Copies {
         let mut begun = 0;
         for colour in &places.colours {
             for pack in sites[colour.clone()].chunks_exact(LANES) {
-                for (neighbours, adjacency) in found.iter_mut().zip(adjacency) {
+                for (neighbours, (adjacency, factors)) in found.iter_mut().zip(adjacency) {
                     neighbours.begin.push(neighbours.starts.len() as u32);
                     let of = |site: &Option<usize>| site.map_or(&[][..], |site| adjacency.of(site));
                     let most = pack.iter().map(|site| of(site).len()).max().unwrap_or_default();
@@ -160,6 +196,11 @@ impl Copies {
                             place(&pack[lane]).unwrap_or(places.len() as u32)
                         });
                         neighbours.starts.push(copies.start_of(list));
+                        if let Some(factors) = factors {
+                            let of = |site: Option<usize>| factors.of(site?).get(slot).copied();
+                            let own = core::array::from_fn(|lane| of(pack[lane]).unwrap_or(0.0));
+                            neighbours.factors.push(Pack(own));
+                        }
                     }
                 }
             }
@@ -196,14 +237,18 @@ impl Copies {
         let sites = &*sites;
         let copies = &mut copies[lists.start * LANES..lists.end * LANES];
         let count = copies.len();
-        threads::each(pieces([[copies]], count), |(first, [[copies]])| {
-            let lists = &self.lists[lists.start + first / LANES..];
-            for (copy, list) in copies.as_chunks_mut::<LANES>().0.iter_mut().zip(lists) {
-                for lane in 0..LANES {
-                    copy[lane] = sites[list[lane] as usize];
+        threads::each(
+            pieces([[copies]], count),
+            #[inline(always)]
+            |(first, [[copies]])| {
+                let lists = &self.lists[lists.start + first / LANES..];
+                for (copy, list) in copies.as_chunks_mut::<LANES>().0.iter_mut().zip(lists) {
+                    for lane in 0..LANES {
+                        copy[lane] = sites[list[lane] as usize];
+                    }
                 }
-            }
-        });
+            },
+        );
     }
 }
 
@@ -219,44 +264,65 @@ pub struct Pairs {
     rows: Vec<[u32; 2]>,
     /// The places of eight edges; that after all sites where there is no edge.
     lists: Vec<[[u32; LANES]; 2]>,
+    /// The factors of rows, then of lists, where there are any.
+    factors: Vec<Pack>,
 }
 
 impl Pairs {
-    pub fn new(places: &Places, edges: &[Edge]) -> Self {
-        let mut sorted: Vec<Edge> = edges.iter().map(|edge| edge.map(|s| places.of(s))).collect();
+    /// Edges by their numbers among all edges, which may have factors.
+    pub fn new(places: &Places, of: &[u32], edges: &[Edge], factors: Option<&[f64]>) -> Self {
+        let place = |at: &u32| (edges[*at as usize].map(|site| places.of(site)), *at);
+        let mut sorted: Vec<(Edge, u32)> = of.iter().map(place).collect();
         sorted.sort_unstable();
         let mut pairs = Self::default();
+        let mut of_lists = Vec::new();
         for edges in sorted.chunks(LANES) {
             let mut lists = [[places.len() as u32; LANES]; 2];
-            for (lane, edge) in edges.iter().enumerate() {
+            let mut own = Pack([0.0; LANES]);
+            for (lane, (edge, at)) in edges.iter().enumerate() {
                 (lists[0][lane], lists[1][lane]) = (edge[0], edge[1]);
+                own.0[lane] = factors.map_or(0.0, |factors| factors[*at as usize]);
             }
-            match lists.into_iter().all(is_row) {
+            let row = lists.into_iter().all(is_row);
+            match row {
                 true => pairs.rows.push(lists.map(|list| list[0])),
                 false => pairs.lists.push(lists),
             }
+            if factors.is_some() {
+                if row { &mut pairs.factors } else { &mut of_lists }.push(own);
+            }
         }
+        pairs.factors.extend(of_lists);
         pairs
     }
 
-    /// Replaces the spins at both ends of all edges.
+    /// The largest size of a factor.
+    pub fn largest(&self) -> f64 {
+        let sizes = self.factors.iter().map(|own| Number::abs(*own).largest());
+        if self.factors.is_empty() { 1.0 } else { sizes.fold(0.0, f64::max) }
+    }
+
+    /// Replaces the spins at both ends of all edges, by their factors.
     #[inline(always)]
     pub fn replace(
         &self,
         [x, y, z]: Piece<'_>,
-        change: impl Fn(V3<Pack>, V3<Pack>) -> [V3<Pack>; 2],
+        change: impl Fn(V3<Pack>, V3<Pack>, Pack) -> [V3<Pack>; 2],
     ) {
-        for [a, b] in &self.rows {
+        let factor = |at: usize| self.factors.get(at).copied().unwrap_or(Pack::of(1.0));
+        for (at, [a, b]) in self.rows.iter().enumerate() {
+            let own = factor(at);
             let [a, b] = [*a as usize, *b as usize];
             let read = |at: usize| [row(x, at), row(y, at), row(z, at)];
-            let [s, t] = change(read(a), read(b));
+            let [s, t] = change(read(a), read(b), own);
             for (at, [u, v, w]) in [(a, s), (b, t)] {
                 store(x, at, u);
                 store(y, at, v);
                 store(z, at, w);
             }
         }
-        for ends in &self.lists {
+        for (at, ends) in self.lists.iter().enumerate() {
+            let own = factor(self.rows.len() + at);
             let mut spins = [[Pack([0.0; LANES]); 3]; 2];
             for end in 0..2 {
                 for lane in 0..LANES {
@@ -266,7 +332,7 @@ impl Pairs {
                     spins[end][2].0[lane] = z[place];
                 }
             }
-            let spins = change(spins[0], spins[1]);
+            let spins = change(spins[0], spins[1], own);
             for end in 0..2 {
                 for lane in 0..LANES {
                     let place = ends[end][lane] as usize;

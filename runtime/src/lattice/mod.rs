@@ -27,6 +27,7 @@ mod rotations;
 mod sums;
 mod threads;
 
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 
 use nalgebra::{Matrix3, Vector3};
@@ -38,8 +39,8 @@ pub use gauss::{GaussStep, NoField};
 pub use graph::{Boundary, Graph};
 pub use rotations::RotationStep;
 
-use couplings::Energies;
-use error::{check_spins, finite};
+use couplings::{Bond, Driven, Energies};
+use error::{check_factors, check_spins, finite};
 use graph::{Edge, MOST, Offset};
 
 /// Spins on a graph with their energy.
@@ -81,7 +82,23 @@ impl Lattice {
         matrix: Matrix3<f64>,
     ) -> Result<Self, LatticeError> {
         let edges = self.graph.edges(Offset { by: offset.as_ref(), sites })?;
-        self.with_bond(edges, matrix)
+        self.with_bond(edges, matrix, None)
+    }
+
+    /// As [`Lattice::bond_between`], with the energy of each edge times a factor; edges are those of
+    /// [`Graph::edges_between`].
+    ///
+    /// # Errors
+    /// As [`Lattice::bond_between`], and [`LatticeError::Factors`].
+    pub fn bond_each(
+        self,
+        offset: impl AsRef<[isize]>,
+        sites: [usize; 2],
+        matrix: Matrix3<f64>,
+        factors: Vec<f64>,
+    ) -> Result<Self, LatticeError> {
+        let edges = self.graph.edges(Offset { by: offset.as_ref(), sites })?;
+        self.with_bond(edges, matrix, Some(factors))
     }
 
     /// Adds a·M b for all edges between nearest neighbours, or for those the graph was made of.
@@ -90,7 +107,7 @@ impl Lattice {
     /// As [`Lattice::bond_between`].
     pub fn nearest(mut self, matrix: Matrix3<f64>) -> Result<Self, LatticeError> {
         for edges in self.graph.nearest()? {
-            self = self.with_bond(edges, matrix)?;
+            self = self.with_bond(edges, matrix, None)?;
         }
         Ok(self)
     }
@@ -101,14 +118,36 @@ impl Lattice {
     /// As [`Lattice::bond_between`].
     pub fn edges(self, edges: &[[usize; 2]], matrix: Matrix3<f64>) -> Result<Self, LatticeError> {
         let edges = self.graph.listed(edges)?;
-        self.with_bond(edges, matrix)
+        self.with_bond(edges, matrix, None)
     }
 
-    fn with_bond(mut self, edges: Vec<Edge>, matrix: Matrix3<f64>) -> Result<Self, LatticeError> {
+    /// As [`Lattice::edges`], with the energy of each edge times a factor.
+    ///
+    /// # Errors
+    /// As [`Lattice::bond_each`].
+    pub fn edges_each(
+        self,
+        edges: &[[usize; 2]],
+        matrix: Matrix3<f64>,
+        factors: Vec<f64>,
+    ) -> Result<Self, LatticeError> {
+        let edges = self.graph.listed(edges)?;
+        self.with_bond(edges, matrix, Some(factors))
+    }
+
+    fn with_bond(
+        mut self,
+        edges: Vec<Edge>,
+        matrix: Matrix3<f64>,
+        factors: Option<Vec<f64>>,
+    ) -> Result<Self, LatticeError> {
         if edges.is_empty() {
             return Err(LatticeError::NoEdges);
         }
-        let others = self.energies.bonds.iter().map(|(edges, _)| edges.len());
+        if let Some(factors) = &factors {
+            check_factors(factors, edges.len())?;
+        }
+        let others = self.energies.bonds.iter().map(|bond| bond.edges.len());
         if others.sum::<usize>() + edges.len() > MOST {
             return Err(LatticeError::TooLarge { most: MOST });
         }
@@ -117,7 +156,7 @@ impl Lattice {
         let symmetric = (matrix + matrix.transpose()) * 0.5;
         let rounding = (matrix - symmetric).amax() <= 4.0 * f64::EPSILON * matrix.amax();
         let matrix = if rounding { symmetric } else { matrix };
-        self.energies.bonds.push((edges, matrix));
+        self.energies.bonds.push(Bond { edges, matrix, factors });
         Ok(self)
     }
 
@@ -135,6 +174,31 @@ impl Lattice {
         self.energies.field += field;
         self.energies.anisotropy += (anisotropy + anisotropy.transpose()) * 0.5;
         Ok(self)
+    }
+
+    /// Adds factor·(f·s + s·A s), with a factor for each site.
+    ///
+    /// # Errors
+    /// [`LatticeError::Coefficient`], [`LatticeError::Factors`].
+    pub fn site_each(
+        mut self,
+        factors: &[f64],
+        field: Vector3<f64>,
+        anisotropy: Matrix3<f64>,
+    ) -> Result<Self, LatticeError> {
+        finite(field.as_slice())?;
+        finite(anisotropy.as_slice())?;
+        check_factors(factors, self.graph.sites())?;
+        self.energies.add_own(factors, field, (anisotropy + anisotropy.transpose()) * 0.5);
+        Ok(self)
+    }
+
+    /// Adds F(t)·s for every site: `advance_from` of a step is given the time. [`Lattice::energy`] and [`Lattice::gradient`]
+    /// are those without it.
+    #[must_use]
+    pub fn driven(mut self, field: impl Fn(f64) -> [f64; 3] + Send + Sync + 'static) -> Self {
+        self.energies.driven = Some(Driven(Arc::new(field)));
+        self
     }
 
     /// The graph.
@@ -161,7 +225,7 @@ impl Lattice {
     /// # Errors
     /// [`LatticeError::Stopped`] for a step that is zero or not finite.
     pub fn gauss<const M: usize>(&self, step: f64) -> Result<GaussStep<M>, LatticeError> {
-        GaussStep::new(self.graph.sites(), &self.energies, step, None)
+        self.gauss_with(step, None)
     }
 
     /// As [`Lattice::gauss`], of this energy and a further one: `gradient` is given all spins and writes its ∂H/∂s.
@@ -173,7 +237,19 @@ impl Lattice {
         step: f64,
         gradient: F,
     ) -> Result<GaussStep<M, F>, LatticeError> {
-        GaussStep::new(self.graph.sites(), &self.energies, step, Some(gradient))
+        self.gauss_with(step, Some(gradient))
+    }
+
+    /// As [`Lattice::gauss_of`], or, without a gradient, as [`Lattice::gauss`].
+    ///
+    /// # Errors
+    /// As [`Lattice::gauss`].
+    pub fn gauss_with<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])>(
+        &self,
+        step: f64,
+        gradient: Option<F>,
+    ) -> Result<GaussStep<M, F>, LatticeError> {
+        GaussStep::new(self.graph.sites(), &self.energies, step, gradient)
     }
 
     /// The energy of a state.
@@ -182,18 +258,20 @@ impl Lattice {
     /// [`LatticeError::Sites`], [`LatticeError::NonFinite`].
     pub fn energy(&self, spins: &[[f64; 3]]) -> Result<f64, LatticeError> {
         check_spins(self.graph.sites(), spins)?;
-        let Energies { bonds, field, anisotropy } = &self.energies;
+        let Energies { bonds, field, anisotropy, own, .. } = &self.energies;
         let spin = |site: u32| Vector3::from(spins[site as usize]);
-        let bonds = bonds.iter().map(|(edges, matrix)| {
+        let bonds = bonds.iter().map(|Bond { edges, matrix, factors }| {
             let of = |at: usize| {
                 let [a, b] = edges[at].map(spin);
-                [a.dot(&(matrix * b))]
+                let factor = factors.as_ref().map_or(1.0, |factors| factors[at]);
+                [a.dot(&(matrix * b)) * factor]
             };
             sums::tree(0..edges.len(), &of)[0]
         });
         let of = |site: usize| {
             let spin = Vector3::from(spins[site]);
-            [spin.dot(&(field + anisotropy * spin))]
+            let own = own.iter().map(|own| own.of(site, spins[site])[0]);
+            [spin.dot(&(field + anisotropy * spin)) + own.sum::<f64>()]
         };
         Ok(bonds.sum::<f64>() + sums::tree(0..spins.len(), &of)[0])
     }
@@ -204,14 +282,18 @@ impl Lattice {
     /// As [`Lattice::energy`].
     pub fn gradient(&self, spins: &[[f64; 3]]) -> Result<Vec<[f64; 3]>, LatticeError> {
         check_spins(self.graph.sites(), spins)?;
-        let Energies { bonds, field, anisotropy } = &self.energies;
+        let Energies { bonds, field, anisotropy, own, .. } = &self.energies;
         let spin = |site: u32| Vector3::from(spins[site as usize]);
-        let single = |s: &[f64; 3]| field + 2.0 * anisotropy * Vector3::from(*s);
-        let mut gradient: Vec<Vector3<f64>> = spins.iter().map(single).collect();
-        for (edges, matrix) in bonds {
-            for &[a, b] in edges {
-                gradient[a as usize] += matrix * spin(b);
-                gradient[b as usize] += matrix.tr_mul(&spin(a));
+        let single = |(site, s): (usize, &[f64; 3])| {
+            let own = own.iter().map(|own| Vector3::from(own.direction) * own.of(site, *s)[1]);
+            field + 2.0 * anisotropy * Vector3::from(*s) + own.sum::<Vector3<f64>>()
+        };
+        let mut gradient: Vec<Vector3<f64>> = spins.iter().enumerate().map(single).collect();
+        for Bond { edges, matrix, factors } in bonds {
+            for (at, &[a, b]) in edges.iter().enumerate() {
+                let factor = factors.as_ref().map_or(1.0, |factors| factors[at]);
+                gradient[a as usize] += matrix * spin(b) * factor;
+                gradient[b as usize] += matrix.tr_mul(&spin(a)) * factor;
             }
         }
         Ok(gradient.into_iter().map(Into::into).collect())

@@ -11,11 +11,13 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::colours;
 use super::composition::Order;
-use super::couplings::{Couplings, Dyad, Energies, by_directions, directions, dyads};
+use super::couplings::{
+    Bond, Couplings, Driven, Dyad, Energies, Own, by_directions, directions, dyads,
+};
 use super::error::{LatticeError, check_spins, check_step};
 use super::family::Family;
 use super::lanes::{LANES, Pack};
-use super::layout::{Column, Pairs, Piece, Spins, pieces, row, split};
+use super::layout::{Column, Pairs, Piece, Places, Spins, pieces, row, split};
 use super::threads;
 
 /// Steps of a lattice of spins, composed of exact rotations: the length of each spin is kept to rounding.
@@ -35,6 +37,7 @@ use super::threads;
 pub struct RotationStep {
     couplings: Couplings,
     parts: Vec<Summand>,
+    step: f64,
     /// The parts of a step with their lengths in time.
     sequence: Vec<(usize, f64)>,
     /// The largest speed of each part for spins of length zero, and by how much it grows with the largest length.
@@ -50,7 +53,9 @@ enum Summand {
     Pairs(Pairs, Exchange),
     /// The sites of a colour in the field of the others.
     Colour(usize, [f64; 3]),
-    Sites(Site),
+    Sites(Site, Option<Own<Option<Column>>>),
+    /// All sites in the field that depends on time.
+    Driven(Driven),
 }
 
 /// Energies of the components along a direction, of all sites.
@@ -60,6 +65,7 @@ struct Axis {
     axis: Option<usize>,
     /// The weights of couplings.
     weights: Vec<f64>,
+    own: Option<Own<Option<Column>>>,
 }
 
 /// An energy of pairs of sites.
@@ -94,31 +100,35 @@ impl RotationStep {
     ) -> Result<Self, LatticeError> {
         check_step(step)?;
         let couplings = Couplings::new(sites, &energies.bonds);
-        let parts = match family {
+        let mut parts = match family {
             Family::Axes { shift } => axes(&couplings, energies, shift)?,
             Family::Bonds => {
                 let mut parts = pairs(sites, &couplings, energies);
-                parts.extend(single(energies, energies.field));
+                parts.extend(single(&couplings.places, energies, energies.field));
                 parts
             }
             Family::Sublattices => {
                 // The field is held with that of the neighbours, unless an anisotropy has a flow of its own.
-                let mut sites = single(energies, Vector3::zeros());
+                let mut sites = single(&couplings.places, energies, Vector3::zeros());
                 let mut held = energies.field;
                 if !sites.is_empty() {
-                    (sites, held) = (single(energies, held), Vector3::zeros());
+                    sites = single(&couplings.places, energies, held);
+                    held = Vector3::zeros();
                 }
                 let colours = 0..couplings.places.colours.len();
                 let colours = colours.map(|colour| Summand::Colour(colour, held.into()));
                 colours.chain(sites).collect()
             }
         };
+        let driven = energies.driven.clone();
+        parts.extend(driven.map(Summand::Driven));
         let speeds = parts.iter().map(|part| speed(part, &couplings)).collect();
-        let sequence = order.sequence(parts.len());
+        // After all parts comes the time itself, where one depends on it.
+        let sequence = order.sequence(parts.len() + usize::from(energies.driven.is_some()));
         let sequence = sequence.into_iter().map(|(part, length)| (part, length * step)).collect();
         let length = couplings.copies.length();
         let (spins, along) = (Spins::new(length, 0), Column::new(length, 3));
-        Ok(Self { couplings, parts, sequence, speeds, spins, along })
+        Ok(Self { couplings, parts, step, sequence, speeds, spins, along })
     }
 
     /// Advances the spins, in the order of the graph's sites, by `steps` steps.
@@ -126,14 +136,44 @@ impl RotationStep {
     /// # Errors
     /// [`LatticeError::Sites`] and [`LatticeError::NonFinite`]; the spins are then as they were.
     pub fn advance_by(&mut self, spins: &mut [[f64; 3]], steps: u64) -> Result<(), LatticeError> {
+        self.advance_from(spins, 0.0, steps)
+    }
+
+    /// As [`RotationStep::advance_by`], from this time on, of which the field that depends on time is a function.
+    ///
+    /// # Errors
+    /// As [`RotationStep::advance_by`].
+    pub fn advance_from(
+        &mut self,
+        spins: &mut [[f64; 3]],
+        start: f64,
+        steps: u64,
+    ) -> Result<(), LatticeError> {
         check_spins(self.couplings.places.sites(), spins)?;
         self.couplings.places.scatter(spins, &mut self.spins);
         let squares = spins.iter().map(|[x, y, z]| x * x + y * y + z * z);
         let length = squares.fold(0.0, f64::max).sqrt();
-        for _ in 0..steps {
+        for n in 0..steps {
+            let mut now = start + n as f64 * self.step;
             for at in 0..self.sequence.len() {
                 let (part, time) = self.sequence[at];
-                let [least, slope] = self.speeds[part];
+                let Some(&[least, slope]) = self.speeds.get(part) else {
+                    now += time;
+                    continue;
+                };
+                if let Summand::Driven(Driven(field)) = &self.parts[part] {
+                    let field = field(now);
+                    let x = each(|axis| Pack::of(field[axis] * time));
+                    let turn = turn::<false>(x);
+                    let places = self.couplings.places.len();
+                    each_pack(
+                        self.spins.all_mut(),
+                        places,
+                        #[inline(always)]
+                        |_, spin| turn.back(spin),
+                    );
+                    continue;
+                }
                 match (time * slope.times_plus(length, least)).abs() <= SHORT_TURN {
                     true => self.flow::<true>(part, time),
                     false => self.flow::<false>(part, time),
@@ -158,15 +198,23 @@ impl RotationStep {
                     }
                     couplings.copies.refresh(along.all_mut(), couplings.copies.all());
                     let along = along.all();
-                    each_pack(spins.all_mut(), places, |pack, spin| {
-                        let field = part.rate(couplings, along, pack);
-                        about::<SHORT>(part.direction.direction, field.by(time), spin)
-                    });
+                    each_pack(
+                        spins.all_mut(),
+                        places,
+                        #[inline(always)]
+                        |pack, spin| {
+                            let field = part.rate(couplings, along, pack);
+                            about::<SHORT>(part.direction.direction, field.by(time), spin)
+                        },
+                    );
                 }
             },
             Summand::Pairs(pairs, exchange) => {
                 let columns = spins.all_mut();
-                threads::wide(|| exchange_all::<SHORT>(pairs, *exchange, time, columns));
+                threads::wide(
+                    #[inline(always)]
+                    || exchange_all::<SHORT>(pairs, *exchange, time, columns),
+                );
             }
             Summand::Colour(colour, field) => {
                 let range = &couplings.places.colours[*colour];
@@ -176,19 +224,35 @@ impl RotationStep {
                 }
                 let (around, own) = split(spins, range);
                 let first = range.start / LANES;
-                each_pack(own, range.len(), |pack, spin| {
-                    let field = each(|axis| Pack::of(field[axis]));
-                    let [field] = couplings.fields([field], [&around], first + pack);
-                    let x = scaled(Pack::of(time), field);
-                    turn::<SHORT>(x).back(spin)
-                });
+                each_pack(
+                    own,
+                    range.len(),
+                    #[inline(always)]
+                    |pack, spin| {
+                        let field = each(|axis| Pack::of(field[axis]));
+                        let [field] = couplings.fields([field], [&around], first + pack);
+                        let x = scaled(Pack::of(time), field);
+                        turn::<SHORT>(x).back(spin)
+                    },
+                );
             }
-            Summand::Sites(site) => {
-                each_pack(spins.all_mut(), places, |_, spin| {
-                    let along = dot(spin, each(|axis| Pack::of(site.direction[axis])));
-                    about::<SHORT>(site.direction, site.rate(along).by(time), spin)
-                });
+            Summand::Sites(site, own) => {
+                each_pack(
+                    spins.all_mut(),
+                    places,
+                    #[inline(always)]
+                    |pack, spin| {
+                        let along = dot(spin, each(|axis| Pack::of(site.direction[axis])));
+                        let mut rate = site.rate(along);
+                        if let Some(own) = own {
+                            rate = rate + own.rate(along, pack * LANES);
+                        }
+                        about::<SHORT>(site.direction, rate.by(time), spin)
+                    },
+                );
             }
+            // Its time is not known here.
+            Summand::Driven(_) => {}
         }
     }
 }
@@ -205,7 +269,12 @@ impl Axis {
     /// The speed of rotation of a pack about the direction, along which all spins have these components.
     #[inline(always)]
     fn rate(&self, couplings: &Couplings, along: &[f64], pack: usize) -> Pack {
-        self.direction.rate(row(along, pack * LANES)) + couplings.along(&self.weights, along, pack)
+        let of_pack = row(along, pack * LANES);
+        let rate = self.direction.rate(of_pack) + couplings.along(&self.weights, along, pack);
+        match &self.own {
+            Some(own) => rate + own.rate(of_pack, pack * LANES),
+            None => rate,
+        }
     }
 }
 
@@ -239,21 +308,25 @@ fn each_pack<const K: usize>(
     places: usize,
     work: impl Fn(usize, [Pack; K]) -> [Pack; K] + Sync,
 ) {
-    threads::each(pieces([columns], places), |(first, [columns])| {
-        let [first, count] = [first, columns[0].len()].map(|places| places / LANES);
-        // Packs by number, in plain loops: iterators over several columns stay calls.
-        let columns = columns.map(|column| column.as_chunks_mut::<LANES>().0);
-        for at in 0..count {
-            let mut packs = [Pack::of(0.0); K];
-            for k in 0..K {
-                packs[k] = Pack(columns[k][at]);
+    threads::each(
+        pieces([columns], places),
+        #[inline(always)]
+        |(first, [columns])| {
+            let [first, count] = [first, columns[0].len()].map(|places| places / LANES);
+            // Packs by number, in plain loops: iterators over several columns stay calls.
+            let columns = columns.map(|column| column.as_chunks_mut::<LANES>().0);
+            for at in 0..count {
+                let mut packs = [Pack::of(0.0); K];
+                for k in 0..K {
+                    packs[k] = Pack(columns[k][at]);
+                }
+                let packs = work(first + at, packs);
+                for k in 0..K {
+                    columns[k][at] = packs[k].0;
+                }
             }
-            let packs = work(first + at, packs);
-            for k in 0..K {
-                columns[k][at] = packs[k].0;
-            }
-        }
-    });
+        },
+    );
 }
 
 /// The flow of the energies along an axis, in which the other two components turn.
@@ -272,14 +345,19 @@ fn about_axis<const SHORT: bool>(
     };
     couplings.copies.refresh(along.all_mut(), couplings.copies.all());
     let along = along.all();
-    each_pack([u.all_mut(), v.all_mut()], couplings.places.len(), |pack, [u, v]| {
-        let by = part.rate(couplings, along, pack).by(time);
-        let angle = Angle::new([by], reach(SHORT));
-        let half = angle.half_sine * by;
-        let sine = (half * angle.half_cosine).by(2.0);
-        let cosine = half.by_plus(-2.0, Pack::of(0.0)).times_plus(half, Pack::of(1.0));
-        [u.times_plus(cosine, v * sine), v.times_plus(cosine, -u * sine)]
-    });
+    each_pack(
+        [u.all_mut(), v.all_mut()],
+        couplings.places.len(),
+        #[inline(always)]
+        |pack, [u, v]| {
+            let by = part.rate(couplings, along, pack).by(time);
+            let angle = Angle::new([by], reach(SHORT));
+            let half = angle.half_sine * by;
+            let sine = (half * angle.half_cosine).by(2.0);
+            let cosine = half.by_plus(-2.0, Pack::of(0.0)).times_plus(half, Pack::of(1.0));
+            [u.times_plus(cosine, v * sine), v.times_plus(cosine, -u * sine)]
+        },
+    );
 }
 
 /// The flow of energies of pairs, none of which share a site.
@@ -295,8 +373,8 @@ fn exchange_all<const SHORT: bool>(
         Exchange::Isotropic(factor) => pairs.replace(
             columns,
             #[inline(always)]
-            |s, t| {
-                let turn = turn::<SHORT>(scaled(Pack::of(factor * time), sum(s, t)));
+            |s, t, own| {
+                let turn = turn::<SHORT>(scaled(own.by(factor * time), sum(s, t)));
                 let once = cross(s, turn.x);
                 let doubled = turn.s.by(2.0);
                 let change =
@@ -307,12 +385,13 @@ fn exchange_all<const SHORT: bool>(
         Exchange::Dyad(Dyad { factor, left, right }) => pairs.replace(
             columns,
             #[inline(always)]
-            |s, t| {
+            |s, t, own| {
+                let time = own.by(factor * time);
                 let left_component = dot(s, each(|axis| Pack::of(left[axis])));
                 let right_component = dot(t, each(|axis| Pack::of(right[axis])));
                 [
-                    about::<SHORT>(left, right_component.by(factor * time), s),
-                    about::<SHORT>(right, left_component.by(factor * time), t),
+                    about::<SHORT>(left, right_component * time, s),
+                    about::<SHORT>(right, left_component * time, t),
                 ]
             },
         ),
@@ -334,9 +413,12 @@ fn axes(
         let axis = (at < 3).then_some(at);
         let linear = axis.map_or(0.0, |axis| energies.field[axis]);
         let weights: Vec<f64> = weights.iter().map(|list| list[at]).collect();
+        let own = energies.own.iter().find(|own| own.direction == direction);
+        let own = own.map(|own| own.placed(&couplings.places));
         let none = linear == 0.0 && squares[at] == 0.0 && weights.iter().all(|w| *w == 0.0);
         let direction = Site { direction, linear, square: squares[at] };
-        (!none).then_some(Summand::Axis(Axis { direction, axis, weights }))
+        let all = own.is_some() || !none;
+        all.then_some(Summand::Axis(Axis { direction, axis, weights, own }))
     };
     Ok(directions().into_iter().enumerate().filter_map(part).collect())
 }
@@ -344,13 +426,14 @@ fn axes(
 /// The energies of the edges of each bond and colour.
 fn pairs(sites: usize, couplings: &Couplings, energies: &Energies) -> Vec<Summand> {
     let mut parts = Vec::new();
-    for (edges, matrix) in &energies.bonds {
+    for Bond { edges, matrix, factors } in &energies.bonds {
         let (isotropic, dyads) = dyads(matrix);
         let isotropic = (isotropic != 0.0).then_some(Exchange::Isotropic(isotropic));
         let exchanges = isotropic.into_iter().chain(dyads.into_iter().map(Exchange::Dyad));
         for exchange in exchanges {
             for colour in colours::edges(sites, edges) {
-                parts.push(Summand::Pairs(Pairs::new(&couplings.places, &colour), exchange));
+                let pairs = Pairs::new(&couplings.places, &colour, edges, factors.as_deref());
+                parts.push(Summand::Pairs(pairs, exchange));
             }
         }
     }
@@ -358,7 +441,7 @@ fn pairs(sites: usize, couplings: &Couplings, energies: &Energies) -> Vec<Summan
 }
 
 /// The energies of single sites in a field.
-fn single(energies: &Energies, mut field: Vector3<f64>) -> Vec<Summand> {
+fn single(places: &Places, energies: &Energies, mut field: Vector3<f64>) -> Vec<Summand> {
     // The isotropic part is a multiple of |s|² and moves nothing.
     let (_, dyads) = dyads(&energies.anisotropy);
     let mut sites = Vec::new();
@@ -376,23 +459,34 @@ fn single(energies: &Energies, mut field: Vector3<f64>) -> Vec<Summand> {
     if size > 0.0 {
         sites.push(Site { direction: (field / size).into(), linear: size, square: 0.0 });
     }
-    sites.into_iter().map(Summand::Sites).collect()
+    let own = energies.own.iter().map(|own| {
+        let none = Site { direction: own.direction, linear: 0.0, square: 0.0 };
+        Summand::Sites(none, Some(own.placed(places)))
+    });
+    sites.into_iter().map(|site| Summand::Sites(site, None)).chain(own).collect()
 }
 
 /// The largest speed of rotation of a part for spins of length zero, and by how much it grows with the largest length.
 fn speed(part: &Summand, couplings: &Couplings) -> [f64; 2] {
     match part {
-        Summand::Axis(Axis { direction: Site { linear, square, .. }, weights, .. }) => {
+        Summand::Axis(Axis { direction: Site { linear, square, .. }, weights, own, .. }) => {
             let most = couplings.most().zip(weights).map(|(most, weight)| most * weight.abs());
-            [linear.abs(), square.abs() + most.sum::<f64>()]
+            let [least, slope] = own.as_ref().map_or([0.0; 2], Own::speed);
+            [linear.abs() + least, square.abs() + slope + most.sum::<f64>()]
         }
-        Summand::Pairs(_, Exchange::Isotropic(factor)) => [0.0, 2.0 * factor.abs()],
-        Summand::Pairs(_, Exchange::Dyad(dyad)) => [0.0, dyad.factor.abs()],
+        Summand::Pairs(pairs, Exchange::Isotropic(factor)) => {
+            [0.0, 2.0 * factor.abs() * pairs.largest()]
+        }
+        Summand::Pairs(pairs, Exchange::Dyad(dyad)) => [0.0, dyad.factor.abs() * pairs.largest()],
         Summand::Colour(_, field) => {
             let most = couplings.most().zip(couplings.matrices());
             let most = most.map(|(most, matrix)| most * matrix.norm());
             [Vector3::from(*field).norm(), most.sum::<f64>()]
         }
-        Summand::Sites(Site { linear, square, .. }) => [linear.abs(), square.abs()],
+        Summand::Sites(Site { linear, square, .. }, own) => {
+            let [least, slope] = own.as_ref().map_or([0.0; 2], Own::speed);
+            [linear.abs() + least, square.abs() + slope]
+        }
+        Summand::Driven(_) => [0.0; 2],
     }
 }

@@ -24,7 +24,13 @@ fn count() -> usize {
 
 /// Does work with each part; results are in the order of the parts.
 pub fn each<T: Send, R: Send>(parts: Vec<T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
-    let work = |part| wide(|| work(part));
+    // Closures that are not inlined would not be compiled for the processor.
+    let work = |part| {
+        wide(
+            #[inline(always)]
+            || work(part),
+        )
+    };
     #[cfg(feature = "ensemble")]
     if parts.len() > 1 {
         use rayon::prelude::*;

@@ -1,0 +1,408 @@
+//! Runs of lattices of spins, as a system file describes them.
+//!
+//! Steps are exact rotations of a [`Family`], or Gauss's method. Which one is chosen, the step for a tolerance, and the error at the
+//! end are found on a cut of at most 16 cells an axis, so that they take no longer than on a small lattice.
+
+mod method;
+mod problem;
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use coadjoint::lattice::{Family, LatticeError, Order};
+use coadjoint_codegen::system::{lattice as text, read_lattice};
+
+use crate::asked::Accuracy;
+use crate::error::RunError;
+use crate::grid::Grid;
+use crate::simulate::Schedule;
+pub use method::Method;
+pub use problem::Arrays;
+use problem::{Files, Misplaced, Problem, Spins, StartError, Tables};
+
+/// Halvings of a step after which a tolerance counts as not met.
+const MOST_HALVINGS: u32 = 8;
+/// An error below which one that no longer falls is rounding.
+const ROUNDING: f64 = 1e-9;
+/// The truncation of a run with a step that asks for none: order 6.
+const TRUNCATION: usize = 5;
+
+/// A lattice and its spins, ready to run.
+#[derive(Debug)]
+pub struct Lattice {
+    /// The system file.
+    path: PathBuf,
+    source: String,
+    text: text::Lattice,
+    problem: Problem,
+    cut: Problem,
+    start: Vec<[f64; 3]>,
+}
+
+/// The method and the steps of a run.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The method of all steps.
+    pub method: Method,
+    /// The steps.
+    pub schedule: Schedule,
+    /// The methods that were tried for `auto`, with the seconds that each takes on the cut for equal errors.
+    pub tried: Vec<(Method, f64)>,
+    /// The estimated error at the end, where the step was chosen by it.
+    pub error: Option<f64>,
+}
+
+/// A moment of a run.
+#[derive(Clone, Copy, Debug)]
+pub struct Record {
+    /// The time.
+    pub time: f64,
+    /// The mean of all spins.
+    pub magnetisation: [f64; 3],
+    /// The energy.
+    pub energy: f64,
+}
+
+/// News of a run.
+#[derive(Clone, Copy, Debug)]
+pub enum News<'a> {
+    /// The method and the steps are known.
+    Begin(&'a Plan),
+    /// A moment to record.
+    Record(Record),
+    /// This number of steps is made.
+    Steps(u64),
+}
+
+/// The end of a run.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The method and the steps.
+    pub plan: Plan,
+    /// The spins at the end.
+    pub spins: Vec<[f64; 3]>,
+    /// The moments at the start and at the end.
+    pub ends: [Record; 2],
+    /// The largest relative change of the length of a spin.
+    pub lengths: f64,
+    /// The estimated error at the end: the root of the mean square of that of a spin, over that of a length.
+    pub error: Option<f64>,
+}
+
+impl Lattice {
+    /// The lattice of a text, which is called `path` and names its files relative to it, unless arrays of these names are given;
+    /// `None` of a system without `[lattice]`.
+    ///
+    /// # Errors
+    /// All mistakes, each at its place, and files that do not fit.
+    pub fn read(path: &Path, source: &str, given: &Arrays) -> Result<Option<Self>, RunError> {
+        let name = path.display().to_string();
+        let read = read_lattice(source);
+        let read = read.map_err(|mistakes| RunError::Input(mistakes.render(&name, source)))?;
+        let Some(text) = read else { return Ok(None) };
+        let placed = |Misplaced(place, what): Misplaced| {
+            RunError::Input(text::Lattice::mistake(place, &what).render(&name, source))
+        };
+        let files = Files { system: path, given };
+        let tables = Tables::read(files, &text).map_err(placed)?;
+        let problem = Problem::whole(&text, &tables).map_err(placed)?;
+        let graph = problem.lattice.graph();
+        let cut = Problem::cut(&text, &tables, graph).map_err(placed)?;
+        let start = problem::start(files, &text, graph);
+        let start = start.map_err(|error| StartError::placed(error, path, placed))?;
+        let (path, source) = (path.to_owned(), source.to_owned());
+        Ok(Some(Self { path, source, text, problem, cut, start }))
+    }
+
+    /// The description.
+    #[must_use]
+    pub fn text(&self) -> &text::Lattice {
+        &self.text
+    }
+
+    /// The number of sites.
+    #[must_use]
+    pub fn sites(&self) -> usize {
+        self.start.len()
+    }
+
+    /// The number of sites by which steps are chosen and errors are estimated.
+    #[must_use]
+    pub fn cut_sites(&self) -> usize {
+        self.cut.lattice.graph().sites()
+    }
+
+    /// The spins at the start, in the order of the sites.
+    #[must_use]
+    pub fn start(&self) -> &[[f64; 3]] {
+        &self.start
+    }
+
+    /// The text of the system.
+    #[must_use]
+    pub fn source(&self) -> &str {
+        &self.source
+    }
+
+    /// The spins of the cut.
+    fn cut_of(&self, spins: &[[f64; 3]]) -> Spins {
+        match &self.cut.cut {
+            Some(sites) => sites.iter().map(|site| spins[*site]).collect(),
+            None => spins.to_vec(),
+        }
+    }
+
+    /// The methods that the file leaves open, at an order or, where none is asked for, at some.
+    fn candidates(&self, orders: &[Order]) -> Result<Vec<Method>, RunError> {
+        let refuse = |what: String| RunError::of(&self.path)(what);
+        let nodes = self.text.truncation.unwrap_or(TRUNCATION).div_ceil(2);
+        let quadratic = self.problem.is_quadratic();
+        let axes = || {
+            let shift = self.problem.lattice.shift(&self.start);
+            shift.map(|shift| Family::Axes { shift }).map_err(RunError::of(&self.path))
+        };
+        let families = match self.text.splitting {
+            "collocation" => return Ok(vec![Method::Gauss(nodes)]),
+            "auto" if !quadratic => return Ok(vec![Method::Gauss(nodes)]),
+            "auto" => vec![axes()?, Family::Bonds],
+            name if !quadratic => {
+                return Err(refuse(format!(
+                    "splitting = \"{name}\": rotations are of energies of degree two, a·M b of bonds and f·s + s·A s of sites, and one \
+                     here is none: write method = \"collocation\""
+                )));
+            }
+            "axes" => vec![axes()?],
+            "bonds" => vec![Family::Bonds],
+            _ => vec![Family::Sublattices],
+        };
+        let all = orders
+            .iter()
+            .flat_map(|order| families.iter().map(|family| Method::Rotations(*family, *order)));
+        let (mut admitted, mut reason) = (Vec::new(), None);
+        for method in all {
+            match self.cut.steps(method, 1.0) {
+                Ok(_) => admitted.push(method),
+                Err(error) => reason = Some(error),
+            }
+        }
+        match reason.filter(|_| admitted.is_empty()) {
+            Some(error) => Err(refuse(error.to_string())),
+            None => Ok(admitted),
+        }
+    }
+
+    /// Chooses method and step, by what is asked for, else by the file.
+    ///
+    /// # Errors
+    /// Steps and times that make no sense, families that do not admit the energy, a tolerance that is not met.
+    pub fn plan(&self, asked: &Accuracy) -> Result<Plan, RunError> {
+        let run = &self.text.run;
+        let tolerance = asked.tolerance.or(run.tolerance.filter(|_| asked.step.is_none()));
+        let orders = match (self.text.truncation, tolerance) {
+            (None, Some(_)) => vec![Order::Four, Order::Six, Order::Eight],
+            (truncation, _) => vec![match truncation.unwrap_or(TRUNCATION) {
+                1 => Order::Two,
+                3 => Order::Four,
+                5 => Order::Six,
+                _ => Order::Eight,
+            }],
+        };
+        let candidates = self.candidates(&orders)?;
+        let time = asked.time.or(run.time).ok_or_else(|| RunError::no_time(&self.path))?;
+        let step = asked.step.or(run.step).filter(|_| tolerance.is_none());
+        if tolerance.is_none() && step.is_none() {
+            return Err(RunError::no_step(&self.path));
+        }
+        let start = asked.start(run);
+        let of = |step: f64| Schedule::of(Grid { start, step }, time);
+        let spins = self.cut_of(&self.start);
+        let failed =
+            |error: LatticeError| RunError::Run { time: start, step: 0, what: error.to_string() };
+        if let (&[method], Some(step)) = (&candidates[..], step) {
+            return Ok(Plan { method, schedule: of(step)?, tried: Vec::new(), error: None });
+        }
+        // A fifth of a radian, and up to ten of these.
+        let speed = self.cut.speed(start, &spins).map_err(failed)?;
+        let trial = step.unwrap_or(0.2 / speed).abs().min(time).copysign(step.unwrap_or(1.0));
+        let count = (time / trial.abs()).clamp(1.0, 10.0).floor();
+        let part = count * trial.abs() / time;
+        let (mut found, mut reason) = (Vec::new(), None);
+        for method in candidates {
+            let at = |step: f64, steps: u64| {
+                let (mut spins, mut made) = (spins.clone(), self.cut.steps(method, step)?);
+                let clock = Instant::now();
+                made.advance(&mut spins, start, steps)?;
+                Ok::<_, LatticeError>((spins, clock.elapsed().as_secs_f64()))
+            };
+            let pair = || {
+                let fine = [at(0.5 * trial, 2 * count as u64)?, at(0.5 * trial, 2 * count as u64)?];
+                Ok((at(trial, count as u64)?, fine))
+            };
+            let (coarse, [fine, again]) = match pair() {
+                Ok(pair) => pair,
+                Err(error) => {
+                    reason = Some(error);
+                    continue;
+                }
+            };
+            let order = method.order() as i32;
+            let error = distance(&coarse.0, &fine.0) / (1.0 - 0.5_f64.powi(order));
+            found.push((method, error.max(f64::MIN_POSITIVE), fine.1.min(again.1)));
+        }
+        let Some(&(_, first, _)) = found.first() else {
+            return Err(failed(reason.unwrap_or(LatticeError::NoEdges)));
+        };
+        let wanted = tolerance.map_or(first, |tolerance| tolerance * part);
+        // The ratio of the step with the error wanted to the step tried.
+        let ratio =
+            |method: Method, error: f64| (wanted / error).powf(1.0 / f64::from(method.order()));
+        let mut tried: Vec<(Method, f64)> = found
+            .iter()
+            .map(|&(method, error, seconds)| (method, seconds / ratio(method, error)))
+            .collect();
+        tried.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let method = tried[0].0;
+        tried.truncate(if tried.len() > 1 { tried.len() } else { 0 });
+        if let Some(step) = step {
+            return Ok(Plan { method, schedule: of(step)?, tried, error: None });
+        }
+        let (tolerance, error) = (
+            tolerance.unwrap_or(0.0),
+            found.iter().find(|own| own.0 == method).map_or(first, |own| own.1),
+        );
+        let mut schedule = of((trial * ratio(method, error)).min(time))?;
+        let whole = |schedule: &Schedule| {
+            let mut spins = spins.clone();
+            self.cut.steps(method, schedule.step)?.advance(&mut spins, start, schedule.steps)?;
+            Ok::<_, LatticeError>(spins)
+        };
+        let (mut coarse, mut before) = (whole(&schedule).ok(), f64::INFINITY);
+        for _ in 0..MOST_HALVINGS {
+            let half = of(0.5 * schedule.step)?;
+            let fine = whole(&half).ok();
+            if let (Some(coarse), Some(fine)) = (&coarse, &fine) {
+                let order = method.order() as i32;
+                let error = distance(coarse, fine) / (1.0 - 0.5_f64.powi(order));
+                if error <= tolerance {
+                    return Ok(Plan { method, schedule, tried, error: Some(error) });
+                }
+                if error < ROUNDING && error > 0.5 * before {
+                    break;
+                }
+                before = error;
+            }
+            (coarse, schedule) = (fine, half);
+        }
+        Err(RunError::of(&self.path)(format!(
+            "no step above {:.1e} meets the tolerance {tolerance:e} over the time {time}: disordered spins move chaotically, and errors \
+             grow exponentially, from rounding too; ask for a larger tolerance or a shorter time, or give a step",
+            schedule.step.abs()
+        )))
+    }
+
+    /// Makes all steps. With `every`, every n-th of them is recorded, and the last. `told` is given the news and returns false to
+    /// stop.
+    ///
+    /// # Errors
+    /// As [`Lattice::plan`]; steps that cannot be made; [`RunError::Halted`] where it was told to stop.
+    pub fn run(
+        &self,
+        asked: &Accuracy,
+        every: Option<u64>,
+        estimate: bool,
+        told: &mut dyn FnMut(News<'_>) -> bool,
+    ) -> Result<Outcome, RunError> {
+        let plan = self.plan(asked)?;
+        let Plan { method, schedule, .. } = &plan;
+        let halted = |n: u64| RunError::Halted { time: schedule.time(n), step: n };
+        let failed = |n: u64| {
+            move |error: LatticeError| RunError::Run {
+                time: schedule.time(n),
+                step: n + 1,
+                what: error.to_string(),
+            }
+        };
+        let mut tell = |n: u64, news: News<'_>| if told(news) { Ok(()) } else { Err(halted(n)) };
+        tell(0, News::Begin(&plan))?;
+        let mut spins = self.start.clone();
+        let lengths: Vec<f64> = spins.iter().map(length).collect();
+        let mut steps = self.problem.steps(*method, schedule.step).map_err(failed(0))?;
+        let first = self.record(schedule.start, &spins)?;
+        if every.is_some() {
+            tell(0, News::Record(first))?;
+        }
+        // Steps at a time: about a twentieth of a second's, or one where each has its own time.
+        let (mut made, mut share) = (0, 1);
+        let mut last = first;
+        while made < schedule.steps {
+            let rest = every
+                .map_or(schedule.steps, |every| (made / every + 1) * every)
+                .min(schedule.steps)
+                - made;
+            let count = if self.problem.is_driven() { 1 } else { rest.min(share) };
+            let clock = Instant::now();
+            steps.advance(&mut spins, schedule.time(made), count).map_err(failed(made))?;
+            share =
+                if clock.elapsed().as_secs_f64() < 0.05 { 2 * share } else { (share / 2).max(1) };
+            made += count;
+            if made == schedule.steps || every.is_some_and(|every| made.is_multiple_of(every)) {
+                last = self.record(schedule.time(made), &spins)?;
+                if every.is_some() {
+                    tell(made, News::Record(last))?;
+                }
+            }
+            tell(made, News::Steps(made))?;
+        }
+        drop(steps);
+        let changes = spins
+            .iter()
+            .zip(&lengths)
+            .map(|(spin, before)| (length(spin) - before).abs() / before.max(f64::MIN_POSITIVE));
+        let lengths = changes.fold(0.0, f64::max);
+        let error = match plan.error {
+            Some(error) => Some(error),
+            None if estimate => self.estimate(&plan, &spins).ok(),
+            None => None,
+        };
+        Ok(Outcome { plan, spins, ends: [first, last], lengths, error })
+    }
+
+    /// The error at the end, by a run beside it in longer steps, on the cut.
+    fn estimate(&self, plan: &Plan, end: &Spins) -> Result<f64, LatticeError> {
+        let Plan { method, schedule, .. } = plan;
+        let start = self.cut_of(&self.start);
+        let run = |step: f64, steps: u64| {
+            let mut spins = start.clone();
+            self.cut.steps(*method, step)?.advance(&mut spins, schedule.start, steps)?;
+            Ok::<_, LatticeError>(spins)
+        };
+        let own = match &self.cut.cut {
+            Some(_) => run(schedule.step, schedule.steps)?,
+            None => end.clone(),
+        };
+        let other = if schedule.steps > 1 { schedule.steps.div_ceil(2) } else { 2 };
+        let ratio = schedule.steps as f64 / other as f64;
+        let other = run(schedule.step * ratio, other)?;
+        Ok(distance(&own, &other) / (ratio.powi(method.order() as i32) - 1.0).abs())
+    }
+
+    fn record(&self, time: f64, spins: &Spins) -> Result<Record, RunError> {
+        let of = || {
+            let total = self.problem.lattice.total_spin(spins)?;
+            let magnetisation = total.map(|sum| sum / spins.len() as f64);
+            Ok(Record { time, magnetisation, energy: self.problem.energy(time, spins)? })
+        };
+        of().map_err(|error: LatticeError| RunError::Run { time, step: 0, what: error.to_string() })
+    }
+}
+
+fn length(spin: &[f64; 3]) -> f64 {
+    spin.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// The root of the mean square of the distance of spins, over that of their lengths.
+fn distance(a: &Spins, b: &Spins) -> f64 {
+    let gaps = a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| (a - b) * (a - b));
+    let squares: f64 = b.iter().flatten().map(|x| x * x).sum();
+    (gaps.sum::<f64>() / squares.max(f64::MIN_POSITIVE)).sqrt()
+}
