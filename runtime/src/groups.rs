@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | [`SO3`], [`SU2`] | unit quaternions | 3 |
 //! | [`SE2`], [`SE3`] | rotation and translation | 3, 6 |
-//! | [`SO4`], [`SO5`], [`SU3`], [`SL2`], [`Aff1`], [`Heisenberg`] | matrices | 2 to 10 |
+//! | [`SO4`], [`SO5`], [`SU3`], [`SL2`], [`Sp4`], [`SE23`], [`Aff1`], [`Heisenberg`] | matrices | 2 to 10 |
 //! | [`Product`], [`Power`], `DirectProduct` | those of the factors | the sum |
 //! | [`StaticMatrixGroup`], `MatrixGroup` | matrices of any algebra you give | any |
 
@@ -26,8 +26,8 @@ pub use crate::table::dynamic::{CayleyMatrixGroup, MatrixGroup, TableError};
 pub use crate::table::{
     algebra::{BasisEntry, CasimirTerm, StructureConstant},
     catalogue::{
-        Aff1, Aff1Algebra, Heisenberg, HeisenbergAlgebra, Rotations, SL2, SL2Algebra, SO4, SO5,
-        SU3, SpecialUnitary,
+        Aff1, Aff1Algebra, Heisenberg, HeisenbergAlgebra, Rotations, SE23, SE23Algebra, SL2,
+        SL2Algebra, SO4, SO5, SU3, Sp4, Sp4Algebra, SpecialUnitary,
     },
     fixed::{CayleyAlgebra, StaticAlgebra, StaticMatrixGroup},
     group::TableGroup,

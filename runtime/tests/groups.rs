@@ -6,7 +6,7 @@ mod common;
 
 use coadjoint::groups::{
     Aff1, Cayley, Chart, ElementError, Exponential, Heisenberg, MatrixGroup, Power, Product,
-    Rotations, SE2, SL2, SL2Algebra, SO4, SO5, SU2, SU3, SpecialUnitary, StaticAlgebra,
+    Rotations, SE2, SE23, SL2, SL2Algebra, SO4, SO5, SU2, SU3, Sp4, SpecialUnitary, StaticAlgebra,
     StaticMatrixGroup, TableError,
 };
 use coadjoint::{LieGroup, SE3, SO3};
@@ -86,6 +86,10 @@ fn groups_by_name() {
     group_laws(&SU3::<f64>::new(), 0.6, true);
     group_laws(&SL2::<f64>::new(), 0.7, true);
     chart_laws(&SL2::<f64>::new(), Cayley, 0.5, true);
+    group_laws(&SE23::<f64>::new(), 1.0, true);
+    chart_laws(&SE23::<f64>::new(), Cayley, 1.0, true);
+    group_laws(&Sp4::<f64>::new(), 0.5, true);
+    chart_laws(&Sp4::<f64>::new(), Cayley, 0.5, true);
     group_laws(&Aff1::<f64>::new(), 1.0, true);
     chart_laws(&Aff1::<f64>::new(), Cayley, 0.7, true);
 }

@@ -71,7 +71,8 @@ def cross(a, b):
 # ---------------------------------------------------------------- systems of the examples
 
 SYSTEMS = """clebsch_case free_body_full_inertia goryachev_chaplygin_top gyrostat heavy_top_bruels heisenberg_spin_ring
-    kirchhoff_body kovalevskaya_top lagrange_top manakov_so4 su3_quadratic three_wave toda_lattice zeitlin_3 zeitlin_5"""
+    kirchhoff_body kovalevskaya_top lagrange_top manakov_so4 su3_quadratic three_wave toda_lattice zeitlin_3 zeitlin_5
+    ../tests/systems/extended_pose ../tests/systems/beam_moments"""
 
 
 def unit(n, i, j, c=1):
@@ -106,6 +107,13 @@ def named_basis(name):
         return [turn(3, *axes) for axes in rotations]
     if name == "SE3":
         return [turn(4, *axes) for axes in rotations] + [unit(4, i, 3) for i in range(3)]
+    if name == "SE23":
+        return [turn(5, *axes) for axes in rotations] + [unit(5, i, column) for column in (3, 4) for i in range(3)]
+    if name == "Sp4":
+        squares = [unit(4, a, b) - unit(4, b + 2, a + 2) for a in range(2) for b in range(2)]
+        both = [(a, b) for a in range(2) for b in range(a, 2)]
+        corner = lambda i, j, a, b: unit(4, i + a, j + b) + (a != b) * unit(4, i + b, j + a)
+        return squares + [corner(i, j, a, b) for i, j in ((0, 2), (2, 0)) for a, b in both]
     if name == "SO4":
         return [turn(4, a, b) for a in range(4) for b in range(a + 1, 4)]
     return special_unitary(int(name.removeprefix("SU")))
@@ -186,7 +194,7 @@ def system(stem):
     end, _ = ends(data["name"], equations, start + identity, real(str(data["run"]["time"])))
     value = hy.cfunc([energy], mu, fp_type=hy.real, prec=BITS, compact_mode=True)
     before, after = (value(numpy.array(state))[0] for state in (start, end[:n]))
-    entry = {"system": data["name"], "file": f"examples/{stem}.toml", "group": data.get("group", "algebra")}
+    entry = {"system": data["name"], "file": f"examples/{stem}.toml".removeprefix("examples/../"), "group": data.get("group", "algebra")}
     if "algebra" in data:
         entry["structure"] = [[i, j, k, str(c)] for i, j, k, c in structure]
     return entry | {

@@ -11,7 +11,7 @@ use coadjoint_codegen::system::{Options, read, read_either};
 use crate::emitted;
 
 /// Groups with a Hamiltonian on each.
-pub const SYSTEMS: [(&str, &str); 15] = [
+pub const SYSTEMS: [(&str, &str); 17] = [
     ("SO3", "a^2/3 + b^2/4 + c^2/5"),
     ("SU2", "a^2/3 + b^2/4 + c^2/5 + a*b/7"),
     ("SE2", "a^2/3 + b^2/4 + c^2/5 + b*c/9"),
@@ -22,6 +22,11 @@ pub const SYSTEMS: [(&str, &str); 15] = [
     ("Aff1", "a^2/5 + b^2/6"),
     ("SO4", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8"),
     ("SU3", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8 + g^2/9 + h^2/10"),
+    (
+        "SE23",
+        "a^2/2 + b^2/3 + c^2/4 + d^2/5 + e^2/4 + f^2/3 + g^2/6 + h^2/5 + i^2/3 + d*g/4 + a*e/9",
+    ),
+    ("Sp4", "a^2/4 + b^2/6 + c^2/7 + d^2/5 + e^2/6 + f^2/7 + g^2/8 + h^2/6 + i^2/9 + j^2/5"),
     // In the comoving frame.
     (
         "SU3",

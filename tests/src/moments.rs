@@ -16,7 +16,8 @@ pub fn dot(u: &[f64], v: &[f64]) -> f64 {
 
 /// The Casimirs of the groups by name, `algebra` being told by `system`.
 ///
-/// so(3): |Π|²; se(3): |Γ|², Π·Γ; so(4): Σ M_ab² and the Pfaffian; su(n): tr (iM)^k, k = 2 … n.
+/// so(3): |Π|²; se(3): |Γ|², Π·Γ; so(4): Σ M_ab² and the Pfaffian; se_2(3): the
+/// inner products of Γ and Δ; sp(4): tr M², tr M⁴; su(n): tr (iM)^k, k = 2 … n.
 pub fn casimirs(group: &str, system: &str, mu: &[f64]) -> Vec<Measured> {
     match (group, system) {
         ("SO3", _) => vec![(square(mu), square(mu))],
@@ -29,6 +30,19 @@ pub fn casimirs(group: &str, system: &str, mu: &[f64]) -> Vec<Measured> {
         ("SO4", _) => {
             let pfaffian = mu[0] * mu[5] - mu[1] * mu[4] + mu[2] * mu[3];
             vec![(square(mu), square(mu)), (pfaffian, square(mu))]
+        }
+        ("SE23", _) => {
+            let (gamma, delta) = mu[3..].split_at(3);
+            let size = square(gamma) + square(delta);
+            [square(gamma), dot(gamma, delta), square(delta)].map(|value| (value, size)).to_vec()
+        }
+        ("Sp4", _) => {
+            // The matrix ((A, B), (C, −Aᵀ)) dual to the basis by half the trace.
+            let &[a, b, c, d, e, f, g, i, j, k] = mu else { panic!("ten momenta") };
+            let m = [a, c, 2.0 * i, j, b, d, j, 2.0 * k, 2.0 * e, f, -a, -b, f, 2.0 * g, -c, -d];
+            let square = DMatrix::from_row_slice(4, 4, &m).pow(2);
+            let traces = [square.trace(), square.pow(2).trace()];
+            vec![(traces[0], square.norm()), (traces[1], square.norm_squared())]
         }
         ("SU3", _) => moments(&special_unitary(3, mu)),
         ("SU5", _) => moments(&special_unitary(5, mu)),

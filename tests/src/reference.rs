@@ -1,7 +1,7 @@
 //! End states the crates did not produce: `tests/reference/*.json`.
 //!
 //! `systems.json` is written by `make_references.py` beside it (Taylor series of order 44 at 190
-//! bits, 25 digits kept) from the files in `examples/`; `end_states.json` came with the project.
+//! bits, 25 digits kept) from system files; `end_states.json` came with the project.
 
 use std::str::FromStr;
 
@@ -22,7 +22,7 @@ pub struct Term {
 #[derive(Clone, Debug, Deserialize)]
 pub struct EndState {
     pub system: String,
-    /// The file in `examples/`, where there is one.
+    /// The system file, where there is one.
     pub file: Option<String>,
     /// A name of the catalogue, or `algebra`.
     pub group: String,

@@ -15,7 +15,8 @@ const LONGEST: usize = 400;
 
 /// The syntax of products, printed below the list.
 const PRODUCTS: &str = "\
-SO4, SO5, ..., SU3, SU4, ..., U1, U2, ... go up to n = 16, R1, R2, ... to n = 4096. Parentheses are allowed: SO(3).
+SO4, SO5, ..., SU3, SU4, ..., U1, U2, ..., Sp2, Sp4, ... go up to n = 16, R1, R2, ... to n = 4096.
+Parentheses are allowed: SO(3), SE_2(3).
 
 Groups are put together in the key `group` of a system file:
   SO3*SE3        a product; the coordinates of the first factor come first

@@ -16,7 +16,8 @@ use crate::step::Elements;
 const CLOSED_FORMS: [&str; 4] = ["SO3", "SE3", "SU2", "SE2"];
 
 /// Groups the runtime has tables for, under the catalogue's name.
-pub const RUNTIME_TABLES: [&str; 6] = ["Aff1", "Heisenberg", "SL2", "SO4", "SO5", "SU3"];
+pub const RUNTIME_TABLES: [&str; 8] =
+    ["Aff1", "Heisenberg", "SE23", "SL2", "SO4", "SO5", "SU3", "Sp4"];
 
 /// The group in generated code.
 pub(crate) struct GroupType {

@@ -12,6 +12,12 @@ pub type SO5<T = f64> = StaticMatrixGroup<Rotations<5>, 10, 5, T>;
 pub type SU3<T = f64> = StaticMatrixGroup<SpecialUnitary<3>, 8, 6, T>;
 /// The group SL2: real 2×2 matrices of determinant 1. Basis: E_11 − E_22, E_12, E_21. Both charts.
 pub type SL2<T = f64> = StaticMatrixGroup<SL2Algebra, 3, 2, T>;
+/// The group SE_2(3) of extended poses: a turn, a velocity and a place, as 5×5 matrices ((R, v, p), (0, 1)). Basis: the
+/// rotations about the axes, the velocities, the places. Both charts.
+pub type SE23<T = f64> = StaticMatrixGroup<SE23Algebra, 9, 5, T>;
+/// The group Sp(4, ℝ): real 4×4 matrices that keep the symplectic form of (q, p). Basis: of ((A, B), (C, −Aᵀ)) the four
+/// entries of A, then those of the symmetric B and C with a ≤ b. Both charts.
+pub type Sp4<T = f64> = StaticMatrixGroup<Sp4Algebra, 10, 4, T>;
 /// The group Aff1: affine maps of the line, as 2×2 matrices. Basis: the scaling E_11 and the translation E_12. Both
 /// charts; it has no polynomial Casimir.
 pub type Aff1<T = f64> = StaticMatrixGroup<Aff1Algebra, 2, 2, T>;
@@ -31,6 +37,14 @@ pub struct SpecialUnitary<const N: usize>;
 /// The Lie algebra of [`SL2`].
 #[derive(Clone, Copy, Debug)]
 pub struct SL2Algebra;
+
+/// The Lie algebra of [`SE23`].
+#[derive(Clone, Copy, Debug)]
+pub struct SE23Algebra;
+
+/// The Lie algebra of [`Sp4`].
+#[derive(Clone, Copy, Debug)]
+pub struct Sp4Algebra;
 
 /// The Lie algebra of [`Aff1`].
 #[derive(Clone, Copy, Debug)]
@@ -63,6 +77,11 @@ impl<const N: usize> StaticAlgebra for SpecialUnitary<N> {
     };
 }
 
+/// The squares of these coordinates.
+macro_rules! squares {
+    ($($i:literal)*) => { &[$((1.0, &[($i, 2)])),*] };
+}
+
 /// The tables of an algebra of fixed size, and that xξx stays in it.
 macro_rules! small {
     ($algebra:ident, $dim:literal, $size:literal, $basis:ident, $casimirs:expr) => {
@@ -79,6 +98,8 @@ macro_rules! small {
 }
 
 small!(SL2Algebra, 3, 2, SL2_BASIS, &[&[(1.0, &[(0, 2)]), (4.0, &[(1, 1), (2, 1)])]]);
+small!(SE23Algebra, 9, 5, SE23_BASIS, &[squares!(3 4 5), GRAM, squares!(6 7 8)]);
+small!(Sp4Algebra, 10, 4, SP4_BASIS, &[SP4_SQUARES]);
 small!(Aff1Algebra, 2, 2, AFF1_BASIS, &[]);
 small!(HeisenbergAlgebra, 3, 3, HEISENBERG_BASIS, &[&[(1.0, &[(2, 1)])]]);
 
@@ -86,6 +107,38 @@ impl<const D: usize> CayleyAlgebra for Rotations<D> {}
 
 static SL2_BASIS: Entries =
     Entries::EMPTY.with(0, 0, 0, 1.0).with(0, 1, 1, -1.0).with(1, 0, 1, 1.0).with(2, 1, 0, 1.0);
+
+static SE23_BASIS: Entries = Entries::EMPTY
+    .with(0, 2, 1, 1.0)
+    .with(0, 1, 2, -1.0)
+    .with(1, 0, 2, 1.0)
+    .with(1, 2, 0, -1.0)
+    .with(2, 1, 0, 1.0)
+    .with(2, 0, 1, -1.0)
+    .with(3, 0, 3, 1.0)
+    .with(4, 1, 3, 1.0)
+    .with(5, 2, 3, 1.0)
+    .with(6, 0, 4, 1.0)
+    .with(7, 1, 4, 1.0)
+    .with(8, 2, 4, 1.0);
+
+static SP4_BASIS: Entries = Entries::EMPTY
+    .with(0, 0, 0, 1.0)
+    .with(0, 2, 2, -1.0)
+    .with(1, 0, 1, 1.0)
+    .with(1, 3, 2, -1.0)
+    .with(2, 1, 0, 1.0)
+    .with(2, 2, 3, -1.0)
+    .with(3, 1, 1, 1.0)
+    .with(3, 3, 3, -1.0)
+    .with(4, 0, 2, 1.0)
+    .with(5, 0, 3, 1.0)
+    .with(5, 1, 2, 1.0)
+    .with(6, 1, 3, 1.0)
+    .with(7, 2, 0, 1.0)
+    .with(8, 2, 1, 1.0)
+    .with(8, 3, 0, 1.0)
+    .with(9, 3, 1, 1.0);
 
 static AFF1_BASIS: Entries = Entries::EMPTY.with(0, 0, 0, 1.0).with(1, 0, 1, 1.0);
 
@@ -190,17 +243,26 @@ const fn brackets(basis: &Entries) -> Entries {
     structure
 }
 
-/// The squares of these coordinates.
-macro_rules! squares {
-    ($($i:literal)*) => { &[$((1.0, &[($i, 2)])),*] };
-}
-
 /// The square of the momentum: of 𝔰𝔬(5), and its beginning of 𝔰𝔬(4).
 const SQUARES: &[CasimirTerm] = squares!(0 1 2 3 4 5 6 7 8 9);
 
 /// The second Casimir of 𝔰𝔬(4).
 const PFAFFIAN: &[CasimirTerm] =
     &[(1.0, &[(0, 1), (5, 1)]), (-1.0, &[(1, 1), (4, 1)]), (1.0, &[(2, 1), (3, 1)])];
+
+/// The inner product of the momenta of velocity and place.
+const GRAM: &[CasimirTerm] =
+    &[(1.0, &[(3, 1), (6, 1)]), (1.0, &[(4, 1), (7, 1)]), (1.0, &[(5, 1), (8, 1)])];
+
+/// A_11² + A_22² + 2 A_12 A_21 + 4 B_11 C_11 + 2 B_12 C_12 + 4 B_22 C_22 of the momenta.
+const SP4_SQUARES: &[CasimirTerm] = &[
+    (1.0, &[(0, 2)]),
+    (2.0, &[(1, 1), (2, 1)]),
+    (1.0, &[(3, 2)]),
+    (4.0, &[(4, 1), (7, 1)]),
+    (2.0, &[(5, 1), (8, 1)]),
+    (4.0, &[(6, 1), (9, 1)]),
+];
 
 const SU3_SQUARES: &[CasimirTerm] = &[
     (3.0, &[(0, 2)]),

@@ -6,15 +6,17 @@
 //! | `SO2`, `SO4`, `SO5`, … | rotations | E_ba − E_ab for a < b, in lexicographic order |
 //! | `SO3` | rotations of space | the hat matrices about the three axes |
 //! | `SE2`, `SE3` | rigid motions | rotations as in `SO2`, `SO3`, then translations |
+//! | `SE23` | SE_2(3), extended poses | as `SO3 \|x R3^2`: rotations, velocities, places; matrices ((R, v, p), (0, 1)) |
 //! | `SU2` | unit quaternions | −iσ_k/2, so \[e_1, e_2\] = e_3 and cyclic; real 4×4 form |
 //! | `SU3`, `SU4`, … | special unitary | for a < b: E_ab − E_ba, i(E_ab + E_ba); then i(E_kk − E_k+1,k+1) |
 //! | `U1`, `U2`, … | unitary | for a < b as in `SU`; then iE_kk |
 //! | `SL2` | SL(2, ℝ) | H, E, F with \[H,E\] = 2E, \[H,F\] = −2F, \[E,F\] = H |
+//! | `Sp2`, `Sp4`, … | Sp(n, ℝ), symplectic | ((A, B), (C, −Aᵀ)), z = (q, p): E_ab of A row by row; for a ≤ b those of B, then C |
 //! | `Heisenberg` | upper unitriangular 3×3 | \[e_1, e_2\] = e_3 |
 //! | `Aff1` | affine maps of the line | scaling, translation: \[e_1, e_2\] = e_2 |
 //!
 //! Complex n×n matrices A + iB are real 2n×2n matrices ((A, −B), (B, A)). Names may be written with
-//! parentheses, `SO(3)`, `SL(2,R)`.
+//! parentheses, `SO(3)`, `SL(2,R)`, `SE_2(3)`.
 //!
 //! Products: `SO3*SO3`, `SO3^4`, and semidirect products of a group with copies of a space it acts
 //! on: `SO3 |x R3`, `SO3 |x R3^2` (columns of a matrix), `SO3 |x Sym3` (symmetric matrices,
@@ -66,25 +68,18 @@ pub(super) fn group(name: &str) -> Result<LieAlgebra, CatalogueError> {
     } else {
         let n: usize = digits.parse().map_err(|_| unknown())?;
         let limit = if family == "R" { LARGEST_SPACE } else { LARGEST };
-        if n == 0 || !matches!(family, "SO" | "SU" | "U" | "SE" | "SL" | "Aff" | "R") {
+        if n == 0 || !matches!(family, "SO" | "SU" | "U" | "SE" | "SL" | "Sp" | "Aff" | "R") {
             return Err(unknown());
         }
-        if n > limit {
+        if n > limit && family != "SE" {
             return Err(CatalogueError::TooLarge { name: name.into(), what: "n", limit });
         }
         match (family, n) {
-            ("SO", 3) => hats(3),
+            ("SO", 3) => hats(),
             ("SO", 2..) => antisymmetric(n),
-            ("SE", 2) => {
-                let mut basis = vec![real(3, &[((1, 0), 1), ((0, 1), -1)])];
-                basis.extend(translations(2));
-                basis
-            }
-            ("SE", 3) => {
-                let mut basis = hats(4);
-                basis.extend(translations(3));
-                basis
-            }
+            ("SE", 2) => return Ok(lookup("SO2 |x R2")?.renamed(plain)),
+            ("SE", 3) => return Ok(lookup("SO3 |x R3")?.renamed(plain)),
+            ("SE", 23) => return Ok(lookup("SO3 |x R3^2")?.renamed(plain)),
             ("SU", 2) => pauli(),
             ("SU", 3..) => {
                 let mut basis = off_diagonal(n);
@@ -99,11 +94,8 @@ pub(super) fn group(name: &str) -> Result<LieAlgebra, CatalogueError> {
                 basis.extend((0..n).map(|k| complex(n, &[], &[(k, k, integer(1))])));
                 basis
             }
-            ("SL", 2) => vec![
-                real(2, &[((0, 0), 1), ((1, 1), -1)]),
-                real(2, &[((0, 1), 1)]),
-                real(2, &[((1, 0), 1)]),
-            ],
+            ("SL", 2) => symplectic(1),
+            ("Sp", _) if n.is_multiple_of(2) => symplectic(n / 2),
             ("Aff", 1) => vec![real(2, &[((0, 0), 1)]), real(2, &[((0, 1), 1)])],
             ("R", _) => translations(n),
             _ => return Err(unknown()),
@@ -112,10 +104,10 @@ pub(super) fn group(name: &str) -> Result<LieAlgebra, CatalogueError> {
     LieAlgebra::from_basis(plain, basis).map_err(|_| unknown())
 }
 
-/// `SO(3)` as `SO3`, `SL(2,R)` as `SL2`.
+/// `SO(3)` as `SO3`, `SL(2,R)` as `SL2`, `SE_2(3)` as `SE23`.
 fn plain(name: &str) -> String {
     let mut text: String =
-        name.chars().filter(|c| !c.is_whitespace() && !"()".contains(*c)).collect();
+        name.chars().filter(|c| !c.is_whitespace() && !"()_".contains(*c)).collect();
     for real in [",R", ",ℝ"] {
         if let Some(rest) = text.strip_suffix(real) {
             text = rest.to_owned();
@@ -147,9 +139,23 @@ fn complex(
     RationalMatrix::from_entries(2 * n, 2 * n, entries)
 }
 
-/// The three hat matrices in the upper left corner.
-fn hats(size: usize) -> Vec<RationalMatrix> {
-    [(1, 2), (2, 0), (0, 1)].map(|(a, b)| real(size, &[((b, a), 1), ((a, b), -1)])).to_vec()
+/// The three hat matrices.
+fn hats() -> Vec<RationalMatrix> {
+    [(1, 2), (2, 0), (0, 1)].map(|(a, b)| real(3, &[((b, a), 1), ((a, b), -1)])).to_vec()
+}
+
+/// The matrices ((A, B), (C, −Aᵀ)) with symmetric B and C in ℝ²ⁿ.
+fn symplectic(n: usize) -> Vec<RationalMatrix> {
+    let squares = (0..n * n).map(|k| (k / n, k % n));
+    let diagonal = squares.map(|(a, b)| real(2 * n, &[((a, b), 1), ((n + b, n + a), -1)]));
+    let corners = [(0, n), (n, 0)].into_iter().flat_map(|(row, column)| {
+        let both = (0..n).flat_map(move |a| (a..n).map(move |b| [(a, b), (b, a)]));
+        both.map(move |both| {
+            let entries = both.map(|(a, b)| ((row + a, column + b), 1));
+            real(2 * n, &entries[usize::from(both[0] == both[1])..])
+        })
+    });
+    diagonal.chain(corners).collect()
 }
 
 fn antisymmetric(n: usize) -> Vec<RationalMatrix> {
@@ -195,6 +201,7 @@ pub fn names() -> &'static [&'static str] {
         "SO5",
         "SE2",
         "SE3",
+        "SE23",
         "SU2",
         "SU3",
         "SU4",
@@ -202,6 +209,7 @@ pub fn names() -> &'static [&'static str] {
         "U2",
         "U3",
         "SL2",
+        "Sp4",
         "Heisenberg",
         "Aff1",
         "R1",
@@ -233,11 +241,17 @@ pub fn summary(name: &str) -> Option<String> {
         ("SO", 4..) => format!("rotations of {n} dimensions; in the planes (a, b), a < b"),
         ("SE", 2) => "rigid motions of the plane; the rotation, then translations".to_owned(),
         ("SE", 3) => "rigid motions of space; rotations as in SO3, then translations".to_owned(),
+        ("SE", 23) => {
+            "extended poses; rotations as in SO3, then velocities, then places".to_owned()
+        }
         ("SU", 2) => "unit quaternions; -i/2 times the Pauli matrices".to_owned(),
         ("SU", 3..) => format!("unitary {n} x {n} matrices of determinant 1; {PAIRS}"),
         ("U", 1) => "complex numbers of modulus 1".to_owned(),
         ("U", 2..) => format!("unitary {n} x {n} matrices; {PAIRS}"),
         ("SL", 2) => "real 2 x 2 matrices of determinant 1; H, E, F".to_owned(),
+        ("Sp", _) if n.is_multiple_of(2) => {
+            format!("symplectic {n} x {n} matrices (A, B; C, -A^T); A, then symmetric B, then C")
+        }
         ("Heisenberg", 0) => {
             "upper 3 x 3 matrices with diagonal 1; the centre comes last".to_owned()
         }

@@ -64,11 +64,12 @@ fn degrees_of_the_generators() {
     // The degrees of the simple groups: exponents plus one (Bourbaki, Lie VI, plates I to IV).
     assert_eq!(degrees("SU3", 4), [2, 3]);
     assert_eq!(degrees("SO5", 4), [2, 4]);
+    assert_eq!(degrees("Sp4", 4), [2, 4]);
     assert_eq!(degrees("U2", 3), [1, 2]);
     assert_eq!(degrees("U3", 3), [1, 2, 3]);
     assert_eq!(degrees("SU2*R1", 4), [1, 2]);
-    // The heavy top with two fields: Γ·Γ, Γ·Δ, Δ·Δ.
-    assert_eq!(degrees("SO3 |x R3^2", 2), [2, 2, 2]);
+    // Γ·Γ, Γ·Δ and Δ·Δ are all: a generic orbit has dimension 2·3, as Γ and Δ are left alone by no turn (M. Raïs).
+    assert_eq!(degrees("SE23", 4), [2, 2, 2]);
 }
 
 #[test]

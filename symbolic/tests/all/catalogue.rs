@@ -14,7 +14,7 @@ fn bracket(algebra: &LieAlgebra, i: usize, j: usize) -> Vec<(usize, Rational)> {
 
 #[test]
 fn every_name() {
-    let dimensions = [1, 3, 6, 10, 3, 6, 3, 8, 15, 1, 4, 9, 3, 3, 2, 1, 2, 3];
+    let dimensions = [1, 3, 6, 10, 3, 6, 9, 3, 8, 15, 1, 4, 9, 3, 10, 3, 2, 1, 2, 3];
     assert_eq!(catalogue::names().len(), dimensions.len());
     for (name, dimension) in catalogue::names().iter().zip(dimensions) {
         let algebra = lookup(name);
@@ -39,6 +39,13 @@ fn brackets_as_documented() {
     assert!(bracket(&se2, 2, 3).is_empty());
     assert!(lookup("R4").structure().is_empty());
     assert_eq!(lookup("SO(5)"), lookup("SO5"));
+    assert_eq!(lookup("SE_2(3)"), lookup("SE23"));
+    let sp4 = lookup("Sp(4, R)");
+    assert_eq!(bracket(&sp4, 5, 8), [(1, integer(1))]);
+    assert_eq!(bracket(&sp4, 6, 8), [(3, integer(1))]);
+    assert_eq!(bracket(&sp4, 1, 5), [(5, integer(2))]);
+    assert_eq!(lookup("Sp2").structure(), sl2.structure());
+    assert_eq!(lookup("Sp6").dim(), 21);
 }
 
 #[test]
@@ -97,7 +104,7 @@ fn semidirect_products() {
 
 #[test]
 fn cayley_where_it_exists() {
-    for name in ["SO3", "SO4", "SO5", "SE2", "SE3", "SU2", "U1", "U2", "U3", "SL2", "Heisenberg"] {
+    for name in ["SO3", "SO4", "SO5", "SE2", "SE3", "SE23", "SU2", "U1", "U2", "U3", "SL2", "Sp4"] {
         assert_eq!(Chart::Cayley.check(&lookup(name)), Ok(()), "{name}");
     }
     for name in ["SU3", "SU4", "SO3*SU3"] {
@@ -112,6 +119,8 @@ fn messages() {
     let message = |text: &str| catalogue::lookup(text).unwrap_err().to_string();
     assert!(message("SO3 * Heisenbreg").contains("did you mean `Heisenberg`"));
     assert!(message("so3").contains("did you mean `SO3`"));
+    assert!(message("SE_2(4)").contains("unknown group"));
+    assert!(message("Sp5").contains("unknown group"));
     assert!(message("E8").contains("unknown group"));
     assert!(message("SO3 *").contains("expected a group such as SO3 but found the end"));
     assert!(message("SO3 SO3").contains("found `SO3`"));

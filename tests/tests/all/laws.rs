@@ -3,7 +3,7 @@
 
 use coadjoint::groups::{
     Aff1, Cayley, CayleyMatrixGroup, Chart, Coordinates, Exponential, Heisenberg, MatrixGroup,
-    Power, Product, SE2, SL2, SO4, SO5, SU2,
+    Power, Product, SE2, SE23, SL2, SO4, SO5, SU2, Sp4,
 };
 use coadjoint::laws::check;
 use coadjoint::steps::advance;
@@ -193,6 +193,7 @@ laws_hold_for! {
     u2: named("U2"), Energy::Full, exp tables, cayley cayley_tables;
     u3: named("U3"), Energy::Only(&[0, 2, 4, 6, 7]), exp tables, cayley cayley_tables;
     so5: named("SO5"), Energy::Only(&[0, 4, 7, 9]), exp typed!(SO5), cayley typed!(SO5);
+    sp4: named("Sp4"), Energy::Only(&[0, 1, 5, 8]), exp typed!(Sp4), cayley typed!(Sp4);
     su3: named("SU3"), Energy::Diagonal, exp tables, , no_cayley;
     su4: named("SU4"), Energy::Only(&[0, 6, 10, 12]), exp tables, , no_cayley;
     // Products and powers.
@@ -202,7 +203,7 @@ laws_hold_for! {
     so3_se2_tables: named("SO3*SE2"), Energy::Diagonal, exp tables, cayley cayley_tables;
     // Semidirect products, and algebras of one's own.
     heavy_top: named("SO3 |x R3"), Energy::Full, exp tables, cayley cayley_tables;
-    two_vectors: named("SO3 |x R3^2"), Energy::Diagonal, exp tables, cayley cayley_tables;
+    extended_poses: named("SE23"), Energy::Diagonal, exp typed!(SE23), cayley typed!(SE23);
     symmetric_matrices: named("SO3 |x Sym3"), Energy::Diagonal, exp tables, , no_cayley;
     by_basis: by_basis(), Energy::Full, exp tables, cayley cayley_tables;
     by_brackets: by_brackets(), Energy::Full, exp tables, , no_cayley;

@@ -53,6 +53,8 @@ reaches! {
     gyrostat: "gyrostat", [(3, 200, 6e-5), (5, 200, 2e-7), (7, 100, 5e-8)];
     manakov_body: "Manakov so(4)", [(3, 50, 1e-8), (5, 50, 2e-12), (7, 12, 3e-11)];
     su3_quadratic: "su3-quadratic", [(3, 50, 7e-7), (5, 50, 6e-10), (7, 25, 2e-10)];
+    extended_pose: "extended-pose", [(3, 50, 6e-8), (5, 25, 1e-9), (7, 12, 4e-10)];
+    moments_of_a_beam: "beam-moments", [(3, 100, 5e-8), (5, 50, 1e-9), (7, 25, 3e-10)];
     three_wave_interaction: "three-wave", [(3, 100, 5e-5), (5, 50, 2e-5)];
     heisenberg_spin_ring: "heisenberg-spin-ring", [(3, 50, 5e-4)];
     zeitlin_3: "zeitlin-3", [(3, 50, 8e-6), (5, 25, 4e-7)];
