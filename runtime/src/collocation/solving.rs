@@ -43,6 +43,9 @@ pub(super) struct Attempt<V: Coordinates<f64>, const M: usize> {
     pub ending: Ending<V>,
 }
 
+/// The time and the momentum at which the gradient or the drive is not finite, and the expression of the drive that is not.
+type Lost<V> = (f64, V, Option<Undefined>);
+
 /// The outcome of an attempt.
 pub(super) enum Ending<V> {
     Solved,
@@ -139,14 +142,14 @@ where
     /// The rates that follow from others, with the increment of the step and the momentum in the middle, and the momenta at the nodes.
     ///
     /// # Errors
-    /// The time and the momentum at which the gradient or the drive is not finite, and the expression of the drive that is not.
+    /// [`Lost`].
     #[inline(always)]
     fn sweep(
         &self,
         rates: &Rates<G::Vector, M>,
         (whole, p): (&G::Vector, &G::Vector),
         mu: &mut <G::Vector as Coordinates<f64>>::Rows<M>,
-    ) -> Result<Rates<G::Vector, M>, (f64, G::Vector, Option<Undefined>)> {
+    ) -> Result<Rates<G::Vector, M>, Lost<G::Vector>> {
         let (nodes, degree, dim) = (&Self::NODES, degree(M), p.dim());
         let x = mixed(&G::Vector::zeros(dim), &nodes.matrix, &rates.x);
         let p = mixed(p, &nodes.matrix, &rates.p);

@@ -824,8 +824,10 @@ impl<'a> Assembly<'a> {
         let weights = constants(graph, &self.gauss.highest);
         let highest = |rows| largest(graph, &mixed(graph, &zeros, &weights, rows));
         // Two nodes see the acceleration alone.
-        let floor = if self.nodes() == 2 { SLOW } else { 0.0 };
-        let velocity = graph.max(velocity, graph.constant(floor));
+        let velocity = match self.nodes() {
+            2 => graph.max(velocity, graph.constant(SLOW)),
+            _ => velocity,
+        };
         let of_velocity = share(graph, highest(&rates.x), velocity);
         let of_force = share(graph, highest(&rates.p), scale);
         [graph.mul(tail, of_velocity), graph.mul(steep, of_force)]
