@@ -226,7 +226,7 @@ class System:
         self._functions, self._inputs = functions, inputs
         self._core = _core.Core(text, name, functions, list(inputs.items())) if core is None else core
         self._facts = self._core.facts()
-        self._steppers: dict[tuple[float | None, str], _core.Stepper] = {}
+        self._steppers: dict[tuple[float | None, str, tuple[str, ...]], _core.Stepper] = {}
 
     # Facts.
 

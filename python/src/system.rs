@@ -57,8 +57,11 @@ pub struct Core {
     /// The latest choices for tolerances, for calls that ask for the same.
     chosen: Arc<Mutex<VecDeque<Chosen>>>,
     /// The system derived last for derivatives, which are often asked for one after the other.
-    pub(crate) differentiated: Arc<Mutex<Option<(Purpose, Arc<Derived>)>>>,
+    pub(crate) differentiated: Arc<Mutex<Option<Differentiated>>>,
 }
+
+/// A system derived for a purpose.
+type Differentiated = (Purpose, Arc<Derived>);
 
 /// The parameters of an ensemble that vary, and the state along whose motion a tolerance is met where the text has none.
 type Ensemble = (Vec<String>, Option<Vec<f64>>);

@@ -174,7 +174,7 @@ def test_torques_are_lists_of_expressions() -> None:
 
 def test_velocities_move_states_along_their_orbits() -> None:
     x, y, z, t = sympy.symbols("x y z t")
-    turning = ca.System("SO3", velocity=[0, 0, sympy.cos(t)], coordinates="x y z", momentum=START, time=2)
+    turning = ca.System("SO3", velocity=["0", "0", sympy.cos(t)], coordinates="x y z", momentum=START, time=2)
     run = turning.simulate(tolerance=1e-10)
     angle = np.sin(run.time)
     plane = START[0] + 1j * START[1]
