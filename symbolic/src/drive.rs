@@ -49,9 +49,9 @@ pub struct Drive {
 
 /// The parts that a drive is made of.
 #[derive(Clone, Debug, Default)]
-pub struct Parts {
+pub struct Ingredients {
     /// η and τ as the user gives them, with the inputs of a [`Drive`], one after the other as far as they are
-    /// [`given`](Parts::given); what is watched in them, the texts of that, and their symbols.
+    /// [`given`](Ingredients::given); what is watched in them, the texts of that, and their symbols.
     pub own: Option<(Program, Program, Vec<String>, Vec<Symbol>)>,
     /// True if η, and τ, are among them.
     pub given: [bool; 2],
@@ -69,13 +69,13 @@ pub struct Parts {
 
 /// The places of the inputs of a program, one list after the other.
 #[derive(Clone, Copy, Debug)]
-struct Places {
+struct Layout {
     entries: usize,
     dim: usize,
     signals: usize,
 }
 
-impl Places {
+impl Layout {
     fn count(self) -> usize {
         self.entries + 2 * self.dim + 1 + self.signals
     }
@@ -91,12 +91,12 @@ impl Places {
 
 impl Drive {
     /// From its parts; `None` where a potential is none of programs.
-    pub fn new(algebra: &LieAlgebra, signals: &[Signal], parts: Parts) -> Option<Self> {
-        let Parts { own, given, moves, kinks, damping, potential, source } = parts;
+    pub fn new(algebra: &LieAlgebra, signals: &[Signal], parts: Ingredients) -> Option<Self> {
+        let Ingredients { own, given, moves, kinks, damping, potential, source } = parts;
         let dim = algebra.dim();
         let reads = own.is_some() || potential.is_some();
         let entries = if reads { algebra.matrix_size().pow(2) } else { 0 };
-        let places = Places { entries, dim, signals: signals.len() };
+        let places = Layout { entries, dim, signals: signals.len() };
         let graph = Graph::new();
         let all: Vec<Id> = (0..places.count()).map(|at| graph.input(at)).collect();
         let (mut eta, mut tau) = (vec![graph.zero(); dim], vec![graph.zero(); dim]);

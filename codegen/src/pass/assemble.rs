@@ -8,7 +8,7 @@ use super::program::{Lowered, lower};
 use crate::diagnostic::{Diagnostic, Diagnostics, Mistake, Span};
 use crate::drive::Drive;
 #[cfg(feature = "system")]
-use crate::drive::Parts;
+use crate::drive::Ingredients;
 use crate::expr::{Arena, ExprId, Node};
 use crate::lie::{Chart, LieAlgebra};
 use crate::number::Rational;
@@ -469,7 +469,7 @@ pub(crate) fn assemble_drive(
 ) -> Option<Drive> {
     let size = algebra.matrix_size();
     let (acting, damping) = read.map_or((None, None), |(acting, damping)| (Some(acting), damping));
-    let mut parts = Parts { damping, ..Parts::default() };
+    let mut parts = Ingredients { damping, ..Ingredients::default() };
     let named = |energy: &Energy| format!("potential = {}", energy.source);
     let sources = acting.iter().map(|own| own.energy.source.clone()).chain(potential.map(named));
     parts.source = sources.collect::<Vec<_>>().join(", ");

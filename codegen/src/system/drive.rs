@@ -1,4 +1,4 @@
-//! The keys `velocity`, `torque` and `damping`: what moves a system beside its Hamiltonian.
+//! The keys `velocity`, `torque` and `damping`: motion beside that of the Hamiltonian.
 
 use super::initial::coordinates;
 use super::parameters::Parameters;
@@ -23,9 +23,9 @@ pub(super) fn is_given(root: &Table<'_>) -> bool {
     KEYS.iter().any(|key| root.has(key))
 }
 
-/// What the keys say; none where there is no such key, or where it is a mistake.
+/// The content of the keys; none where there is no such key, or where it is a mistake.
 #[derive(Debug)]
-pub(super) struct Read {
+pub(super) struct Stated {
     /// The expressions of `velocity` and `torque`.
     pub acting: Acting,
     /// The diagonal of Γ; none where all of it is 0.
@@ -40,7 +40,7 @@ pub(super) fn read(
     coordinates: &[(String, Span)],
     parameters: &Parameters,
     inputs: &[(Signal, Span)],
-) -> Option<Read> {
+) -> Option<Stated> {
     let damping = damping(root, algebra);
     let lists = [("velocity", VELOCITY), ("torque", TORQUE)]
         .map(|(key, example)| (key, example, root.strings(key, "a list of expressions", example)));
@@ -83,7 +83,7 @@ pub(super) fn read(
     }
     sources.extend(damping.iter().map(|rates| format!("damping = {rates:?}")));
     let energy = Energy { arena, root: None, parameters: kept, source: sources.join(", ") };
-    Some(Read { acting: Acting { energy, roots }, damping })
+    Some(Stated { acting: Acting { energy, roots }, damping })
 }
 
 /// Reads `damping`: a number, or a list of one for each coordinate. None where all of them are 0.

@@ -100,7 +100,7 @@ pub struct Bond {
 pub struct Energy {
     /// Quadratic forms, with their factors.
     pub terms: Vec<Term>,
-    /// What is no quadratic form: its value, its gradient, and their slots.
+    /// The part that is no quadratic form: its value, its gradient, and their slots.
     pub function: Option<Box<([Program; 2], Vec<f64>)>>,
     /// The tables that factors are made of.
     pub tables: Vec<File>,

@@ -11,7 +11,7 @@ use coadjoint_codegen::step;
 use nalgebra::DVector;
 
 use super::compiled::Solved;
-use super::drive::Driven;
+use super::drive::Actuator;
 use super::linear::{Linear, moved};
 use super::method::{Flow, Method, Slope};
 use super::response::Response;
@@ -55,7 +55,13 @@ fn at_nodes<'a, const M: usize>(
         let make = |_: &Smooth, _: &Tables, _: &[f64]| ();
         return Ok(Box::new(Collocated::<M, ()>::new(smooth, group, size, parameters, make)?));
     }
-    Ok(Box::new(Collocated::<M, Driven<'a>>::new(smooth, group, size, parameters, Driven::new)?))
+    Ok(Box::new(Collocated::<M, Actuator<'a>>::new(
+        smooth,
+        group,
+        size,
+        parameters,
+        Actuator::new,
+    )?))
 }
 
 /// The energy by its programs.

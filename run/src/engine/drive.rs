@@ -15,7 +15,7 @@ type Element = <Tables as LieGroup>::Element;
 
 /// The drive of a smooth system, for these values of the parameters that it keeps.
 #[derive(Clone, Debug)]
-pub(super) struct Driven<'a> {
+pub(super) struct Actuator<'a> {
     smooth: &'a Smooth,
     group: Arc<Tables>,
     symbols: Arc<[f64]>,
@@ -23,7 +23,7 @@ pub(super) struct Driven<'a> {
     reads: bool,
 }
 
-impl<'a> Driven<'a> {
+impl<'a> Actuator<'a> {
     pub(super) fn new(smooth: &'a Smooth, group: &Tables, parameters: &[f64]) -> Self {
         let reads = smooth.drive.as_ref().is_some_and(|drive| drive.reads_element());
         let symbols = smooth.symbols_at(parameters).into();
@@ -35,7 +35,7 @@ impl<'a> Driven<'a> {
     }
 }
 
-impl Drive<Tables> for Driven<'_> {
+impl Drive<Tables> for Actuator<'_> {
     fn acting(
         &self,
         time: f64,

@@ -24,7 +24,7 @@ pub(super) type Spins = Vec<[f64; 3]>;
 /// Arrays that stand for files, by their names: shapes, and numbers row by row.
 pub type Arrays = BTreeMap<String, (Vec<usize>, Vec<f64>)>;
 
-/// Where the arrays of a text are: some are given, others stand in files beside that of the system.
+/// The places of the arrays of a text: some are given, others stand in files beside that of the system.
 #[derive(Clone, Copy)]
 pub(super) struct Files<'a> {
     pub system: &'a Path,
@@ -41,7 +41,7 @@ fn at<E: ToString>(place: Span) -> impl Fn(E) -> Misplaced {
     move |error| Misplaced(place, error.to_string())
 }
 
-/// What the files of a text hold.
+/// The content of the files of a text.
 #[derive(Debug)]
 pub(super) struct Tables {
     site: Vec<Vec<f64>>,

@@ -6,7 +6,7 @@ use crate::group::LieGroup;
 use crate::linear::coordinates::Coordinates;
 use crate::number::Scalar;
 
-/// What moves a system beside its Hamiltonian: ġ = g ξ, μ̇ = ad\*_ξ μ + τ with ξ = ω + η, ω = ∂H/∂μ.
+/// A velocity and a torque beside a Hamiltonian: ġ = g ξ, μ̇ = ad\*_ξ μ + τ with ξ = ω + η, ω = ∂H/∂μ.
 ///
 /// A velocity η, whatever it is, keeps Casimirs and the spatial momentum; a torque τ changes the spatial momentum by its integral, and
 /// keeps each component along which it does not act. Steps with a drive are not symplectic. A closure of t, g, μ and ω is one, and gives η

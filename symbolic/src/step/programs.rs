@@ -160,7 +160,7 @@ pub(super) fn sound(group: &Product) -> Program {
     graph.finish(m + n, &[all_at_most(&graph, &[(defect, graph.sqrt(limit))])])
 }
 
-/// What a force changes of the quantities that are watched.
+/// A force, as far as it changes quantities that are watched.
 pub(super) struct Acting<'a> {
     /// V, and the number of its first slot, where it has a potential.
     pub energy: Option<(&'a Program, usize)>,
