@@ -11,9 +11,10 @@ use coadjoint_page::gallery::gallery;
 use coadjoint_page::run::Animation;
 use coadjoint_page::system::System;
 
-/// Lists of bonds, which a page's fields do not hold, potentials, torques, damping, 192 dimensions, and steps of more than 60 000
+/// Lists of bonds, which a page's fields do not hold, potentials, velocities, torques, damping, 192 dimensions, and steps of more than 60 000
 /// operations: not for a page.
-const LEFT_OUT: [&str; 13] = [
+const LEFT_OUT: [&str; 16] = [
+    "attitude_feedback",
     "damped_body",
     "elliptic_satellite",
     "kagome_star",
@@ -24,7 +25,9 @@ const LEFT_OUT: [&str; 13] = [
     "satellite",
     "spin_chain_64",
     "spin_molecule",
+    "spin_torque_oscillator",
     "spin_triangle",
+    "underwater_vehicle",
     "vortex_ring",
     "zeitlin_5",
 ];

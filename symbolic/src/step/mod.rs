@@ -68,7 +68,7 @@ pub struct Step {
 struct Moving {
     /// The first place.
     first: usize,
-    /// The times from the beginning of a flow on, in its lengths; the first is that of the kick before it.
+    /// The times from the beginning of a flow on, in its lengths.
     times: Vec<f64>,
     signals: Vec<Signal>,
 }
