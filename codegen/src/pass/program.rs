@@ -28,7 +28,8 @@ pub(super) struct Lowered {
     pub watched: Program,
     pub reach: Program,
     pub expressions: Vec<String>,
-    /// The texts of expressions that have a kink.
+    /// The texts of expressions that have a kink, which only files may have.
+    #[cfg_attr(not(feature = "system"), allow(dead_code))]
     pub kinks: Vec<String>,
     pub symbols: Vec<Symbol>,
 }
