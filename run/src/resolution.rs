@@ -33,11 +33,11 @@ const HALVINGS: u32 = 24;
 fn resolve(
     file: &Path,
     (Grid { start, step }, steps): (Grid, u64),
-    moving: &[Moving<'_>],
+    moving: &Moving<'_>,
 ) -> Result<(), RunError> {
     let seen = |shorter: f64| {
         let steps = (steps as f64 * (step / shorter)) as u64;
-        moving.iter().all(|moving| moving.is_seen(Grid { start, step: shorter }, steps))
+        moving.is_seen(Grid { start, step: shorter }, steps)
     };
     if seen(step) {
         return Ok(());
@@ -74,10 +74,9 @@ impl Derived {
         let parameters = facts.defaults();
         let any = (0..facts.algebra.dim()).map(|i| 1.0 / (i + 1) as f64);
         let momentum = momentum.map_or_else(|| any.collect(), <[f64]>::to_vec);
-        let velocity = self.origin.smooth();
-        let moving = velocity.and_then(|smooth| Moving::new(smooth, &parameters, &momentum));
-        let moving: Vec<Moving<'_>> = moving.into_iter().collect();
-        resolve(&self.file, (grid, steps), &moving)
+        let smooth = self.origin.smooth();
+        let moving = smooth.and_then(|smooth| Moving::new(smooth, &parameters, &momentum));
+        moving.map_or(Ok(()), |moving| resolve(&self.file, (grid, steps), &moving))
     }
 }
 

@@ -60,19 +60,7 @@ impl Programs {
         };
         let (graph, g) = entries();
         let slopes = graph.call(gradient, &g);
-        // (g e)_ij = Σ_l g_il e_lj.
-        let along = |e: &RationalMatrix| {
-            let mut sum = graph.zero();
-            for (l, j, value) in e.entries() {
-                let factor = graph.constant(-value.to_f64().unwrap_or(f64::NAN));
-                for i in 0..size {
-                    let scaled = graph.mul(factor, g[i * size + l]);
-                    sum = graph.times_plus(scaled, slopes[i * size + j], sum);
-                }
-            }
-            sum
-        };
-        let outputs: Vec<Id> = algebra.matrices().iter().map(along).collect();
+        let outputs = along(&graph, algebra, -1.0, [&g, &slopes]);
         let torque = graph.finish(size * size, &outputs);
         let (value, watched) = (Some(autonomous(value)), autonomous(watched));
         Self { value, torque, watched, expressions }
@@ -89,6 +77,30 @@ impl Programs {
         let arguments: Vec<Argument> = (0..entries).map(Argument::Input).collect();
         Some(self.value.as_ref()?.gradient(&arguments))
     }
+}
+
+/// The derivatives of a function of the matrix of g by ε in g exp(ε e), for each e of the basis, times a factor; by the entries of g and
+/// the slopes in them, row by row.
+pub(crate) fn along(
+    graph: &Graph,
+    algebra: &LieAlgebra,
+    factor: f64,
+    [g, slopes]: [&[Id]; 2],
+) -> Vec<Id> {
+    let size = algebra.matrix_size();
+    // (g e)_ij = Σ_l g_il e_lj.
+    let along = |e: &RationalMatrix| {
+        let mut sum = graph.zero();
+        for (l, j, value) in e.entries() {
+            let factor = graph.constant(factor * value.to_f64().unwrap_or(f64::NAN));
+            for i in 0..size {
+                let scaled = graph.mul(factor, g[i * size + l]);
+                sum = graph.times_plus(scaled, slopes[i * size + j], sum);
+            }
+        }
+        sum
+    };
+    algebra.matrices().iter().map(along).collect()
 }
 
 /// The first expression that is not defined, or has no derivative, by its number, and its argument, from the outputs of

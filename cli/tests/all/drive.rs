@@ -501,6 +501,10 @@ fn drives_go_through_every_door() {
                 "remove it",
             ],
         );
+    let wrong = rubbed("potential = \"w*g[2][2]\"").text("system.toml");
+    let wrong = Folder::with(&wrong.replace("[integrator]", "[integrator]\nsplitting = 3"));
+    let said = wrong.run("simulate system.toml").fails(2, &["`splitting` must be a text"]);
+    assert_eq!(said.error.matches("must be a text").count(), 1, "{}", said.error);
     let driven = rubbed("torque = [\"0\", \"0\", \"u + cos(t)\"]");
     driven.run("simulate system.toml --time 3").fails(2, &["the input `u` goes from time 0 to 2"]);
     driven.write("in.csv", "mu_1,mu_2,mu_3\n0.3,-0.2,0.5\n1,2,3\n");

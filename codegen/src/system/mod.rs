@@ -75,6 +75,7 @@ use crate::potential::Potential;
 use crate::problem::{Parameter, Problem};
 use crate::signal::Signal;
 use crate::smooth::{Functions, Hamiltonian, Smooth};
+use splitting::Asked;
 use table::Table;
 
 pub use coadjoint_program::splitting::Splitting;
@@ -112,10 +113,7 @@ impl System<Hamiltonian> {
     /// True if the equations depend on time, by inputs too.
     #[must_use]
     pub fn depends_on_time(&self) -> bool {
-        let moves = |smooth: &Smooth| {
-            smooth.moves || smooth.drive.as_ref().is_some_and(|drive| drive.moves)
-        };
-        self.problem.smooth().is_some_and(moves)
+        self.problem.smooth().is_some_and(Smooth::depends_on_time)
     }
 
     /// The velocity and the torque beside the Hamiltonian, where there are any.
@@ -352,16 +350,14 @@ fn system<H>(
         run.truncation = choice.truncation;
     }
     let of_potential = energies::potential(&root, algebra.as_ref(), &parameters);
-    let splitting = splitting::read(&root, integrator.as_ref());
+    let splitting = Asked::read(&root, integrator.as_ref());
     // Mistakes of both energies at once.
     let potential = of_potential.as_ref().and_then(|energy| {
         assemble_potential("potential".to_owned(), algebra.clone(), None, energy, diagnostics)
     });
     let signals: Vec<Signal> = inputs.into_iter().map(|(signal, _)| signal).collect();
     // Beside a velocity or a torque a potential has no kicks, nor where none are asked for.
-    let without_kicks =
-        || integrator.as_ref()?.string("splitting", "")?.0.eq(splitting::NONE).then_some(());
-    let joined = driven || without_kicks().is_some();
+    let joined = driven || matches!(splitting, Asked::None);
     let drive = match (&algebra, acting.is_some() || potential.is_some()) {
         (Some(algebra), true) if joined => {
             let of_potential = of_potential.as_ref().filter(|_| potential.is_some());
@@ -381,7 +377,7 @@ fn system<H>(
     }
     let quadratic = (kind.quadratic)(&problem);
     let potential = potential.map(|potential| {
-        let splitting = splitting::choose(splitting, quadratic, diagnostics);
+        let splitting = splitting.choose(quadratic, diagnostics);
         (potential, splitting)
     });
     Some(System { problem, potential, run, units, parameters: parameters.all() })

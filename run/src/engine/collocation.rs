@@ -24,7 +24,7 @@ use crate::error::kept;
 /// Fails if the size makes no sense, or an expression in the parameters is not finite.
 pub(super) fn collocated<'a>(
     smooth: &'a Smooth,
-    group: &Tables,
+    group: &Arc<Tables>,
     size: f64,
     parameters: &[f64],
 ) -> Result<Box<dyn Method<'a> + 'a>, StepError> {
@@ -47,12 +47,12 @@ pub(super) fn collocated<'a>(
 /// Collocation at `M` nodes, with the drive where there is one.
 fn at_nodes<'a, const M: usize>(
     smooth: &'a Smooth,
-    group: &Tables,
+    group: &Arc<Tables>,
     size: f64,
     parameters: &[f64],
 ) -> Result<Box<dyn Method<'a> + 'a>, StepError> {
     if smooth.drive.is_none() {
-        let make = |_: &Smooth, _: &Tables, _: &[f64]| ();
+        let make = |_: &Smooth, _: &Arc<Tables>, _: &[f64]| ();
         return Ok(Box::new(Collocated::<M, ()>::new(smooth, group, size, parameters, make)?));
     }
     Ok(Box::new(Collocated::<M, Actuator<'a>>::new(
@@ -103,12 +103,12 @@ impl Energy<DVector<f64>> for Interpreted<'_> {
 type Remembering<'a, const M: usize, D> = Mutex<Collocation<Tables, Interpreted<'a>, M, D>>;
 
 /// Makes the drive for these values of the parameters.
-type Make<'a, D> = fn(&'a Smooth, &Tables, &[f64]) -> D;
+type Make<'a, D> = fn(&'a Smooth, &Arc<Tables>, &[f64]) -> D;
 
 /// Collocation at `M` nodes.
 struct Collocated<'a, const M: usize, D> {
     smooth: &'a Smooth,
-    group: Tables,
+    group: Arc<Tables>,
     energy: Interpreted<'a>,
     drive: D,
     make: Make<'a, D>,
@@ -120,7 +120,7 @@ struct Collocated<'a, const M: usize, D> {
 impl<'a, const M: usize, D: Drive<Tables> + Clone> Collocated<'a, M, D> {
     fn new(
         smooth: &'a Smooth,
-        group: &Tables,
+        group: &Arc<Tables>,
         size: f64,
         parameters: &[f64],
         make: Make<'a, D>,
@@ -128,7 +128,7 @@ impl<'a, const M: usize, D: Drive<Tables> + Clone> Collocated<'a, M, D> {
         let energy = Interpreted::new(step::Energy::smooth(smooth, parameters));
         let (drive, group) = (make(smooth, group, parameters), group.clone());
         let remembers = smooth.given.is_some() && smooth.kicks.is_none();
-        let whole = || Collocation::driven(group.clone(), energy.clone(), drive.clone(), size);
+        let whole = || Collocation::driven((*group).clone(), energy.clone(), drive.clone(), size);
         let whole = remembers.then(whole).transpose()?.map(Mutex::new);
         Ok(Self { smooth, group, energy, drive, make, whole })
     }

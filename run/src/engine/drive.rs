@@ -24,10 +24,10 @@ pub(super) struct Actuator<'a> {
 }
 
 impl<'a> Actuator<'a> {
-    pub(super) fn new(smooth: &'a Smooth, group: &Tables, parameters: &[f64]) -> Self {
+    pub(super) fn new(smooth: &'a Smooth, group: &Arc<Tables>, parameters: &[f64]) -> Self {
         let reads = smooth.drive.as_ref().is_some_and(|drive| drive.reads_element());
         let symbols = smooth.symbols_at(parameters).into();
-        Self { smooth, group: Arc::new(group.clone()), symbols, reads }
+        Self { smooth, group: group.clone(), symbols, reads }
     }
 
     fn entries(&self, g: &Element) -> Vec<f64> {

@@ -228,12 +228,8 @@ impl Lattice {
         let part = count * trial.abs() / time;
         let (mut found, mut reason) = (Vec::new(), None);
         for method in candidates {
-            let at = |step: f64, steps: u64| {
-                let (mut spins, mut made) = (spins.clone(), self.cut.steps(method, step)?);
-                let clock = Instant::now();
-                made.advance(&mut spins, start, steps)?;
-                Ok::<_, LatticeError>((spins, clock.elapsed().as_secs_f64()))
-            };
+            let at =
+                |step: f64, steps: u64| self.of_cut((method, step), spins.clone(), start, steps);
             let pair = || {
                 let fine = [at(0.5 * trial, 2 * count as u64)?, at(0.5 * trial, 2 * count as u64)?];
                 Ok((at(trial, count as u64)?, fine))
@@ -245,8 +241,7 @@ impl Lattice {
                     continue;
                 }
             };
-            let order = method.order() as i32;
-            let error = distance(&coarse.0, &fine.0) / (1.0 - 0.5_f64.powi(order));
+            let error = error_of(method, &coarse.0, &fine.0);
             found.push((method, error.max(f64::MIN_POSITIVE), fine.1.min(again.1)));
         }
         let Some(&(_, first, _)) = found.first() else {
@@ -262,7 +257,9 @@ impl Lattice {
             .collect();
         tried.sort_by(|a, b| a.1.total_cmp(&b.1));
         let method = tried[0].0;
-        tried.truncate(if tried.len() > 1 { tried.len() } else { 0 });
+        if tried.len() == 1 {
+            tried.clear();
+        }
         if let Some(step) = step {
             return Ok(Plan { method, schedule: of(step)?, tried, error: None });
         }
@@ -272,17 +269,15 @@ impl Lattice {
         );
         let mut schedule = of((trial * ratio(method, error)).min(time))?;
         let whole = |schedule: &Schedule| {
-            let mut spins = spins.clone();
-            self.cut.steps(method, schedule.step)?.advance(&mut spins, start, schedule.steps)?;
-            Ok::<_, LatticeError>(spins)
+            let made = self.of_cut((method, schedule.step), spins.clone(), start, schedule.steps);
+            made.ok().map(|(end, _)| end)
         };
-        let (mut coarse, mut before) = (whole(&schedule).ok(), f64::INFINITY);
+        let (mut coarse, mut before) = (whole(&schedule), f64::INFINITY);
         for _ in 0..MOST_HALVINGS {
             let half = of(0.5 * schedule.step)?;
-            let fine = whole(&half).ok();
+            let fine = whole(&half);
             if let (Some(coarse), Some(fine)) = (&coarse, &fine) {
-                let order = method.order() as i32;
-                let error = distance(coarse, fine) / (1.0 - 0.5_f64.powi(order));
+                let error = error_of(method, coarse, fine);
                 if error <= tolerance {
                     return Ok(Plan { method, schedule, tried, error: Some(error) });
                 }
@@ -370,11 +365,9 @@ impl Lattice {
     /// The error at the end, by a run beside it in longer steps, on the cut.
     fn estimate(&self, plan: &Plan, end: &Spins) -> Result<f64, LatticeError> {
         let Plan { method, schedule, .. } = plan;
-        let start = self.cut_of(&self.start);
         let run = |step: f64, steps: u64| {
-            let mut spins = start.clone();
-            self.cut.steps(*method, step)?.advance(&mut spins, schedule.start, steps)?;
-            Ok::<_, LatticeError>(spins)
+            let start = self.cut_of(&self.start);
+            self.of_cut((*method, step), start, schedule.start, steps).map(|(end, _)| end)
         };
         let own = match &self.cut.cut {
             Some(_) => run(schedule.step, schedule.steps)?,
@@ -384,6 +377,20 @@ impl Lattice {
         let ratio = schedule.steps as f64 / other as f64;
         let other = run(schedule.step * ratio, other)?;
         Ok(distance(&own, &other) / (ratio.powi(method.order() as i32) - 1.0).abs())
+    }
+
+    /// The spins of the cut after some steps of this size from a time, and the seconds that these took.
+    fn of_cut(
+        &self,
+        (method, step): (Method, f64),
+        mut spins: Spins,
+        start: f64,
+        steps: u64,
+    ) -> Result<(Spins, f64), LatticeError> {
+        let mut made = self.cut.steps(method, step)?;
+        let clock = Instant::now();
+        made.advance(&mut spins, start, steps)?;
+        Ok((spins, clock.elapsed().as_secs_f64()))
     }
 
     fn record(&self, time: f64, spins: &Spins) -> Result<Record, RunError> {
@@ -398,6 +405,11 @@ impl Lattice {
 
 fn length(spin: &[f64; 3]) -> f64 {
     spin.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// The error of spins after steps of some size, by those after steps of half of it.
+fn error_of(method: Method, coarse: &Spins, fine: &Spins) -> f64 {
+    distance(coarse, fine) / (1.0 - 0.5_f64.powi(method.order() as i32))
 }
 
 /// The root of the mean square of the distance of spins, over that of their lengths.

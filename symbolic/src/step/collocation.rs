@@ -25,9 +25,7 @@ use super::vector::{all_at_most, finite, largest};
 use crate::drive::Drive;
 use crate::graph::{Graph, Id, Program};
 use crate::integrator::Kicks;
-use crate::lie::RationalMatrix;
-use crate::number::nearest_float;
-use crate::potential::Force;
+use crate::potential::{Force, along};
 use crate::smooth::Smooth;
 use crate::step::StepError;
 
@@ -473,19 +471,7 @@ impl<'a> Assembly<'a> {
     /// The derivatives of an output by ε in g exp(ε), the matrix of g being given.
     fn along(&self, graph: &Graph, g: &[Id], output: Id) -> Vec<Id> {
         let slopes = graph.pull_back(&[(output, graph.constant(1.0))], g);
-        let size = self.smooth.algebra.matrix_size();
-        let along = |e: &RationalMatrix| {
-            let mut sum = graph.zero();
-            for (l, j, value) in e.entries() {
-                let factor = graph.constant(nearest_float(value));
-                for i in 0..size {
-                    let scaled = graph.mul(factor, g[i * size + l]);
-                    sum = graph.times_plus(scaled, slopes[i * size + j], sum);
-                }
-            }
-            sum
-        };
-        self.smooth.algebra.matrices().iter().map(along).collect()
+        along(graph, &self.smooth.algebra, 1.0, [g, &slopes])
     }
 
     /// True if a velocity is a part of the linear model.
