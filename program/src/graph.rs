@@ -576,7 +576,7 @@ impl Program {
     }
 
     /// One more than the number of the last folded coefficient it reads; zero if none.
-    pub(crate) fn slots(&self) -> usize {
+    pub fn slots(&self) -> usize {
         self.slots
     }
 

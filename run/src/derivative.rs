@@ -48,7 +48,7 @@ impl<'a> Derivatives<'a> {
     /// # Errors
     /// Fails where derivatives are not known.
     fn known(&self) -> Result<usize, RunError> {
-        let what = "no derivatives are known of learned maps, of functions of the user's, of velocities, torques and damping";
+        let what = "no derivatives are known of learned maps, of functions of the user's, and of systems too large for programs";
         self.motion.differentiable().ok_or_else(|| RunError::Option(what.to_owned()))
     }
 
@@ -77,7 +77,11 @@ impl<'a> Derivatives<'a> {
     /// The derivative of the step after `done`, from the state before it.
     fn linear(&self, done: u64, state: &Numbers) -> Result<Linear, RunError> {
         let linear = self.motion.linear(state, done);
-        let linear = linear.map_err(|error| self.failed(done, &error))?;
+        let Some(linear) = linear.map_err(|error| self.failed(done, &error))? else {
+            self.advance(&mut state.clone(), done, 1)?;
+            let what = "this step is too long for its derivative: take smaller steps".to_owned();
+            return Err(RunError::Run { time: self.schedule.time(done), step: done + 1, what });
+        };
         self.finite(done, [&linear.state, &linear.parameters])?;
         Ok(linear)
     }

@@ -74,7 +74,7 @@ impl Charted {
             }
         };
         let (space, own) = (self.space(compiled), parameters.to_vec());
-        Motion::new(space, grid, own, method, origin.kicks())
+        Motion::new(space, grid, own, method, Some(origin))
     }
 
     /// The steps of a learned map, which are those of this grid.

@@ -3,7 +3,6 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use coadjoint::collocation::{Collocation, Drive, Energy, Undefined};
-use coadjoint::groups::Exponential;
 use coadjoint::{Phase, StepError};
 use coadjoint_codegen::cancel;
 use coadjoint_codegen::smooth::Smooth;
@@ -12,9 +11,7 @@ use nalgebra::DVector;
 
 use super::compiled::Solved;
 use super::drive::Actuator;
-use super::linear::{Linear, moved};
-use super::method::{Flow, Method, Slope};
-use super::response::Response;
+use super::method::{Flow, Method};
 use super::space::Tables;
 use crate::error::kept;
 
@@ -152,34 +149,6 @@ where
         let mut whole = self.whole.as_ref()?.lock().unwrap_or_else(PoisonError::into_inner);
         let report = whole.advance(phase, time).ok()?;
         Some(Solved::one(report.iterations, report.residual))
-    }
-
-    /// Of a function of the user's there is no Hessian, and of a drive no derivative.
-    fn is_differentiable(&self) -> bool {
-        self.smooth.given.is_none() && self.smooth.drive.is_none()
-    }
-
-    fn slopes(
-        &self,
-        group: &Tables,
-        lengths: &[f64],
-        parameters: &[f64],
-    ) -> Result<Vec<Slope<'a>>, StepError> {
-        let response = Arc::new(Response::new(self.smooth, parameters));
-        let slope = |&length: &f64| -> Result<Slope<'a>, StepError> {
-            let flow = Collocation::<_, _, M>::new(group.clone(), self.energy.clone(), length)?;
-            let response = response.clone();
-            Ok(Box::new(move |phase, time| {
-                let (group, mu) = (flow.group(), &phase.momentum);
-                let solution = flow.solution(mu, time)?;
-                let [hessian, mixed] = response.of(group, &solution, length)?;
-                // In the chart of tables, which is exp.
-                let (place, x) = ((Exponential, group), &solution.x);
-                let of_momentum = Linear::response(place, x, mu, [&hessian, &mixed])?;
-                Ok(moved(place, x, phase, &of_momentum))
-            }))
-        };
-        lengths.iter().map(slope).collect()
     }
 
     fn vary(&mut self, parameters: &[f64]) {

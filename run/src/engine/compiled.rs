@@ -6,10 +6,11 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use coadjoint::StepError;
 use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::step::{self, Convergence, Observation, Origin, Step};
+use coadjoint_codegen::step::{self, Convergence, Observation, Origin, Step, Tangent};
 use coadjoint_program::fold::FoldError;
 use coadjoint_program::{Kernel, Precision, Trajectories, WIDTH};
 
+use super::linear::{Differential, Linear, slopes};
 use crate::backend::{Backend, Code};
 use crate::error::RunError;
 use crate::grid::Grid;
@@ -95,13 +96,16 @@ pub(crate) struct Programs {
     step: Step,
     observation: Observation,
     convergence: OnceLock<Convergence>,
+    /// The programs of derivatives, once they were asked for; `None` where there are none.
+    tangent: OnceLock<Option<Tangent>>,
 }
 
 impl Programs {
     fn build(origin: &Origin) -> Result<Arc<Self>, step::StepError> {
         let step = origin.step(Precision::Double)?;
         let observation = Observation::new(&step);
-        Ok(Arc::new(Self { step, observation, convergence: OnceLock::new() }))
+        let (convergence, tangent) = Default::default();
+        Ok(Arc::new(Self { step, observation, convergence, tangent }))
     }
 }
 
@@ -323,6 +327,36 @@ impl Compiled {
     /// The programs of the ratios by which steps of this series are judged.
     pub(super) fn convergence(&self, integrator: &Integrator) -> &Convergence {
         self.programs.convergence.get_or_init(|| Convergence::new(integrator))
+    }
+
+    /// The derivatives of the coefficients in each parameter.
+    ///
+    /// # Errors
+    /// Fails if one is not finite.
+    pub(super) fn slopes(&self) -> Result<Vec<Vec<f64>>, StepError> {
+        let Folded { size, parameters, .. } = &self.folded;
+        slopes(&self.programs.step, *size, parameters)
+    }
+
+    /// The derivative of a step of this origin from this state and time, given the [`slopes`](Compiled::slopes); `None` where there is none.
+    ///
+    /// # Errors
+    /// Fails if two solutions of the step meet.
+    pub(super) fn linear(
+        &self,
+        origin: &Origin,
+        slopes: &[Vec<f64>],
+        state: &Numbers,
+        time: f64,
+    ) -> Result<Option<Linear>, StepError> {
+        let Programs { step, tangent, .. } = &*self.programs;
+        let tangent = tangent.get_or_init(|| Tangent::new(step, origin).ok()).as_ref();
+        let Some(tangent) = tangent else { return Ok(None) };
+        let mut slots = Cow::Borrowed(self.coefficients());
+        if step.moves() {
+            step.set_time(slots.to_mut(), self.folded.size, time);
+        }
+        Differential::new(step, tangent, &slots, slopes).at(state, [time, self.folded.size])
     }
 
     /// The spatial momentum Ad\*_g μ and the matrix of g of each state, one after the other.

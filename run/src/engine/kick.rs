@@ -1,18 +1,13 @@
-//! A potential run by the interpreter, its kicks between flows, and their derivatives.
+//! A potential run by the interpreter, and its kicks between flows.
 
 use std::sync::Arc;
 
 use coadjoint::{LieGroup, Phase, Scalar, StepError};
-use coadjoint_codegen::graph::Program;
 use coadjoint_codegen::integrator::{FoldTable, Kick};
-use coadjoint_codegen::lie::RationalMatrix;
 use coadjoint_codegen::potential::Force;
-use coadjoint_program::Argument;
-use nalgebra::{DMatrix, DVector};
-use num_traits::ToPrimitive;
+use nalgebra::DVector;
 
 use super::compiled::{Numbers, refusal};
-use super::linear::{Linear, matrix, push_forward};
 use super::space::{Space, Tables, entries_of};
 use crate::error::kept;
 
@@ -96,93 +91,5 @@ impl<'a> Torque<'a> {
         state.momentum =
             torque.zip_map(&state.momentum, |torque, mu| torque.times_plus(length, mu));
         Ok(())
-    }
-
-    /// The changes g ξ of the entries of g, for each of these matrices ξ.
-    pub(super) fn moved(&self, g: &Element, generators: &[DMatrix<f64>]) -> Vec<Vec<f64>> {
-        let (entries, size) = (entries_of(&self.group, g), self.group.matrix_size());
-        let element = DMatrix::from_row_slice(size, size, &entries);
-        // Row by row.
-        let moved =
-            |generator: &DMatrix<f64>| (&element * generator).transpose().as_slice().to_vec();
-        generators.iter().map(moved).collect()
-    }
-
-    /// A derivative of the torque of a potential at g, by its program, along this change.
-    pub(super) fn along(&self, program: &Program, g: &Element, change: &[f64]) -> DVector<f64> {
-        let inputs = [&entries_of(&self.group, g)[..], change].concat();
-        DVector::from_vec(program.run(&inputs, &self.slots))
-    }
-}
-
-/// The derivatives of kicks.
-pub(super) struct KickSlope<'a> {
-    torque: Torque<'a>,
-    /// Entries of g, their change ↦ the change of the torque.
-    by_element: Program,
-    /// Entries of g, the change of the coefficients ↦ the change of the torque.
-    by_coefficients: Program,
-    /// The matrices of the algebra's basis.
-    generators: Vec<DMatrix<f64>>,
-    /// The derivatives of the coefficients in each parameter.
-    slopes: Vec<Vec<f64>>,
-}
-
-impl<'a> KickSlope<'a> {
-    /// For these values of the parameters.
-    ///
-    /// # Errors
-    /// Fails if a coefficient is not finite.
-    pub(super) fn new(
-        kick: &'a Kick,
-        group: &Arc<Tables>,
-        parameters: &[f64],
-    ) -> Result<Self, StepError> {
-        let torque = Torque::new(kick, group, parameters)?;
-        let generator = |matrix: &RationalMatrix| {
-            DMatrix::from_fn(matrix.rows(), matrix.columns(), |i, j| {
-                matrix.get(i, j).to_f64().unwrap_or(f64::NAN)
-            })
-        };
-        let generators = kick.potential.algebra.matrices().iter().map(generator).collect();
-        let coefficients = 0..kick.coefficients.slots().len();
-        let coefficients: Vec<Argument> = coefficients.map(Argument::Slot).collect();
-        let by_coefficients = kick.torque.push_forward(&coefficients);
-        let symbols = &kick.potential.symbols;
-        let values: Vec<f64> = symbols.iter().map(|one| one.expr.evaluate(parameters)).collect();
-        let table = FoldTable::of_kick(kick);
-        let slope = |number: usize| {
-            let mut change = vec![0.0; parameters.len()];
-            change[number] = 1.0;
-            let change = symbols.iter().map(|symbol| symbol.expr.slope(parameters, &change));
-            let change: Vec<f64> = change.collect();
-            let slope = table.slope(1.0, &values, &change);
-            slope.map_err(|error| refusal(error, 1.0, &change))
-        };
-        let slopes = (0..parameters.len()).map(slope).collect::<Result<_, _>>()?;
-        let by_element = push_forward(&kick.torque);
-        Ok(Self { torque, by_element, by_coefficients, generators, slopes })
-    }
-
-    /// Makes a kick at this time, of this length; its derivative.
-    ///
-    /// # Errors
-    /// Fails if the torque is not defined.
-    pub(super) fn linear(
-        &self,
-        phase: &mut Phase<Tables>,
-        [time, length]: [f64; 2],
-    ) -> Result<Linear, StepError> {
-        let (g, dim) = (&phase.group_element, phase.momentum.len());
-        let moved = self.torque.moved(g, &self.generators);
-        let by_element = moved.iter().map(|change| self.torque.along(&self.by_element, g, change));
-        let by_element = matrix(dim, by_element);
-        let slopes = self.slopes.iter();
-        let by_parameters =
-            slopes.map(|change| self.torque.along(&self.by_coefficients, g, change));
-        let by_parameters = matrix(dim, by_parameters);
-        let torque = self.torque.torque(g, time)?;
-        phase.momentum += torque * length;
-        Ok(Linear::of_kick(&(by_element * length), &(by_parameters * length)))
     }
 }

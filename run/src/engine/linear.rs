@@ -1,134 +1,368 @@
-//! The derivative of a step, as matrices.
+//! The derivative of a step, as a matrix, by the programs of its [`Tangent`].
 //!
-//! A tangent to a state (g, μ) is (ξ, ν), ξ = g⁻¹δg in 𝔤 and ν = δμ in 𝔤\*: 2n numbers. A step is a sequence of motions
-//! by group elements and of kicks, whatever has found them. With L = d^L τ_x, of the motion by τ(x)
+//! A tangent to a state (g, μ) is (ξ, ν), ξ = g⁻¹δg in 𝔤 and ν = δμ in 𝔤\*: 2n numbers. A step is a sequence of kicks, of motions by
+//! increments x that solve the equations of flows, and of motions of a comoving frame. A motion by τ(x) moves, with L = d^L τ_x,
 //!
 //! ```text
 //! ξ″ = Ad_{τ(x)⁻¹} ξ + L δx        ν″ = Ad*_{τ(x)⁻¹} ν + ad*_{L δx} μ″
 //! ```
 //!
-//! and the method enters by δx alone: where x = ∂S/∂p(p), p = (d^R τ_x)ᵀ μ, by the Hessian of S at the p of the step,
-//! δx = (1 − S_pp D)⁻¹ (S_pp (d^R τ_x)ᵀ ν + S_pθ δθ), D = ∂p/∂x. Every symmetric S_pp makes this symplectic.
+//! Where δx comes of the Hessian of a generating function at the p of the step, every symmetric Hessian makes this symplectic.
 
-use coadjoint::groups::Chart;
+use coadjoint::StepError;
 use coadjoint::steps::Circumstances;
-use coadjoint::{Phase, StepError};
 use coadjoint_codegen::graph::Program;
-use coadjoint_program::Argument;
+use coadjoint_codegen::step::{Differentiated, Step, Tangent};
+use coadjoint_program::Kernel;
 use nalgebra::{DMatrix, DVector};
 
-use super::space::Group;
+use super::compiled::{Numbers, refusal};
 
-/// The derivative of a step, or of several, in the state before it and in the parameters θ.
+/// The derivative of a step, or of several, in the state before it, in the parameters θ, and in the values of inputs that it reads.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Linear {
     /// ∂(ξ″, ν″)/∂(ξ, ν), 2n×2n.
     pub state: DMatrix<f64>,
     /// ∂(ξ″, ν″)/∂θ, 2n×q.
     pub parameters: DMatrix<f64>,
+    /// ∂(ξ″, ν″)/∂u for each of the values below, 2n×s.
+    pub inputs: DMatrix<f64>,
+    /// The values of inputs that the step reads: the number of the input, the time.
+    pub read: Vec<(usize, f64)>,
+    /// The momentum after the step, where its programs refuse it and its equations were solved otherwise.
+    pub refused: Option<Vec<f64>>,
 }
 
-/// The matrix of a linear map of 𝔤 or 𝔤\*.
-pub(super) fn columns(dim: usize, map: impl Fn(&DVector<f64>) -> DVector<f64>) -> DMatrix<f64> {
-    let unit = |j| DVector::from_fn(dim, |i, _| if i == j { 1.0 } else { 0.0 });
-    DMatrix::from_columns(&(0..dim).map(|j| map(&unit(j))).collect::<Vec<_>>())
+/// Corrections of Newton's method at most, and the one, relative to the numbers, after which there is no other.
+const MOST_CORRECTIONS: u32 = 30;
+const ROUNDING: f64 = 1e-13;
+
+/// Halvings of the motion of a frame at most.
+const MOST_HALVINGS: i32 = 64;
+
+/// The programs of the derivative of steps, with the derivatives of coefficients in parameters.
+pub(super) struct Differential<'a> {
+    step: &'a Step,
+    tangent: &'a Tangent,
+    slots: &'a [f64],
+    /// For each parameter the derivatives of the coefficients.
+    slopes: &'a [Vec<f64>],
 }
 
-/// The derivative of a program in all of its inputs.
-pub(super) fn push_forward(program: &Program) -> Program {
-    let inputs: Vec<Argument> = (0..program.inputs()).map(Argument::Input).collect();
-    program.push_forward(&inputs)
+/// A state on its way through a step, and its derivative in all columns: those of (ξ, ν) at the start, of parameters, of inputs.
+struct Moving {
+    state: Numbers,
+    /// True if programs refuse a flow.
+    refused: bool,
+    xi: DMatrix<f64>,
+    nu: DMatrix<f64>,
 }
 
-/// A matrix of `dim` rows with these columns, of which there may be none.
-pub(super) fn matrix(dim: usize, columns: impl Iterator<Item = DVector<f64>>) -> DMatrix<f64> {
-    let entries: Vec<f64> = columns.flat_map(|column| column.as_slice().to_vec()).collect();
-    DMatrix::from_column_slice(dim, entries.len() / dim, &entries)
+/// The derivatives of the coefficients of steps of this size in each parameter.
+///
+/// # Errors
+/// Fails if one is not finite.
+pub(super) fn slopes(
+    step: &Step,
+    size: f64,
+    parameters: &[f64],
+) -> Result<Vec<Vec<f64>>, StepError> {
+    let of = |number: usize| {
+        let mut change = vec![0.0; parameters.len()];
+        change[number] = 1.0;
+        let slope = step.slope(size, parameters, &change);
+        slope.map_err(|error| refusal(error, size, &step.symbols(&change)))
+    };
+    (0..parameters.len()).map(of).collect()
+}
+
+/// A flow of a kernel from a state: its programs with these coefficients.
+struct Flow<'a> {
+    kernel: &'a Kernel,
+    slots: &'a [f64],
+    state: &'a Numbers,
+}
+
+impl Flow<'_> {
+    /// The first guess of z, and the constants of the solve.
+    fn guess(&self) -> [Vec<f64>; 2] {
+        let Self { kernel, slots, state: Numbers { g, mu } } = self;
+        let from = if kernel.guesses_from_element() { [&g[..], mu].concat() } else { mu.clone() };
+        let mut z = kernel.programs.guess.run(&from, slots);
+        let constants = z.split_off(kernel.unknowns);
+        [z, constants]
+    }
+
+    /// The next z after a correction, the solution as a motion reads it, and the bound on the residual with the length of the correction.
+    fn corrected(&self, [z, constants]: [&[f64]; 2]) -> (Vec<f64>, Vec<f64>, [f64; 2]) {
+        let Self { kernel, slots, state } = self;
+        let mut next = kernel.programs.correct.run(&[z, &state.mu, constants].concat(), slots);
+        let mut found = next.split_off(kernel.unknowns);
+        let judged = [0, 1].map(|at| found[kernel.solution + at]);
+        found.truncate(kernel.solution);
+        (next, found, judged)
+    }
+
+    /// z and the solution by the programs; `None` where they do not accept it.
+    fn solution(&self) -> Option<[Vec<f64>; 2]> {
+        let Self { kernel, slots, state } = self;
+        let ([mut z, constants], mut distance) = (self.guess(), 0.0);
+        for _ in 0..kernel.corrections {
+            let (next, found, [bound, moved]) = self.corrected([&z, &constants]);
+            (z, distance) = (next, distance + moved);
+            if bound <= kernel.tolerance {
+                let judged = [&state.mu[..], &found, &[bound, distance]].concat();
+                let accepted = kernel.programs.accept.run(&judged, slots) == [1.0];
+                return accepted.then_some([z, found]);
+            }
+            if distance.is_nan() || distance > kernel.near {
+                return None;
+            }
+        }
+        None
+    }
+
+    /// z and the solution by Newton's method with the matrix of this equation; `None` where it does not converge.
+    fn by_newton(&self, equation: &Differentiated) -> Option<[Vec<f64>; 2]> {
+        let Numbers { g, mu } = self.state;
+        let (n, u) = (mu.len(), equation.value.outputs().len() - 2 * mu.len());
+        let [mut z, constants] = self.guess();
+        for _ in 0..MOST_CORRECTIONS {
+            let at = [&g[..], &vec![0.0; n], mu, &z[..u]].concat();
+            let residual = DVector::from_vec(equation.value.run(&at, self.slots));
+            let slope = by_inputs(equation, &at, self.slots, [2 * n, 2 * n + u]);
+            let change = slope.rows(0, u).into_owned().lu().solve(&residual.rows(0, u))?;
+            z.iter_mut().zip(&change).for_each(|(z, change)| *z -= change);
+            let size = z[..u].iter().fold(0.0, |largest: f64, z| largest.max(z.abs()));
+            if change.amax() <= ROUNDING * size {
+                let (_, found, _) = self.corrected([&z, &constants]);
+                return Some([z, found]);
+            }
+        }
+        None
+    }
+}
+
+/// A unit vector.
+fn unit(of: usize, at: usize) -> Vec<f64> {
+    (0..of).map(|i| if i == at { 1.0 } else { 0.0 }).collect()
 }
 
 /// The error of a step whose solution is also that of another one.
-pub(super) fn meeting(x: &DVector<f64>) -> StepError {
-    let at = Circumstances { x: x.amax(), ratio: 0.0, usable_step: None };
-    StepError::NotFollowed { reached: 1.0, at }
+fn meeting(x: &[f64]) -> StepError {
+    let x = x.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    StepError::NotFollowed { reached: 1.0, at: Circumstances { x, ratio: 0.0, usable_step: None } }
 }
 
-impl Linear {
-    /// The derivative of the identity.
-    pub(crate) fn identity(dim: usize, parameters: usize) -> Self {
-        let state = DMatrix::identity(2 * dim, 2 * dim);
-        Self { state, parameters: DMatrix::zeros(2 * dim, parameters) }
-    }
+/// The results of a program for these rows of inputs, a column each.
+fn run_columns(program: &Program, rows: &[Vec<f64>], slots: &[f64]) -> DMatrix<f64> {
+    let results = match rows.is_empty() {
+        true => Vec::new(),
+        false => program.run_each(
+            rows.len(),
+            |row, i| rows[row].get(i).copied().unwrap_or(f64::NAN),
+            slots,
+        ),
+    };
+    DMatrix::from_vec(program.outputs().len(), rows.len(), results)
+}
 
-    /// The derivative of this step followed by the next one.
-    pub(crate) fn then(&self, next: &Self) -> Self {
-        let parameters = &next.state * &self.parameters + &next.parameters;
-        Self { state: &next.state * &self.state, parameters }
-    }
+/// The derivative of a program at these inputs in the ones from `from` to `to`, counted after the fixed ones.
+fn by_inputs(
+    own: &Differentiated,
+    at: &[f64],
+    slots: &[f64],
+    [from, to]: [usize; 2],
+) -> DMatrix<f64> {
+    let count = own.by_inputs.inputs() - at.len();
+    let rows: Vec<_> = (from..to).map(|i| [at, &unit(count, i)].concat()).collect();
+    run_columns(&own.by_inputs, &rows, slots)
+}
 
-    /// The derivative of μ ↦ μ + l τ(g, θ), given the derivatives of l τ in ξ (n×n) and in θ (n×q).
-    pub(super) fn of_kick(by_element: &DMatrix<f64>, by_parameters: &DMatrix<f64>) -> Self {
-        let dim = by_element.nrows();
-        let mut kick = Self::identity(dim, by_parameters.ncols());
-        kick.state.view_mut((dim, 0), (dim, dim)).copy_from(by_element);
-        kick.parameters.rows_mut(dim, dim).copy_from(by_parameters);
-        kick
-    }
+/// The derivative of a program at these inputs along these changes of its coefficients.
+fn by_slots(own: &Differentiated, at: &[f64], slots: &[f64], changes: &[Vec<f64>]) -> DMatrix<f64> {
+    let rows: Vec<_> = changes.iter().map(|change| [at, &change[..]].concat()).collect();
+    run_columns(&own.by_slots, &rows, slots)
+}
 
-    /// The derivative of the motion by τ(x) to the momentum `after`, given ∂x/∂μ (n×n) and ∂x/∂θ (n×q).
-    pub(super) fn of_motion<G: Group, C: Chart<G>>(
-        (chart, group): (C, &G),
-        x: &DVector<f64>,
-        after: &DVector<f64>,
-        [by_momentum, by_parameters]: &[DMatrix<f64>; 2],
+impl<'a> Differential<'a> {
+    /// Of a step with these coefficients, those of its time among them.
+    pub(super) fn new(
+        step: &'a Step,
+        tangent: &'a Tangent,
+        slots: &'a [f64],
+        slopes: &'a [Vec<f64>],
     ) -> Self {
-        let (dim, back) = (x.len(), -x);
-        let coadjoint = columns(dim, |unit| chart.transport(group, x, unit).1);
-        // Ad_{τ⁻¹} is the transpose of Ad*_τ, and d^L τ_x = d^R τ_{−x}.
-        let adjoint = columns(dim, |unit| chart.transport(group, &back, unit).1).transpose();
-        let left = columns(dim, |unit| chart.pull_back(group, &back, unit)).transpose();
-        let bent = columns(dim, |unit| group.ad_star(unit, after)) * &left;
-        let mut linear = Self::identity(dim, by_parameters.ncols());
-        let Self { state, parameters } = &mut linear;
-        state.view_mut((0, 0), (dim, dim)).copy_from(&adjoint);
-        state.view_mut((0, dim), (dim, dim)).copy_from(&(&left * by_momentum));
-        state.view_mut((dim, dim), (dim, dim)).copy_from(&(coadjoint + &bent * by_momentum));
-        parameters.rows_mut(0, dim).copy_from(&(left * by_parameters));
-        parameters.rows_mut(dim, dim).copy_from(&(bent * by_parameters));
-        linear
+        Self { step, tangent, slots, slopes }
     }
 
-    /// [∂x/∂μ, ∂x/∂θ] of the solution x = ∂S/∂p(p), p = (d^R τ_x)ᵀ μ, given S_pp (n×n) and S_pθ (n×q) there.
+    /// The derivative of the step of this size from this state and time; `None` where its equations are not solved.
     ///
     /// # Errors
     /// Fails if two solutions meet.
-    pub(super) fn response<G: Group, C: Chart<G>>(
-        (chart, group): (C, &G),
-        x: &DVector<f64>,
-        mu: &DVector<f64>,
-        [hessian, mixed]: [&DMatrix<f64>; 2],
-    ) -> Result<[DMatrix<f64>; 2], StepError> {
-        let dim = x.len();
-        let slope = chart.pull_back_derivative(group, x, mu);
-        let back = columns(dim, |unit| chart.pull_back(group, x, unit));
-        let solver = (DMatrix::identity(dim, dim) - hessian * slope).lu();
-        let solved = [solver.solve(&(hessian * back)), solver.solve(mixed)];
-        let [Some(by_momentum), Some(by_parameters)] = solved else {
-            return Err(meeting(x));
+    pub(super) fn at(
+        &self,
+        state: &Numbers,
+        [time, size]: [f64; 2],
+    ) -> Result<Option<Linear>, StepError> {
+        let (kernel, sampled) = (self.step.kernel(), self.step.sampled(size, time));
+        let (n, q) = (kernel.dim, self.slopes.len());
+        let columns = 2 * n + q + sampled.len();
+        let (xi, nu) = (DMatrix::identity(n, columns), DMatrix::zeros(n, columns));
+        let mut moving = Moving { state: state.clone(), refused: false, xi, nu };
+        moving.nu.columns_mut(n, n).fill_with_identity();
+        let each = kernel.slots_of_flow();
+        // The changes of the coefficients of a flow in each parameter and input.
+        let changes = |flow: usize| -> Vec<Vec<f64>> {
+            let own = flow * each..(flow + 1) * each;
+            let of_parameters = self.slopes.iter().map(|slope| slope[own.clone()].to_vec());
+            let of_input =
+                |&(place, ..): &(usize, usize, f64)| unit(each, place.wrapping_sub(own.start));
+            of_parameters.chain(sampled.iter().map(of_input)).collect()
         };
-        Ok([by_momentum, by_parameters])
+        for flow in 0..kernel.flows().unwrap_or(1) as usize {
+            let (slots, changes) = (&self.slots[flow * each..][..each], changes(flow));
+            self.kick(&mut moving, slots, &changes);
+            if !self.flow(&mut moving, slots, &changes)? {
+                return Ok(None);
+            }
+        }
+        if let Some(last) = kernel.flows() {
+            let last = last as usize;
+            self.kick(&mut moving, &self.slots[last * each..][..each], &changes(last));
+        }
+        let mut whole = DMatrix::zeros(2 * n, columns);
+        whole.rows_mut(0, n).copy_from(&moving.xi);
+        whole.rows_mut(n, n).copy_from(&moving.nu);
+        Ok(Some(Linear {
+            state: whole.columns(0, 2 * n).into_owned(),
+            parameters: whole.columns(2 * n, q).into_owned(),
+            inputs: whole.columns(2 * n + q, sampled.len()).into_owned(),
+            read: sampled.into_iter().map(|(_, input, time)| (input, time)).collect(),
+            refused: moving.refused.then_some(moving.state.mu),
+        }))
     }
-}
 
-/// Moves a state by τ(x); the derivative of that.
-pub(super) fn moved<G: Group, C: Chart<G>>(
-    (chart, group): (C, &G),
-    x: &DVector<f64>,
-    phase: &mut Phase<G>,
-    response: &[DMatrix<f64>; 2],
-) -> Linear {
-    let (increment, after) = chart.transport(group, x, &phase.momentum);
-    let linear = Linear::of_motion((chart, group), x, &after, response);
-    phase.group_element = group.compose(&phase.group_element, &increment);
-    phase.momentum = after;
-    linear
+    /// A kick, where there are kicks.
+    fn kick(&self, moving: &mut Moving, slots: &[f64], changes: &[Vec<f64>]) {
+        let Some(kick) = &self.tangent.kick else { return };
+        let (n, Numbers { g, mu }) = (self.step.kernel().dim, &moving.state);
+        let at = [&g[..], &vec![0.0; n], mu].concat();
+        let turned = by_inputs(kick, &at, slots, [0, n]);
+        let mut pushed = turned * &moving.xi;
+        let mut others = pushed.columns_mut(2 * n, changes.len());
+        others += by_slots(kick, &at, slots, changes);
+        moving.nu += pushed;
+        moving.state.mu = kick.value.run(&at, slots);
+    }
+
+    /// A flow with the motion of a frame after it; false where its equations are not solved.
+    fn flow(
+        &self,
+        moving: &mut Moving,
+        slots: &[f64],
+        changes: &[Vec<f64>],
+    ) -> Result<bool, StepError> {
+        let (kernel, Tangent { equation, reads, .. }) = (self.step.kernel(), self.tangent);
+        let own = Flow { kernel, slots, state: &moving.state };
+        let by_programs = own.solution();
+        let refused = by_programs.is_none();
+        let Some([z, found]) = by_programs.or_else(|| own.by_newton(equation)) else {
+            return Ok(false);
+        };
+        let (n, u) = (kernel.dim, equation.value.outputs().len() - 2 * kernel.dim);
+        moving.refused |= refused;
+        let Numbers { g, mu } = &moving.state;
+        let at = [&g[..], &vec![0.0; n], mu, &z[..u]].concat();
+        // What the equations, x, and the momentum that x moves depend on besides z.
+        let mut along = by_inputs(equation, &at, slots, [n, 2 * n]) * &moving.nu;
+        if *reads {
+            along += by_inputs(equation, &at, slots, [0, n]) * &moving.xi;
+        }
+        let mut others = along.columns_mut(2 * n, changes.len());
+        others += by_slots(equation, &at, slots, changes);
+        let by_solution = by_inputs(equation, &at, slots, [2 * n, 2 * n + u]);
+        let value = equation.value.run(&at, slots);
+        let (x, pushed) = value[u..].split_at(n);
+        let solved = by_solution.rows(0, u).into_owned().lu().solve(&along.rows(0, u));
+        let changed =
+            along.rows(u, 2 * n) - by_solution.rows(u, 2 * n) * solved.ok_or_else(|| meeting(x))?;
+        moving.nu = changed.rows(n, n).into_owned();
+        let pushed = DVector::from_column_slice(pushed);
+        let mut after = self.moved(
+            &self.tangent.motion,
+            moving,
+            (x, &pushed),
+            changed.rows(0, n).into_owned(),
+            0,
+        );
+        for frame in &self.tangent.frame {
+            let Some(motion) = &self.tangent.frame_motion else { break };
+            let at = after.as_slice();
+            let y = frame.value.run(at, slots);
+            let mut change = by_inputs(frame, at, slots, [0, n]) * &moving.nu;
+            let mut others = change.columns_mut(2 * n, changes.len());
+            others += by_slots(frame, at, slots, changes);
+            let halvings = self.halvings(&y);
+            after = self.moved(motion, moving, (&y, &after), change, halvings);
+        }
+        let Numbers { g, mu } = &moving.state;
+        let mut next = kernel.programs.transport.run(&[&g[..], mu, &found].concat(), slots);
+        let mu = next.split_off(g.len());
+        moving.state = Numbers { g: next, mu };
+        Ok(true)
+    }
+
+    /// Halvings after which a series for the motion by exp(y) is exact to rounding.
+    fn halvings(&self, y: &[f64]) -> i32 {
+        let mut norm = vec![0.0; y.len()];
+        for &(i, j, _, c) in &self.tangent.structure {
+            norm[j] += (c * y[i]).abs();
+        }
+        let norm = norm.into_iter().fold(0.0, f64::max);
+        (0..MOST_HALVINGS)
+            .find(|&halvings| norm * 0.5_f64.powi(halvings) <= 0.5)
+            .unwrap_or(MOST_HALVINGS)
+    }
+
+    /// Moves the derivative by τ(x), or in a frame by exp(x), which is that of x·2^−halvings squared as often, of this momentum, given δx in
+    /// all columns. Returns the momentum after it.
+    fn moved(
+        &self,
+        motion: &Program,
+        moving: &mut Moving,
+        (x, mu): (&[f64], &DVector<f64>),
+        mut change: DMatrix<f64>,
+        halvings: i32,
+    ) -> DVector<f64> {
+        let (n, share) = (x.len(), 0.5_f64.powi(halvings));
+        let row = |sign: f64| {
+            move |i: usize| {
+                let x = x.iter().map(|x| sign * share * x);
+                x.chain(unit(n, i)).collect::<Vec<f64>>()
+            }
+        };
+        let rows: Vec<_> = (0..n).map(row(1.0)).chain((0..n).map(row(-1.0))).collect();
+        let found = run_columns(motion, &rows, &[]);
+        let mut coadjoint = found.view((0, 0), (n, n)).into_owned();
+        // Ad_{τ⁻¹} is the transpose of Ad*_τ, and d^L τ_x = d^R τ_{−x}.
+        let mut adjoint = found.view((0, n), (n, n)).transpose();
+        let mut left = found.view((n, n), (n, n)).transpose();
+        for _ in 0..halvings {
+            left = (&left + &adjoint * &left) * 0.5;
+            adjoint = &adjoint * &adjoint;
+            coadjoint = &coadjoint * &coadjoint;
+        }
+        let after = &coadjoint * mu;
+        change = left * change;
+        moving.xi = adjoint * &moving.xi + &change;
+        moving.nu = coadjoint * &moving.nu;
+        for &(i, j, k, c) in &self.tangent.structure {
+            let factor = c * after[k];
+            let added = change.row(i) * factor;
+            let mut row = moving.nu.row_mut(j);
+            row += added;
+        }
+        after
+    }
 }

@@ -3,16 +3,11 @@
 use coadjoint::{Phase, StepError};
 
 use super::compiled::{Compiled, Solved};
-use super::linear::Linear;
 use super::space::Tables;
 
 /// Makes a flow of a state from this time.
 pub(super) type Flow<'a> =
     Box<dyn Fn(&mut Phase<Tables>, f64) -> Result<Solved, StepError> + Send + Sync + 'a>;
-
-/// As [`Flow`], with its derivative.
-pub(super) type Slope<'a> =
-    Box<dyn Fn(&mut Phase<Tables>, f64) -> Result<Linear, StepError> + Send + Sync + 'a>;
 
 /// A way to make flows without programs: where programs refuse a step, and where a system has none.
 pub(super) trait Method<'a>: Send + Sync {
@@ -21,24 +16,6 @@ pub(super) trait Method<'a>: Send + Sync {
     /// # Errors
     /// Fails if the length makes no sense, or a coefficient is not finite.
     fn flow(&self, group: &Tables, length: f64, parameters: &[f64]) -> Result<Flow<'a>, StepError>;
-
-    /// True if the derivatives of flows are known.
-    fn is_differentiable(&self) -> bool {
-        false
-    }
-
-    /// The derivatives of the flows of these lengths, if they are known; else none.
-    ///
-    /// # Errors
-    /// As [`Method::flow`].
-    fn slopes(
-        &self,
-        _: &Tables,
-        _lengths: &[f64],
-        _parameters: &[f64],
-    ) -> Result<Vec<Slope<'a>>, StepError> {
-        Ok(Vec::new())
-    }
 
     /// Makes the next step of a motion that it remembers, where there is one.
     fn go_on(&self, _: &mut Phase<Tables>, _time: f64) -> Option<Solved> {

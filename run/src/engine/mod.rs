@@ -9,7 +9,6 @@ mod kick;
 mod linear;
 mod method;
 mod motion;
-mod response;
 mod series;
 mod space;
 

@@ -5,11 +5,12 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use coadjoint::steps::{Piece, Splitting, compose};
 use coadjoint::{Phase, StepError};
 use coadjoint_codegen::integrator::Kicks;
+use coadjoint_codegen::step::Origin;
 
 use super::compiled::{Compiled, Folded, Numbers, Solved, Solves};
-use super::kick::{KickSlope, Torque};
+use super::kick::Torque;
 use super::linear::Linear;
-use super::method::{Flow, Method, Slope, advise};
+use super::method::{Flow, Method, advise};
 use super::space::{Space, Tables};
 use crate::grid::Grid;
 
@@ -56,6 +57,9 @@ fn lengths(kicks: Option<&Kicks>, size: f64) -> Vec<f64> {
     kicks.map_or_else(|| vec![size], |kicks| parts(kicks.splitting))
 }
 
+/// Two steps that differ by less, relative to the momentum, are the same one.
+const SAME: f64 = 1e-11;
+
 /// Moves states by steps of one size: by programs where there are any, else by its [`Method`], which also makes the steps that
 /// programs refuse.
 pub(crate) struct Motion<'a> {
@@ -69,8 +73,10 @@ pub(crate) struct Motion<'a> {
     map: OnceLock<Map<'a>>,
     /// The programs of the step of another size that was made last.
     other: Mutex<Option<Arc<Compiled>>>,
-    /// The derivatives of flows and kicks, once they were asked for.
-    slopes: OnceLock<(Vec<Slope<'a>>, Option<KickSlope<'a>>)>,
+    /// The system, where its steps may have derivatives.
+    origin: Option<&'a Origin>,
+    /// The derivatives of the coefficients in each parameter, once they were asked for.
+    slopes: OnceLock<Vec<Vec<f64>>>,
 }
 
 impl<'a> Motion<'a> {
@@ -83,15 +89,16 @@ impl<'a> Motion<'a> {
         grid: Grid,
         parameters: Vec<f64>,
         method: Box<dyn Method<'a> + 'a>,
-        kicks: Option<&'a Kicks>,
+        origin: Option<&'a Origin>,
     ) -> Result<Self, StepError> {
+        let kicks = origin.and_then(Origin::kicks);
         let kicked = kicks.map(|kicks| {
             let torque = Torque::new(&kicks.kick, &space.group, &parameters)?;
             Ok::<_, StepError>(Kicked { kicks, torque })
         });
         let kicked = kicked.transpose()?;
         let (map, other, slopes) = Default::default();
-        let motion = Self { space, grid, parameters, method, kicked, map, other, slopes };
+        let motion = Self { space, grid, parameters, method, kicked, map, other, origin, slopes };
         if motion.space.compiled.is_none() {
             motion.whole()?;
         }
@@ -265,43 +272,40 @@ impl<'a> Motion<'a> {
         self.space.compiled.as_deref()
     }
 
-    /// q, the number of parameters that derivatives are taken in; none where the derivatives of steps are not known, as those of
-    /// a velocity or a torque.
+    /// q, the number of parameters that derivatives are taken in; none where there are no derivatives, as of learned maps, of functions of
+    /// the user's, and of systems too large for programs.
     pub(crate) fn differentiable(&self) -> Option<usize> {
-        self.method.is_differentiable().then_some(self.parameters.len())
+        (self.origin.is_some() && self.space.compiled.is_some()).then_some(self.parameters.len())
     }
 
-    /// The derivative of the next step of a state that `first` steps from the start of the grid have reached.
+    /// The derivative of the next step of a state that `first` steps from the start of the grid have reached; `None` where the step is
+    /// not made by its programs.
     ///
     /// # Errors
-    /// Fails if there is no step.
-    pub(crate) fn linear(&self, state: &Numbers, first: u64) -> Result<Linear, StepError> {
-        let (group, size) = (&self.space.group, self.grid.step);
-        let (flows, kick) = match self.slopes.get() {
+    /// Fails if two solutions of the step meet.
+    pub(crate) fn linear(&self, state: &Numbers, first: u64) -> Result<Option<Linear>, StepError> {
+        let (Some(origin), Some(compiled)) = (self.origin, &self.space.compiled) else {
+            return Ok(None);
+        };
+        let slopes = match self.slopes.get() {
             Some(slopes) => slopes,
             None => {
-                let lengths = lengths(self.kicks(), size);
-                let flows = self.method.slopes(group, &lengths, &self.parameters)?;
-                let kick =
-                    self.kicks().map(|own| KickSlope::new(&own.kick, group, &self.parameters));
-                let made = (flows, kick.transpose()?);
+                let made = compiled.slopes()?;
                 self.slopes.get_or_init(|| made)
             }
         };
-        let (mut phase, time) = (self.space.phase(state), self.grid.time(first));
-        let mut total = Linear::identity(phase.momentum.len(), self.parameters.len());
-        let (Some(kicks), Some(kick)) = (self.kicks(), kick) else {
-            return flows.first().map_or(Ok(total), |flow| flow(&mut phase, time));
+        let time = self.grid.time(first);
+        let linear = compiled.linear(origin, slopes, state, time)?;
+        let Some(refused) = linear.as_ref().and_then(|linear| linear.refused.as_ref()) else {
+            return Ok(linear);
         };
-        compose(kicks.splitting, &mut phase, [time, size], |piece, phase, time, length| {
-            let next = match piece {
-                Piece::Kick => kick.linear(phase, [time, length])?,
-                Piece::Flow(number) => flows[number](phase, time)?,
-            };
-            total = total.then(&next);
-            Ok(())
-        })?;
-        Ok(total)
+        // The equations have other solutions than the step that is made.
+        let mut next = state.clone();
+        self.one_at(&mut next, time)?;
+        let size = next.mu.iter().fold(0.0, |largest: f64, mu| largest.max(mu.abs()));
+        let off = |(a, b): (&f64, &f64)| (a - b).abs() <= SAME * size;
+        let same = refused.iter().zip(&next.mu).all(off);
+        Ok(linear.filter(|_| same))
     }
 
     /// Takes these values of the parameters, and what its programs read for them, where it has any. Steps made before are

@@ -4,22 +4,21 @@ use std::marker::PhantomData;
 use std::sync::{Arc, OnceLock};
 
 use coadjoint::generating::hessian_by_differences;
-use coadjoint::groups::{Chart, Exponential};
+use coadjoint::groups::Chart;
 use coadjoint::plumbing;
-use coadjoint::solve::{Solver, solve};
+use coadjoint::solve::Solver;
 use coadjoint::steps::advance;
-use coadjoint::{GeneratingFunction, Phase, StepError};
+use coadjoint::{GeneratingFunction, StepError};
 use coadjoint_codegen::graph::Program;
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::{FoldTable, Integrator, Predictor};
-use coadjoint_codegen::problem::{self, Symbol};
+use coadjoint_codegen::problem;
 use coadjoint_codegen::step::{Convergence, Converging};
 use coadjoint_codegen::{cancel, in_other_frame};
 use nalgebra::{DMatrix, DVector};
 
 use super::compiled::{Compiled, STEEP, Solved, refusal};
-use super::linear::{Linear, columns, matrix, moved, push_forward};
-use super::method::{Flow, Method, Slope};
+use super::method::{Flow, Method};
 use super::space::{Group, Tables, moved_in};
 
 /// The series of a polynomial, on a group with its chart.
@@ -56,28 +55,6 @@ where
         }))
     }
 
-    fn is_differentiable(&self) -> bool {
-        true
-    }
-
-    fn slopes(
-        &self,
-        _: &Tables,
-        lengths: &[f64],
-        parameters: &[f64],
-    ) -> Result<Vec<Slope<'a>>, StepError> {
-        let integrator = self.integrator;
-        let hessian = push_forward(&integrator.gradient);
-        let frame = integrator.frame.iter().map(push_forward).collect();
-        let tangent = Arc::new(Tangent { hessian, frame });
-        let slope = |&length: &f64| -> Result<Slope<'a>, StepError> {
-            let flow = TangentFlow::<G, C>::new(integrator, &self.group, length, parameters)?;
-            let tangent = tangent.clone();
-            Ok(Box::new(move |phase, _| moved_in(phase, |phase| flow.linear(&tangent, phase))))
-        };
-        lengths.iter().map(slope).collect()
-    }
-
     fn vary(&mut self, _: &[f64]) {
         self.converging = OnceLock::new();
     }
@@ -111,68 +88,6 @@ where
         };
         let other = self.comoving.get_or_init(make).as_ref()?;
         Some(Box::new(Series::<G, C>::new(other, self.group.clone())))
-    }
-}
-
-/// Derivatives that flows of any length have in common.
-struct Tangent {
-    /// p, v ↦ S_pp v.
-    hessian: Program,
-    /// For each motion of a comoving frame μ, v ↦ ∂y/∂μ v.
-    frame: Vec<Program>,
-}
-
-/// A flow and, since its programs are linear in their coefficients, its derivative in each parameter.
-struct TangentFlow<'a, G, C> {
-    function: Interpreter<'a, G, C>,
-    by_parameters: Vec<Interpreter<'a, G, C>>,
-}
-
-impl<'a, G: Group + Clone, C: Chart<G>> TangentFlow<'a, G, C> {
-    fn new(
-        integrator: &'a Integrator,
-        group: &G,
-        step: f64,
-        parameters: &[f64],
-    ) -> Result<Self, StepError> {
-        let values = integrator.problem.symbols_at(parameters);
-        let by_parameter = |number: usize| {
-            let mut change = vec![0.0; parameters.len()];
-            change[number] = 1.0;
-            let slope = |symbol: &Symbol| symbol.expr.slope(parameters, &change);
-            let change: Vec<f64> = integrator.problem.symbols.iter().map(slope).collect();
-            let slots = integrator.fold_table().slope(step, &values, &change);
-            let slots = slots.map_err(|error| refusal(error, step, &change))?;
-            Ok(Interpreter { integrator, group: group.clone(), slots, chart: PhantomData })
-        };
-        let by_parameters: Result<_, StepError> = (0..parameters.len()).map(by_parameter).collect();
-        let function = Interpreter::new(integrator, group.clone(), step, parameters)?;
-        Ok(Self { function, by_parameters: by_parameters? })
-    }
-
-    /// The derivative of the flow, with the motion of the frame after it.
-    fn linear(&self, tangent: &Tangent, phase: &mut Phase<G>) -> Result<Linear, StepError> {
-        let Self { function, by_parameters } = self;
-        let (place, dim) = ((C::default(), &function.group), phase.momentum.len());
-        let along = |program: &Program, at: &DVector<f64>, direction: &DVector<f64>| {
-            let inputs = [at.as_slice(), direction.as_slice()].concat();
-            DVector::from_vec(program.run(&inputs, &function.slots))
-        };
-        let mu = &phase.momentum;
-        let x = solve(function, mu)?.x;
-        let p = place.0.pull_back(place.1, &x, mu);
-        let hessian = columns(dim, |unit| along(&tangent.hessian, &p, unit));
-        let mixed = matrix(dim, by_parameters.iter().map(|slope| slope.gradient(&p)));
-        let response = Linear::response(place, &x, mu, [&hessian, &mixed])?;
-        let mut linear = moved(place, &x, phase, &response);
-        for (number, program) in tangent.frame.iter().enumerate() {
-            let mu = &phase.momentum;
-            let Some(y) = function.frame(number, mu) else { break };
-            let slopes = by_parameters.iter().filter_map(|slope| slope.frame(number, mu));
-            let response = [columns(dim, |unit| along(program, mu, unit)), matrix(dim, slopes)];
-            linear = linear.then(&moved((Exponential, place.1), &y, phase, &response));
-        }
-        Ok(linear)
     }
 }
 

@@ -28,7 +28,6 @@ mod energy;
 mod following;
 mod rates;
 mod refused;
-mod solution;
 mod solving;
 
 pub use coadjoint_program::collocation::MAX_NODES;
@@ -36,7 +35,6 @@ pub use drive::{DoubleBracket, Drive};
 pub use energy::{Energy, Undefined};
 #[doc(hidden)]
 pub use refused::collocated;
-pub use solution::{Node, Solution};
 
 use crate::error::{StepError, Stopped};
 use crate::group::LieGroup;

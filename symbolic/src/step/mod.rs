@@ -20,6 +20,7 @@ mod product;
 mod programs;
 mod solving;
 mod tables;
+mod tangent;
 mod traced;
 mod vector;
 
@@ -47,6 +48,7 @@ pub use invariants::{Invariants, Seen};
 #[cfg(feature = "spatial")]
 pub use observation::Observation;
 pub use origin::Origin;
+pub use tangent::{Differentiated, Tangent};
 
 /// A step as programs, with what is needed to fold its coefficients and to read group elements.
 #[derive(Debug)]

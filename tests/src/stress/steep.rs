@@ -284,9 +284,10 @@ fn unfollowed<G: LieGroup<Scalar = f64>, const M: usize>(
     h: f64,
     mu: &G::Vector,
 ) -> Option<G::Vector> {
-    let step = Collocation::<_, _, M>::new(group.clone(), Unfollowed(energy), h).ok()?;
-    let solution = step.solution(mu, 0.0).ok()?;
-    Some(group.exp_transport(&solution.x, mu).1)
+    let mut step = Collocation::<_, _, M>::new(group.clone(), Unfollowed(energy), h).ok()?;
+    let mut state = Phase::<G>::new(group.identity(), mu.clone());
+    step.advance(&mut state, 0.0).ok()?;
+    Some(state.momentum)
 }
 
 /// Steps of one system with `M` nodes.
