@@ -3,6 +3,7 @@
 #[cfg(test)]
 mod tests;
 
+use coadjoint_codegen::signal::{Gathered, Signal};
 use nalgebra::{DMatrix, DVector};
 
 use crate::engine::{Linear, Motion, Numbers};
@@ -14,12 +15,24 @@ use crate::simulate::{Schedule, Setup};
 ///
 /// A tangent to a state (g, μ) is the column (ξ, ν) of 2n numbers, ξ = g⁻¹δg in the basis of 𝔤 and ν = δμ; a cotangent is
 /// the column (λ, κ) of the factors of ξ and ν. q is the number of parameters that the system keeps, in their order, each
-/// flattened. The steps are those of a run to rounding, and derivatives those of the steps, not of the flow: the tangent
-/// map is symplectic to rounding.
+/// flattened; the samples of an input are the values of its table. The steps are those of a run to rounding, and derivatives those of
+/// the steps, not of the flow: without a velocity or a torque the tangent map is symplectic to rounding.
 pub struct Derivatives<'a> {
     motion: Motion<'a>,
+    signals: &'a [Signal],
     start: Numbers,
     schedule: Schedule,
+}
+
+/// k changes of what a run depends on.
+#[derive(Clone, Debug)]
+pub struct Changes {
+    /// Tangents at the start, 2n×k.
+    pub state: DMatrix<f64>,
+    /// Changes of the parameters, q×k.
+    pub parameters: DMatrix<f64>,
+    /// Changes of the samples of each input, a row a sample; none where no input changes.
+    pub inputs: Vec<DMatrix<f64>>,
 }
 
 /// The derivatives of k numbers that depend on a run.
@@ -29,6 +42,8 @@ pub struct Adjoint {
     pub state: DMatrix<f64>,
     /// In the parameters, q×k.
     pub parameters: DMatrix<f64>,
+    /// In the samples of each input, a row a sample; no rows of one that is a function.
+    pub inputs: Vec<DMatrix<f64>>,
     /// The most states that were kept at a time: about 2√N.
     pub kept: usize,
 }
@@ -40,7 +55,7 @@ impl<'a> Derivatives<'a> {
     /// Settings that make no sense.
     pub fn new(system: &'a Derived, setup: &Setup) -> Result<Self, RunError> {
         let (_, motion, start) = system.begin(setup)?;
-        Ok(Self { motion, start, schedule: setup.schedule })
+        Ok(Self { motion, signals: system.signals(), start, schedule: setup.schedule })
     }
 
     /// q, the number of parameters.
@@ -82,13 +97,17 @@ impl<'a> Derivatives<'a> {
             let what = "this step is too long for its derivative: take smaller steps".to_owned();
             return Err(RunError::Run { time: self.schedule.time(done), step: done + 1, what });
         };
-        self.finite(done, [&linear.state, &linear.parameters])?;
+        self.finite(done, [&linear.state, &linear.parameters, &linear.inputs])?;
         Ok(linear)
     }
 
     /// # Errors
     /// Fails if a number is not finite after `done` steps.
-    fn finite(&self, done: u64, numbers: [&DMatrix<f64>; 2]) -> Result<(), RunError> {
+    fn finite<'m>(
+        &self,
+        done: u64,
+        numbers: impl IntoIterator<Item = &'m DMatrix<f64>>,
+    ) -> Result<(), RunError> {
         if numbers.into_iter().flatten().all(|number| number.is_finite()) {
             return Ok(());
         }
@@ -117,26 +136,45 @@ impl<'a> Derivatives<'a> {
         Err(RunError::Option(what))
     }
 
-    /// The tangents (2n×k) after these numbers of steps, which ascend, of tangents at the start (2n×k) and changes of the
-    /// parameters (q×k).
+    /// The changes of the values of inputs that a step reads, for these changes of their samples.
+    fn read(&self, changed: &[Vec<Signal>], linear: &Linear, k: usize) -> DMatrix<f64> {
+        DMatrix::from_fn(linear.read.len(), k, |row, column| {
+            let (input, time) = linear.read[row];
+            changed[input].get(column).map_or(0.0, |signal| signal.at(time))
+        })
+    }
+
+    /// The tangents (2n×k) after these numbers of steps, which ascend, of k changes.
     ///
     /// # Errors
     /// Fails if the shapes do not fit, and why the run stopped.
-    pub fn forward(
-        &self,
-        tangents: &DMatrix<f64>,
-        parameters: &DMatrix<f64>,
-        at: &[u64],
-    ) -> Result<Vec<DMatrix<f64>>, RunError> {
-        let (n, q, k) = (self.dim(), self.known()?, tangents.ncols());
-        if tangents.nrows() != 2 * n || parameters.shape() != (q, k) {
+    pub fn forward(&self, changes: &Changes, at: &[u64]) -> Result<Vec<DMatrix<f64>>, RunError> {
+        let Changes { state, parameters, inputs } = changes;
+        let (n, q, k) = (self.dim(), self.known()?, state.ncols());
+        if state.nrows() != 2 * n || parameters.shape() != (q, k) {
             return Err(RunError::Option(format!(
                 "{k} tangents are {}×{k} numbers of the state and {q}×{k} of the parameters",
                 2 * n
             )));
         }
+        let samples = |signal: &Signal| signal.table()[0].len();
+        let fits = |(own, signal): (&DMatrix<f64>, &Signal)| own.shape() == (samples(signal), k);
+        let all = inputs.is_empty() || inputs.len() == self.signals.len();
+        if !all || !inputs.iter().zip(self.signals).all(fits) {
+            let rows = self.signals.iter().map(|signal| format!("{}×{k}", samples(signal)));
+            let rows = rows.collect::<Vec<_>>().join(", ");
+            let what = format!("changes of the samples of the inputs are {rows} numbers");
+            return Err(RunError::Option(what));
+        }
+        let changed = |(signal, own): (&Signal, &DMatrix<f64>)| -> Vec<Signal> {
+            let columns = own.column_iter().filter(|_| own.nrows() > 0);
+            columns
+                .map(|column| signal.with_values(&column.iter().copied().collect::<Vec<_>>()))
+                .collect()
+        };
+        let changed: Vec<_> = self.signals.iter().zip(inputs).map(changed).collect();
         self.ascending(at.iter().copied())?;
-        let mut now = tangents.clone();
+        let mut now = state.clone();
         let mut found = Vec::new();
         let mut note = |done: u64, now: &DMatrix<f64>| {
             if at.get(found.len()) == Some(&done) {
@@ -147,13 +185,16 @@ impl<'a> Derivatives<'a> {
         let last = at.last().copied().unwrap_or(0);
         self.follow(last, |done, linear| {
             now = &linear.state * &now + &linear.parameters * parameters;
+            if !changed.is_empty() {
+                now += &linear.inputs * self.read(&changed, linear, k);
+            }
             note(done + 1, &now);
         })?;
         self.finite(last, [&now, parameters])?;
         Ok(found)
     }
 
-    /// The adjoint: the derivatives, in the start and in the parameters, of k sums over the run, given as cotangents (2n×k)
+    /// The adjoint: the derivatives, in the start, in the parameters and in the samples of inputs, of k sums over the run, given as cotangents (2n×k)
     /// of the states after these numbers of steps, which ascend.
     ///
     /// Of the states every ⌊√N⌋th is kept, and those between two of them while they are gone through: steps are made
@@ -181,6 +222,8 @@ impl<'a> Derivatives<'a> {
         let (mut left, mut kept) = (cotangents.iter().rev().peekable(), 0);
         let mut now = DMatrix::zeros(2 * n, k);
         let mut parameters = DMatrix::zeros(q, k);
+        let gathered = |signal| (0..k).map(|_| Gathered::new(signal)).collect::<Vec<_>>();
+        let mut inputs: Vec<_> = self.signals.iter().map(gathered).collect();
         while let Some(mut state) = checkpoints.pop() {
             let first = checkpoints.len() as u64 * stretch;
             let last = count.min(first + stretch);
@@ -199,14 +242,24 @@ impl<'a> Derivatives<'a> {
                 }
                 let linear = self.linear(done, state)?;
                 parameters += linear.parameters.tr_mul(&now);
+                let weights = linear.inputs.tr_mul(&now);
+                for (&(input, time), row) in linear.read.iter().zip(weights.row_iter()) {
+                    inputs[input].iter_mut().zip(&row).for_each(|(own, &w)| own.add(time, w));
+                }
                 now = linear.state.tr_mul(&now);
             }
         }
         if let Some((_, own)) = left.next() {
             now += own;
         }
-        self.finite(0, [&now, &parameters])?;
-        Ok(Adjoint { state: now, parameters, kept })
+        let derivatives = |own: Vec<Gathered<'_>>| {
+            let columns: Vec<_> =
+                own.into_iter().map(|own| DVector::from_vec(own.derivatives())).collect();
+            if columns.is_empty() { DMatrix::zeros(0, k) } else { DMatrix::from_columns(&columns) }
+        };
+        let inputs: Vec<_> = inputs.into_iter().map(derivatives).collect();
+        self.finite(0, [&now, &parameters].into_iter().chain(&inputs))?;
+        Ok(Adjoint { state: now, parameters, inputs, kept })
     }
 
     /// The monodromy matrix (2n×2n): the derivative of the state at the end in that at the start. Along a periodic or
@@ -216,8 +269,9 @@ impl<'a> Derivatives<'a> {
     /// Returns the reason for which the run stopped.
     pub fn monodromy(&self) -> Result<DMatrix<f64>, RunError> {
         let n = 2 * self.dim();
-        let none = DMatrix::zeros(self.parameters(), n);
-        let found = self.forward(&DMatrix::identity(n, n), &none, &[self.schedule.steps])?;
+        let (state, parameters) = (DMatrix::identity(n, n), DMatrix::zeros(self.parameters(), n));
+        let changes = Changes { state, parameters, inputs: Vec::new() };
+        let found = self.forward(&changes, &[self.schedule.steps])?;
         Ok(found.into_iter().next().unwrap_or_default())
     }
 

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use coadjoint_codegen::signal::{Columns, Signal, SignalError};
+use coadjoint_codegen::signal::{Columns, Interpolation, Signal, SignalError};
 use coadjoint_codegen::smooth::Hamiltonian;
 use coadjoint_codegen::system::System;
 use coadjoint_learn::table::{Row, Table};
@@ -17,6 +17,10 @@ pub fn inputs_hash(signals: &[Signal]) -> Option<String> {
     let mut hash = Sha256::new();
     for signal in signals {
         hash.update(&signal.name);
+        // Splines have the hash that they had before there was another course.
+        if !signal.breaks().is_empty() {
+            hash.update([signal.between as u8]);
+        }
         signal.table().concat().iter().for_each(|number| hash.update(number.to_le_bytes()));
     }
     (!signals.is_empty()).then(|| format!("{:x}", hash.finalize()))
@@ -56,7 +60,7 @@ pub(crate) fn fill(system: &Path, read: &mut System<Hamiltonian>) -> Result<(), 
     for signal in signals {
         if let (Some(columns), [[], _]) = (signal.columns.clone(), signal.table()) {
             let path = beside(system, &columns);
-            *signal = from_columns(&signal.name, &columns, &files[&path])
+            *signal = from_columns((&signal.name, signal.between), &columns, &files[&path])
                 .map_err(|what| RunError::of(&path)(what))?;
             signal.columns = Some(columns);
         }
@@ -89,9 +93,13 @@ fn fill_columns(system: &Path, path: &Path, columns: &mut Read) -> Result<(), Ru
     Ok(())
 }
 
-fn from_columns(name: &str, columns: &Columns, read: &Read) -> Result<Signal, String> {
+fn from_columns(
+    (name, between): (&str, Interpolation),
+    columns: &Columns,
+    read: &Read,
+) -> Result<Signal, String> {
     let [times, values] = [&columns.times, &columns.values].map(|column| read[column].clone());
-    Signal::new(name.to_owned(), times, values).map_err(|error| match error {
+    Signal::new(name.to_owned(), times, values, between).map_err(|error| match error {
         SignalError::Times(at, time) => format!(
             "row {}, column {}: {} must be after the time of the row before",
             at + 1,

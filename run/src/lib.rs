@@ -25,7 +25,7 @@ use sha2::{Digest, Sha256};
 pub use accuracy::meet_tolerance;
 pub use asked::Accuracy;
 pub use backend::{Backend, Used};
-pub use derivative::{Adjoint, Derivatives};
+pub use derivative::{Adjoint, Changes, Derivatives};
 pub use engine::STEEP;
 pub use error::RunError;
 pub use grid::Grid;

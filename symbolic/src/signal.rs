@@ -1,19 +1,47 @@
 //! Inputs: functions of time that a table gives, or the program that reads the system.
 
+use std::str::FromStr;
 use std::sync::Arc;
 
 use thiserror::Error;
 
-/// An input u(t), given by its values at some times: the cubic spline through them whose third derivative does not jump at the
-/// second time and at the last but one ("not a knot": C. de Boor, *A Practical Guide to Splines*, IV). Through three values
-/// it is a parabola, through two a line. Or a function, which is called at the times that steps ask for.
+/// The course of an input between the times of its values.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Interpolation {
+    /// The value at the time before, which the last one keeps: steps end at the times, where the input jumps.
+    Previous,
+    /// The line to the next value: steps end at the times, where it bends.
+    Linear,
+    /// The cubic spline whose third derivative does not jump at the second time and at the last but one ("not a knot": C. de Boor,
+    /// *A Practical Guide to Splines*, IV). Through three values it is a parabola, through two a line.
+    #[default]
+    Spline,
+}
+
+impl FromStr for Interpolation {
+    type Err = ();
+
+    fn from_str(text: &str) -> Result<Self, ()> {
+        match text {
+            "previous" => Ok(Self::Previous),
+            "linear" => Ok(Self::Linear),
+            "spline" => Ok(Self::Spline),
+            _ => Err(()),
+        }
+    }
+}
+
+/// An input u(t), given by its values at some times, with an [`Interpolation`] between them. Or a function, which is called at the times
+/// that steps ask for.
 #[derive(Clone, Debug)]
 pub struct Signal {
     /// Its name.
     pub name: String,
     times: Vec<f64>,
     values: Vec<f64>,
-    /// The slopes at the times.
+    /// Its course between the times.
+    pub between: Interpolation,
+    /// The slopes of a spline at the times.
     slopes: Vec<f64>,
     /// The columns of a file that hold its table, where a file does.
     pub columns: Option<Columns>,
@@ -73,7 +101,12 @@ impl Signal {
     ///
     /// # Errors
     /// [`SignalError`]: why there is none.
-    pub fn new(name: String, times: Vec<f64>, values: Vec<f64>) -> Result<Self, SignalError> {
+    pub fn new(
+        name: String,
+        times: Vec<f64>,
+        values: Vec<f64>,
+        between: Interpolation,
+    ) -> Result<Self, SignalError> {
         if times.len() != values.len() {
             return Err(SignalError::Lengths(name, times.len(), values.len()));
         }
@@ -87,11 +120,11 @@ impl Signal {
         if let Some(at) = values.iter().position(|value| !value.is_finite()) {
             return Err(SignalError::Value(name, at, values[at]));
         }
-        let slopes = slopes(&times, &values);
-        if let Some((at, reached)) = overshoot(&times, &values, &slopes) {
-            return Err(SignalError::Close(name, at, reached));
+        let signal = Self::through(name, times, values, between);
+        match overshoot(&signal.times, &signal.values, &signal.slopes) {
+            Some((at, reached)) => Err(SignalError::Close(signal.name, at, reached)),
+            None => Ok(signal),
         }
-        Ok(Self { name, times, values, slopes, columns: None, function: None })
     }
 
     /// The input of this name that is a function, at all times; NaN where it has no value.
@@ -99,14 +132,33 @@ impl Signal {
         name: String,
         function: impl Fn(f64) -> f64 + Send + Sync + 'static,
     ) -> Self {
-        let (times, values, slopes, columns) = Default::default();
-        Self { name, times, values, slopes, columns, function: Some(Called(Arc::new(function))) }
+        let none = Self::through(name, Vec::new(), Vec::new(), Interpolation::Spline);
+        Self { function: Some(Called(Arc::new(function))), ..none }
     }
 
     /// The input of this name with the table in a file, which has no value until [`Signal::new`] is given the numbers.
-    pub fn of_columns(name: String, columns: Columns) -> Self {
-        let (times, values, slopes) = Default::default();
-        Self { name, times, values, slopes, columns: Some(columns), function: None }
+    pub fn of_columns(name: String, columns: Columns, between: Interpolation) -> Self {
+        let none = Self::through(name, Vec::new(), Vec::new(), between);
+        Self { columns: Some(columns), ..none }
+    }
+
+    /// The input with these values, whatever they are.
+    fn through(name: String, times: Vec<f64>, values: Vec<f64>, between: Interpolation) -> Self {
+        let slopes = match between {
+            Interpolation::Spline if !times.is_empty() => slopes(&times, &values),
+            _ => Vec::new(),
+        };
+        Self { name, times, values, between, slopes, columns: None, function: None }
+    }
+
+    /// The input with other values at its times, on which it depends linearly.
+    pub fn with_values(&self, values: &[f64]) -> Self {
+        Self::through(self.name.clone(), self.times.clone(), values.to_vec(), self.between)
+    }
+
+    /// The times at which it jumps or bends, so that steps end there.
+    pub fn breaks(&self) -> &[f64] {
+        if self.between == Interpolation::Spline { &[] } else { &self.times }
     }
 
     /// The times and the values of the table; none of a function.
@@ -114,33 +166,110 @@ impl Signal {
         [&self.times, &self.values]
     }
 
-    /// The first and the last time of the table; NaN where it has none. A function goes on for ever.
+    /// The first and the last time of the table; NaN where it has none. A function goes on for ever, and so does a last value that is
+    /// kept.
     pub fn range(&self) -> [f64; 2] {
         if self.function.is_some() {
             return [f64::NEG_INFINITY, f64::INFINITY];
         }
-        [self.times.first(), self.times.last()].map(|time| time.copied().unwrap_or(f64::NAN))
+        let [first, last] = [self.times.first(), self.times.last()];
+        let [first, last] = [first, last].map(|time| time.copied().unwrap_or(f64::NAN));
+        [first, if self.between == Interpolation::Previous { f64::INFINITY } else { last }]
     }
 
-    /// u(t); NaN outside the table, whose ends reach as far as times are rounded.
-    pub(crate) fn at(&self, time: f64) -> f64 {
-        if let Some(Called(function)) = &self.function {
-            return function(time);
-        }
-        let Self { times, values, slopes, .. } = self;
-        let [first, end] = self.range();
+    /// The piece of the table at this time, the way from its beginning, and its width; `None` outside the table, whose ends reach as far
+    /// as times are rounded.
+    fn piece(&self, time: f64) -> Option<(usize, [f64; 2])> {
+        let Self { times, .. } = self;
+        let (first, end) = (*times.first()?, *times.last()?);
         let rounding = 1e-12 * (end - first);
-        if !(first - rounding..=end + rounding).contains(&time) {
-            return f64::NAN;
+        let held = self.between == Interpolation::Previous;
+        if !(time >= first - rounding && (held || time <= end + rounding)) {
+            return None;
         }
         let time = time.clamp(first, end);
         let last = times.len() - 1;
-        let i = times.partition_point(|knot| *knot <= time).clamp(1, last) - 1;
-        let (width, way) = (times[i + 1] - times[i], time - times[i]);
-        let chord = (values[i + 1] - values[i]) / width;
-        let (a, b, share) = (slopes[i], slopes[i + 1], way / width);
-        values[i] + way * (a + share * (3.0 * chord - 2.0 * a - b + share * (a + b - 2.0 * chord)))
+        // A step that ends at a time may begin before it by rounding.
+        let slack = if held { rounding } else { 0.0 };
+        let i =
+            times.partition_point(|knot| *knot <= time + slack).clamp(1, last + usize::from(held))
+                - 1;
+        let next = times.get(i + 1).copied().unwrap_or(f64::INFINITY);
+        Some((i, [time - times[i], next - times[i]]))
     }
+
+    /// u(t); NaN outside the table.
+    pub fn at(&self, time: f64) -> f64 {
+        if let Some(Called(function)) = &self.function {
+            return function(time);
+        }
+        let Self { values, slopes, .. } = self;
+        let Some((i, piece)) = self.piece(time) else { return f64::NAN };
+        match self.between {
+            Interpolation::Previous => values[i],
+            Interpolation::Linear => line(piece, [values[i], values[i + 1]]),
+            Interpolation::Spline => {
+                cubic(piece, [values[i], values[i + 1]], [slopes[i], slopes[i + 1]])
+            }
+        }
+    }
+}
+
+/// The derivatives of Σⱼ wⱼ u(tⱼ) in the values of an input's table.
+#[derive(Debug)]
+pub struct Gathered<'a> {
+    signal: &'a Signal,
+    of_values: Vec<f64>,
+    of_slopes: Vec<f64>,
+}
+
+impl<'a> Gathered<'a> {
+    /// Of a sum without terms.
+    pub fn new(signal: &'a Signal) -> Self {
+        let zeros = vec![0.0; signal.times.len()];
+        Self { signal, of_values: zeros.clone(), of_slopes: zeros }
+    }
+
+    /// Adds the term w u(t); times outside the table count for nothing.
+    pub fn add(&mut self, time: f64, weight: f64) {
+        let Some((i, piece)) = self.signal.piece(time) else { return };
+        let add = |list: &mut [f64], of: &dyn Fn([f64; 2]) -> f64| {
+            list[i] += weight * of([1.0, 0.0]);
+            list[i + 1] += weight * of([0.0, 1.0]);
+        };
+        match self.signal.between {
+            Interpolation::Previous => self.of_values[i] += weight,
+            Interpolation::Linear => add(&mut self.of_values, &|unit| line(piece, unit)),
+            Interpolation::Spline => {
+                add(&mut self.of_values, &|unit| cubic(piece, unit, [0.0; 2]));
+                add(&mut self.of_slopes, &|unit| cubic(piece, [0.0; 2], unit));
+            }
+        }
+    }
+
+    /// The derivatives, one for each value.
+    pub fn derivatives(mut self) -> Vec<f64> {
+        if self.of_slopes.iter().any(|own| *own != 0.0) {
+            for (at, of_value) in self.of_values.iter_mut().enumerate() {
+                let mut unit = vec![0.0; self.of_slopes.len()];
+                unit[at] = 1.0;
+                let slopes = slopes(&self.signal.times, &unit);
+                *of_value += slopes.iter().zip(&self.of_slopes).map(|(a, b)| a * b).sum::<f64>();
+            }
+        }
+        self.of_values
+    }
+}
+
+/// The line between two values, at this way of a piece of this width.
+fn line([way, width]: [f64; 2], [from, to]: [f64; 2]) -> f64 {
+    from + way * ((to - from) / width)
+}
+
+/// The cubic between two values with these slopes there, at this way of a piece of this width.
+fn cubic([way, width]: [f64; 2], [from, to]: [f64; 2], [a, b]: [f64; 2]) -> f64 {
+    let (chord, share) = ((to - from) / width, way / width);
+    from + way * (a + share * (3.0 * chord - 2.0 * a - b + share * (a + b - 2.0 * chord)))
 }
 
 /// The inputs of a program that depends on μ, t and u(t), after those it has besides.
@@ -154,6 +283,9 @@ pub(crate) fn inputs(mut first: Vec<f64>, mu: &[f64], time: f64, signals: &[Sign
 /// The first of the two times that make the spline leave its values by far, and how far it may then go: each piece stays within
 /// its values at the ends and at the points of its tangents there after a third of the way.
 fn overshoot(times: &[f64], values: &[f64], slopes: &[f64]) -> Option<(usize, f64)> {
+    if slopes.is_empty() {
+        return None;
+    }
     let [low, high] = [f64::min, f64::max].map(|pick| values.iter().copied().fold(values[0], pick));
     let width = |i: usize| times[i + 1] - times[i];
     let reached = |i: usize| {
@@ -222,19 +354,22 @@ fn slopes(times: &[f64], values: &[f64]) -> Vec<f64> {
 mod tests {
     use super::*;
 
+    const SPLINE: Interpolation = Interpolation::Spline;
+
     /// A jump within a millionth of the other times makes a spline 10⁵ times as high as its values, by its slopes of 10⁶.
     #[test]
     fn times_that_are_nearly_equal_are_refused() {
         let table = |gap: f64| {
             let times = vec![0.0, 0.5, 0.5 + gap, 1.0, 1.5, 2.0];
-            Signal::new("u".to_owned(), times, vec![1.0, 1.0, 2.0, 2.0, 1.0, 1.0])
+            Signal::new("u".to_owned(), times, vec![1.0, 1.0, 2.0, 2.0, 1.0, 1.0], SPLINE)
         };
         assert!(
             matches!(table(1e-6).unwrap_err(), SignalError::Close(_, 1, reached) if reached.abs() > 1e4)
         );
         assert!(table(0.2).is_ok());
         // Equal values have no jump.
-        assert!(Signal::new("u".to_owned(), vec![0.0, 0.5, 0.5 + 1e-9, 1.0], vec![0.1; 4]).is_ok());
+        let close = vec![0.0, 0.5, 0.5 + 1e-9, 1.0];
+        assert!(Signal::new("u".to_owned(), close, vec![0.1; 4], SPLINE).is_ok());
     }
 
     /// Four values or more determine a cubic, three a parabola, two a line.
@@ -249,7 +384,7 @@ mod tests {
         for (count, function) in cases {
             let times = times[..count].to_vec();
             let values = times.iter().map(|&t| function(t)).collect();
-            let signal = Signal::new("u".to_owned(), times.clone(), values).unwrap();
+            let signal = Signal::new("u".to_owned(), times.clone(), values, SPLINE).unwrap();
             for i in 0..=100 {
                 let t = times[0] + (times[count - 1] - times[0]) * f64::from(i) / 100.0;
                 assert!((signal.at(t) - function(t)).abs() < 2e-13, "{count} {t}");

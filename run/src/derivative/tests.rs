@@ -3,6 +3,7 @@
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::judge::{DoubleDouble, Judge};
 use coadjoint_codegen::lie::LieAlgebra;
+use coadjoint_codegen::step::Origin;
 use coadjoint_codegen::system::Options;
 use num_traits::ToPrimitive;
 
@@ -29,7 +30,7 @@ const BODY: Case = Case {
     step: 0.25,
 };
 
-const CASES: [Case; 10] = [
+const CASES: [Case; 14] = [
     BODY,
     Case {
         text: "group = 'SE3'\nhamiltonian = 'mu[0]^2/2 + mu[1]^2/3 + mu[2]^2 + f*mu[5] + mu[3]*mu[4]/5'\n\
@@ -98,6 +99,36 @@ const CASES: [Case; 10] = [
         momentum: &[0.5, 0.25, -0.5, 0.75, 0.5, 0.25],
         step: 0.125,
     },
+    // A velocity and a torque of all that they may depend on; damping; a velocity alone; a product.
+    Case {
+        text: "group = 'SO3'\nhamiltonian = 'mu[0]^2/2 + mu[1]^2/b + mu[2]^2/4'\n\
+               velocity = ['a*mu[1]*omega[2]', 'u', 'g[0][1]*sin(t)']\ntorque = ['-a*omega[0]', 'u*g[2][0]', 'cos(t)*mu[0]']\n\
+               [parameters]\na = 0.25\nb = 3\n[inputs]\nhold = 'linear'\ntimes = [-9, 1.5, 40]\nu = [0.2, 0.3, 0.1]",
+        varied: &["a", "b"],
+        momentum: &[0.5, 0.25, 1.0],
+        step: 0.25,
+    },
+    Case {
+        text: "group = 'SE3'\nhamiltonian = 'mu[0]^2/2 + mu[1]^2/3 + mu[2]^2 + f*mu[5] + mu[3]^2/5'\ndamping = 0.125\n\
+               torque = ['0', '0', '0', 'g[2][0]*u', 'g[2][1]', 'g[2][2]']\n\
+               [parameters]\nf = 0.75\n[inputs]\nhold = 'previous'\ntimes = [-9, 1.75, 2]\nu = [0.2, 0.3, 0.1]",
+        varied: &["f"],
+        momentum: &[0.5, -0.25, 1.0, 0.75, 0.5, -0.5],
+        step: 0.125,
+    },
+    Case {
+        text: "group = 'SL2'\nvelocity = ['a*mu[1]', 'mu[0]*mu[2]/4', 'a^2*cos(t)']\n[parameters]\na = 0.5\n[integrator]\ntruncation = 5",
+        varied: &["a"],
+        momentum: &[0.5, 0.25, -0.5],
+        step: 0.125,
+    },
+    Case {
+        text: "group = 'SO3 * SE2'\nhamiltonian = 'mu[0]^2/2 + mu[1]^2/3 + mu[2]^2/4 + mu[3]^2/2 + mu[4]^2/3'\n\
+               torque = ['a*mu[5]', '0', '0', '-a*omega[3]', '0', 'mu[0]']\n[parameters]\na = 0.5\n[integrator]\ntruncation = 3",
+        varied: &["a"],
+        momentum: &[0.5, 0.25, -0.5, 0.75, 0.5, 0.25],
+        step: 0.125,
+    },
 ];
 
 impl Case {
@@ -158,12 +189,43 @@ fn end(case: &Case, system: &Derived, parameters: &[f64], start: Numbers, steps:
     state
 }
 
-/// All columns of tangents: those of the state, then those of the parameters.
-fn whole(derivatives: &Derivatives<'_>) -> DMatrix<f64> {
+/// All changes, a column each: those of the state, then those of the parameters, then those of the samples of inputs.
+fn all(derivatives: &Derivatives<'_>) -> Changes {
+    let samples = derivatives.signals.iter().map(|signal| signal.table()[0].len());
     let (n, q) = (2 * derivatives.dim(), derivatives.parameters());
-    let parameters = DMatrix::from_fn(q, n + q, |i, j| if n + i == j { 1.0 } else { 0.0 });
+    let k = n + q + samples.clone().sum::<usize>();
+    let units = |first: usize, rows| {
+        DMatrix::from_fn(rows, k, |i, j| if first + i == j { 1.0 } else { 0.0 })
+    };
+    let mut first = n + q;
+    let mut input = |rows: usize| {
+        first += rows;
+        units(first - rows, rows)
+    };
+    let inputs = samples.map(&mut input).collect();
+    Changes { state: units(0, n), parameters: units(n, q), inputs }
+}
+
+/// The tangents of all changes at the end.
+fn whole(derivatives: &Derivatives<'_>) -> DMatrix<f64> {
     let end = [derivatives.schedule.steps];
-    derivatives.forward(&DMatrix::identity(n, n + q), &parameters, &end).unwrap().remove(0)
+    derivatives.forward(&all(derivatives), &end).unwrap().remove(0)
+}
+
+/// The system with this sample of its inputs, which are counted one after the other, changed by so much.
+fn with_sample(case: &Case, mut sample: usize, change: f64) -> Derived {
+    let mut system = case.system();
+    if let Origin::Collocation(smooth) = &mut system.origin {
+        for signal in &mut smooth.signals {
+            let mut values = signal.table()[1].to_vec();
+            if let Some(value) = values.get_mut(sample) {
+                *value += change;
+            }
+            sample = sample.wrapping_sub(values.len());
+            *signal = signal.with_values(&values);
+        }
+    }
+    system
 }
 
 #[test]
@@ -183,6 +245,7 @@ fn tangents_are_the_derivatives_of_runs() {
         let at = |column: usize, s: f64| {
             let (mut theta, mut mu) = (theta.clone(), moved.mu.clone());
             let mut g = DMatrix::from_row_slice(size, size, &matrix);
+            let mut other = None;
             match column {
                 j if j < n => {
                     let e = &algebra.matrices()[j];
@@ -190,10 +253,11 @@ fn tangents_are_the_derivatives_of_runs() {
                         .exp();
                 }
                 j if j < 2 * n => mu[j - n] += s,
-                j => theta[j - 2 * n] += s,
+                j if j < 2 * n + theta.len() => theta[j - 2 * n] += s,
+                j => other = Some(with_sample(case, j - 2 * n - theta.len(), s)),
             }
             let g = g.transpose().as_slice().to_vec();
-            end(case, &system, &theta, Numbers { g, mu }, 4)
+            end(case, other.as_ref().unwrap_or(&system), &theta, Numbers { g, mu }, 4)
         };
         let here = at(0, 0.0);
         for (column, found) in found.column_iter().enumerate() {
@@ -271,15 +335,14 @@ fn tangents_are_symplectic_and_adjoints_are_their_transposes() {
         let derivatives = Derivatives::new(&system, &case.setup(steps)).unwrap();
         let (n, q) = (derivatives.dim(), derivatives.parameters());
         let found = whole(&derivatives);
+        let all = all(&derivatives);
         // Sums over three states.
         let weights = |at: u64| {
             DMatrix::from_fn(2 * n, 3, |i, j| ((1 + 3 * i + 7 * j) as f64 + at as f64).sin())
         };
         let at = [0, 7, steps];
         let adjoint = derivatives.backward(&at.map(|at| (at, weights(at)))).unwrap();
-        let identity = DMatrix::identity(2 * n, 2 * n + q);
-        let change = DMatrix::from_fn(q, 2 * n + q, |i, j| if 2 * n + i == j { 1.0 } else { 0.0 });
-        let tangents = derivatives.forward(&identity, &change, &at).unwrap();
+        let tangents = derivatives.forward(&all, &at).unwrap();
         let sums = tangents.iter().zip(at).map(|(tangent, at)| tangent.tr_mul(&weights(at)));
         let wanted = sums.reduce(|a, b| a + b).unwrap();
         let off = (adjoint.state - wanted.rows(0, 2 * n)).amax() / wanted.amax();
@@ -288,8 +351,17 @@ fn tangents_are_symplectic_and_adjoints_are_their_transposes() {
             let off = (adjoint.parameters - wanted.rows(2 * n, q)).amax() / wanted.amax();
             assert!(off < 1e-13, "{}: {off:e}", case.text);
         }
+        let mut first = 2 * n + q;
+        for own in &adjoint.inputs {
+            let off = (own - wanted.rows(first, own.nrows())).amax() / wanted.amax();
+            assert!(off < 1e-13, "{}: {off:e}", case.text);
+            first += own.nrows();
+        }
         assert!(adjoint.kept as u64 <= 2 * steps.isqrt() + 2, "{} states", adjoint.kept);
 
+        if system.drive().is_some() {
+            continue;
+        }
         let algebra = system.facts().algebra;
         let mut state = derivatives.start.clone();
         derivatives.motion.advance(&mut state, 0, steps).unwrap();
@@ -343,11 +415,17 @@ fn shapes_that_do_not_fit_and_runs_that_stop_are_told() {
     let system = BODY.system();
     let derivatives = Derivatives::new(&system, &BODY.setup(4)).unwrap();
     let [zeros, none, fits] = [5, 4, 6].map(|rows| DMatrix::zeros(rows, 1));
+    let forward = |state: &DMatrix<f64>, parameters: &DMatrix<f64>, inputs: usize, at: &[u64]| {
+        let inputs = vec![DMatrix::zeros(3, 1); inputs];
+        let changes = Changes { state: state.clone(), parameters: parameters.clone(), inputs };
+        derivatives.forward(&changes, at).map(drop)
+    };
     for failed in [
-        derivatives.forward(&zeros, &none, &[4]).map(drop),
-        derivatives.forward(&fits, &zeros, &[4]).map(drop),
-        derivatives.forward(&fits, &none, &[4, 2]).map(drop),
-        derivatives.forward(&fits, &none, &[5]).map(drop),
+        forward(&zeros, &none, 0, &[4]),
+        forward(&fits, &zeros, 0, &[4]),
+        forward(&fits, &none, 0, &[4, 2]),
+        forward(&fits, &none, 0, &[5]),
+        forward(&fits, &none, 1, &[4]),
         derivatives.backward(&[(4, zeros.clone())]).map(drop),
         derivatives.backward(&[(5, fits.clone())]).map(drop),
     ] {
