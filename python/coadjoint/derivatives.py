@@ -38,6 +38,8 @@ class Gradient(NamedTuple):
     momentum: Floats
     #: In each of the parameters asked for, an array of its shape.
     parameters: dict[str, Floats]
+    #: In the samples of each input asked for, at its times.
+    inputs: dict[str, Floats]
 
 
 def _asked(run: Run, names: Iterable[str]) -> tuple[dict[str, Any], dict[str, tuple[int, ...]]]:
@@ -77,9 +79,23 @@ def _steps(run: Run) -> list[int]:
     return [int(step) for step in steps]
 
 
-def forward(run: Run, momentum: Any, group_element: Any, parameters: Mapping[str, Any] | None) -> Tangent:
+def _samples(run: Run, names: Iterable[str]) -> dict[str, int]:
+    """The numbers of samples of these inputs."""
+    known = dict(run._source._core.inputs())
+    wanted = [_arrays.text(name, "inputs") for name in names]
+    for name in wanted:
+        if known.get(name, 0) == 0:
+            what = "is a function, which has no samples" if name in known else "is no input of the system"
+            raise InputError(f"inputs: {name!r} {what}; those with samples: {', '.join(k for k, n in known.items() if n) or 'none'}")
+    return {name: known[name] for name in wanted}
+
+
+def forward(
+    run: Run, momentum: Any, group_element: Any, parameters: Mapping[str, Any] | None, inputs: Mapping[str, Any] | None
+) -> Tangent:
     """:meth:`Run.jvp`."""
     given = {} if parameters is None else dict(parameters)
+    sampled = {} if inputs is None else dict(inputs)
     asked, shapes = _asked(run, given)
     n = run.momentum.shape[1]
 
@@ -94,14 +110,17 @@ def forward(run: Run, momentum: Any, group_element: Any, parameters: Mapping[str
         changes.append(change.ravel())
     state = np.concatenate([vector(group_element, "group_element"), vector(momentum, "momentum")])
     change = np.concatenate(changes)
-    found = _core.forward(asked, state[:, np.newaxis], change[:, np.newaxis], _steps(run))
+    samples = {name: _arrays.vector(sampled[name], f"inputs[{name!r}]", count) for name, count in _samples(run, sampled).items()}
+    columns = {name: own[:, np.newaxis] for name, own in samples.items()}
+    found = _core.forward(asked, state[:, np.newaxis], change[:, np.newaxis], columns, _steps(run))
     both = found.reshape(len(run), 2, n)
     return Tangent(both[:, 0], both[:, 1])
 
 
-def backward(run: Run, momentum: Any, group_element: Any, parameters: Iterable[str]) -> Gradient:
+def backward(run: Run, momentum: Any, group_element: Any, parameters: Iterable[str], inputs: Iterable[str]) -> Gradient:
     """:meth:`Run.vjp`."""
     asked, shapes = _asked(run, [parameters] if isinstance(parameters, str) else parameters)
+    samples = _samples(run, [inputs] if isinstance(inputs, str) else inputs)
     count, n = run.momentum.shape
 
     def rows(value: Any, what: str) -> Floats:
@@ -113,14 +132,14 @@ def backward(run: Run, momentum: Any, group_element: Any, parameters: Iterable[s
         return array
 
     both = np.hstack([rows(group_element, "group_element"), rows(momentum, "momentum")])
-    found = _core.backward(asked, both, _steps(run))
+    found, of_inputs = _core.backward(asked, both, _steps(run))
     named: dict[str, Floats] = {}
     place = 2 * n
     for name, shape in shapes.items():
         size = int(np.prod(shape))
         named[name] = found[place : place + size].reshape(shape)
         place += size
-    return Gradient(found[:n], found[n : 2 * n], named)
+    return Gradient(found[:n], found[n : 2 * n], named, {name: of_inputs[name] for name in samples})
 
 
 def monodromy(run: Run) -> Floats:
@@ -128,7 +147,7 @@ def monodromy(run: Run) -> Floats:
     asked, _ = _asked(run, ())
     size = 2 * len(run.final_momentum)
     steps = _steps(run)[-1:]
-    found = _core.forward(asked, np.eye(size), np.zeros((0, size)), steps)
+    found = _core.forward(asked, np.eye(size), np.zeros((0, size)), {}, steps)
     return found.reshape(size, size).T
 
 

@@ -247,13 +247,14 @@ class Run:
         momentum: Numbers | None = None,
         group_element: Numbers | None = None,
         parameters: Mapping[str, Any] | None = None,
+        inputs: Mapping[str, Numbers] | None = None,
     ) -> Tangent:
-        """The changes of all records, to first order, with the start and the parameters: the derivative times a vector.
+        """The changes of all records, to first order, with the start, the parameters and the inputs: the derivative times a vector.
 
         ``momentum`` (n,) is the change of the momentum at the start, ``group_element`` (n,) that of the attitude as
         ξ = g⁻¹δg in the basis of the Lie algebra, in radians for rotations; ``parameters`` has a number, or an array of its
-        shape, for the name of each parameter that changes. They are derivatives of the steps themselves, to rounding. Records
-        between steps have none, nor have runs with a velocity, a torque or damping.
+        shape, for the name of each parameter that changes, and ``inputs`` the changes of the samples, one at each of its times, for the
+        name of each input that changes. They are derivatives of the steps themselves, to rounding. Records between steps have none.
 
         >>> import coadjoint as ca
         >>> body = ca.System("SO3", "x^2/(2*I) + y^2/4 + z^2/5", coordinates="x y z", parameters=dict(I=1.5))
@@ -261,7 +262,7 @@ class Run:
         >>> run.jvp(parameters={"I": 1}).momentum.shape
         (101, 3)
         """
-        return forward(self, momentum, group_element, parameters)
+        return forward(self, momentum, group_element, parameters, inputs)
 
     def vjp(
         self,
@@ -269,14 +270,16 @@ class Run:
         momentum: Numbers | None = None,
         group_element: Numbers | None = None,
         parameters: Iterable[str] = (),
+        inputs: Iterable[str] = (),
     ) -> Gradient:
-        """The derivatives of one number in the start and in the parameters with these names: a vector times the derivative.
+        """The derivatives of one number in the start, and in the parameters and the samples of the inputs with these names: a vector
+        times the derivative.
 
         ``momentum`` (N, n) and ``group_element`` (N, n) are the derivatives of that number in the momentum and in
         ξ = g⁻¹δg of each record. Whatever their number, it takes about the time of two runs and one :meth:`jvp`, and of N
         steps the memory of 2√N states.
         """
-        return backward(self, momentum, group_element, parameters)
+        return backward(self, momentum, group_element, parameters, inputs)
 
     def monodromy(self) -> Floats:
         """The derivative of the last record in the start, (2n, 2n), for columns (ξ, δμ). After a period of the motion its

@@ -1,11 +1,13 @@
 //! The derivatives of runs.
 
+use std::collections::HashMap;
 use std::sync::{Arc, PoisonError};
 
 use coadjoint_codegen::problem::FrameChoice;
+use coadjoint_codegen::signal::Signal;
 use coadjoint_codegen::system::Options;
 use coadjoint_run::simulate::{Schedule, Setup};
-use coadjoint_run::{Derivatives, Derived, RunError};
+use coadjoint_run::{Changes, Derivatives, Derived, RunError};
 use nalgebra::DMatrix;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -78,43 +80,59 @@ fn with<T: Send + 'static>(
     result.map_err(|error: RunError| raised_by(py, &error, &failures))
 }
 
+/// The derivatives of a sum, those in the samples of inputs by their names.
+type Backward<'py> = (Bound<'py, PyArray1<f64>>, HashMap<String, Bound<'py, PyArray1<f64>>>);
+
 fn matrix(array: &PyReadonlyArray2<'_, f64>) -> DMatrix<f64> {
     let array = array.as_array();
     DMatrix::from_fn(array.nrows(), array.ncols(), |i, j| array[(i, j)])
 }
 
-/// The tangents after these numbers of steps, of k columns of (ξ, ν) at the start and of changes of the parameters: column
-/// after column, step after step.
+/// The tangents after these numbers of steps, of k columns of (ξ, ν) at the start, of changes of the parameters and of the samples of
+/// inputs by their names: column after column, step after step.
 #[pyfunction]
 pub fn forward<'py>(
     py: Python<'py>,
     run: Request,
     tangents: PyReadonlyArray2<'py, f64>,
     parameters: PyReadonlyArray2<'py, f64>,
+    inputs: HashMap<String, PyReadonlyArray2<'py, f64>>,
     at: Vec<u64>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-    let (tangents, parameters) = (matrix(&tangents), matrix(&parameters));
-    let job = move |run: &Derivatives<'_>| run.forward(&tangents, &parameters, &at);
+    let (state, parameters) = (matrix(&tangents), matrix(&parameters));
+    let mut inputs: HashMap<_, _> =
+        inputs.iter().map(|(name, own)| (name.clone(), matrix(own))).collect();
+    let job = move |run: &Derivatives<'_>| {
+        let samples = |signal: &Signal| DMatrix::zeros(signal.table()[0].len(), state.ncols());
+        let own = |signal| inputs.remove(&signal.name).unwrap_or_else(|| samples(signal));
+        let inputs = run.signals().iter().map(own).collect();
+        run.forward(&Changes { state, parameters, inputs }, &at)
+    };
     let found = with(py, run, job)?;
     Ok(found.iter().flatten().copied().collect::<Vec<f64>>().into_pyarray(py))
 }
 
-/// The derivatives in (ξ, ν) at the start, and after them in the parameters, of a sum given by a cotangent, a row (λ, κ),
-/// for each of these numbers of steps.
+/// The derivatives in (ξ, ν) at the start, after them in the parameters, and in the samples of each input by its name, of a sum given by
+/// a cotangent, a row (λ, κ), for each of these numbers of steps.
 #[pyfunction]
 pub fn backward<'py>(
     py: Python<'py>,
     run: Request,
     cotangents: PyReadonlyArray2<'py, f64>,
     at: Vec<u64>,
-) -> PyResult<Bound<'py, PyArray1<f64>>> {
+) -> PyResult<Backward<'py>> {
     let array = cotangents.as_array();
     let rows = array.rows().into_iter();
     let rows = rows.map(|row| DMatrix::from_iterator(row.len(), 1, row.iter().copied()));
     let cotangents: Vec<(u64, DMatrix<f64>)> = at.into_iter().zip(rows).collect();
-    let found = with(py, run, move |run| run.backward(&cotangents))?;
+    let (found, names) = with(py, run, move |run| {
+        let names = run.signals().iter().map(|signal| signal.name.clone()).collect::<Vec<_>>();
+        Ok((run.backward(&cotangents)?, names))
+    })?;
     let numbers: Vec<f64> = found.state.iter().chain(found.parameters.iter()).copied().collect();
-    Ok(numbers.into_pyarray(py))
+    let own = |own: &DMatrix<f64>| own.as_slice().to_vec().into_pyarray(py);
+    let inputs = names.into_iter().zip(found.inputs.iter().map(own)).collect();
+    Ok((numbers.into_pyarray(py), inputs))
 }
 
 /// The largest Lyapunov exponent, without the first steps.

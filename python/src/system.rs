@@ -544,6 +544,12 @@ impl Core {
         parameters.map(|parameter| (parameter.name.clone(), parameter.shape.lengths())).collect()
     }
 
+    /// The inputs, each with the number of its samples: none of a function.
+    fn inputs(&self) -> Vec<(String, usize)> {
+        let signals = self.system.signals().iter();
+        signals.map(|signal| (signal.name.clone(), signal.table()[0].len())).collect()
+    }
+
     /// H at this time and these momenta, a row each; a potential is no part of it.
     fn hamiltonian<'py>(
         &self,

@@ -67,6 +67,11 @@ impl<'a> Derivatives<'a> {
         self.motion.differentiable().ok_or_else(|| RunError::Option(what.to_owned()))
     }
 
+    /// The inputs of the system.
+    pub fn signals(&self) -> &'a [Signal] {
+        self.signals
+    }
+
     /// n, the dimension of the group.
     pub fn dim(&self) -> usize {
         self.start.mu.len()

@@ -108,7 +108,7 @@ fn from_columns(
         ),
         SignalError::Close(_, at, reached) => format!(
             "rows {} and {}, column {}: the times are so close that the spline through `{name}` reaches {reached:.1e}, far from \
-             the values of column {}: give a jump as much time as other changes",
+             the values of column {}: for values that jump write hold = \"previous\", for lines between them hold = \"linear\"",
             at + 1,
             at + 2,
             columns.times,

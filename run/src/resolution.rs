@@ -5,7 +5,7 @@ use std::path::Path;
 use coadjoint_codegen::smooth::Smooth;
 use coadjoint_program::collocation::nodes;
 
-use crate::engine::identity;
+use crate::engine::{Breaks, identity};
 use crate::error::RunError;
 use crate::grid::Grid;
 use crate::load::Derived;
@@ -75,7 +75,10 @@ impl Derived {
         let any = (0..facts.algebra.dim()).map(|i| 1.0 / (i + 1) as f64);
         let momentum = momentum.map_or_else(|| any.collect(), <[f64]>::to_vec);
         let smooth = self.origin.smooth();
-        let moving = smooth.and_then(|smooth| Moving::new(smooth, &parameters, &momentum));
+        let moving = smooth.and_then(|smooth| {
+            let breaks = Breaks::new(self.origin.breaks());
+            Moving::new(smooth, breaks, &parameters, &momentum)
+        });
         moving.map_or(Ok(()), |moving| resolve(&self.file, (grid, steps), &moving))
     }
 }
@@ -88,11 +91,12 @@ struct Moving<'a> {
     values: Values<'a>,
     /// The times of a step, from its beginning on and in its lengths, and their weights.
     looks: Vec<(f64, f64)>,
+    breaks: Breaks,
 }
 
 impl<'a> Moving<'a> {
     /// ∂H/∂μ, and what a drive adds at the identity, at this momentum, where they depend on time.
-    fn new(smooth: &'a Smooth, parameters: &[f64], mu: &'a [f64]) -> Option<Self> {
+    fn new(smooth: &'a Smooth, breaks: Breaks, parameters: &[f64], mu: &'a [f64]) -> Option<Self> {
         if smooth.given.is_none() && !smooth.depends_on_time() {
             return None;
         }
@@ -118,7 +122,7 @@ impl<'a> Moving<'a> {
             looks.extend(own.map(|(at, weight)| (flow.mul_add(at, start), flow * weight)));
             start += flow;
         }
-        Some(Self { values, looks })
+        Some(Self { values, looks, breaks })
     }
 
     /// True if this number of steps sees what moves.
@@ -134,7 +138,14 @@ impl<'a> Moving<'a> {
             let fine =
                 |number| (0..POINTS).map(move |i| (i as f64 + shift(number)) / POINTS as f64);
             let looks = || self.looks.iter().map(|(at, _)| *at);
-            let times = (first..first + long).flat_map(|number| {
+            // Steps with breaks are made in parts.
+            let whole = |number: &u64| self.breaks.next(grid, *number) != Some(*number);
+            let numbers: Vec<u64> = (first..first + long).filter(whole).collect();
+            let long = numbers.len();
+            if long == 0 {
+                continue;
+            }
+            let times = numbers.into_iter().flat_map(|number| {
                 let start = grid.time(number);
                 looks().chain(fine(number)).map(move |at| at.mul_add(grid.step, start))
             });
@@ -143,7 +154,7 @@ impl<'a> Moving<'a> {
                 // The run says where this is.
                 return true;
             }
-            width = values.len() / (long as usize * (self.looks.len() + POINTS));
+            width = values.len() / (long * (self.looks.len() + POINTS));
             let weights = self.looks.iter().map(|(_, weight)| *weight);
             let weights: Vec<f64> = weights.chain([-1.0 / POINTS as f64; POINTS]).collect();
             let mut sum = vec![0.0; width];
@@ -157,6 +168,9 @@ impl<'a> Moving<'a> {
                 sum.iter_mut().zip(&difference).for_each(|(sum, d)| *sum += d * grid.step);
                 worst = f64::max(worst, largest(&sum));
             }
+        }
+        if points.is_empty() {
+            return true;
         }
         let count = (points.len() / width) as f64;
         let mut mean = vec![0.0; width];

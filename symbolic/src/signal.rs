@@ -86,8 +86,8 @@ pub enum SignalError {
     Value(String, usize, f64),
     /// Two times so close, this one and the next, that the spline between others leaves the values far behind: how far it goes.
     #[error(
-        "entries {1} and {next} are so close in time that the spline through `{0}` reaches {2:.1e}, far from the values: give a \
-         jump as much time as other changes, or write a steep tanh in the Hamiltonian",
+        "entries {1} and {next} are so close in time that the spline through `{0}` reaches {2:.1e}, far from the values: for \
+         values that jump write hold = \"previous\", for lines between them hold = \"linear\"",
         next = .1 + 1
     )]
     Close(String, usize, f64),

@@ -31,6 +31,8 @@ pub struct Smooth {
     pub moves: bool,
     /// The inputs u(t) in H and the drive.
     pub signals: Vec<Signal>,
+    /// Times besides those of inputs at which steps end.
+    pub breaks: Vec<f64>,
     /// H.
     pub value: Program,
     /// ∂H/∂μ, n outputs.

@@ -71,6 +71,8 @@ pub(crate) struct Draft {
     pub signals: Vec<Signal>,
     /// The velocity and the torque beside the Hamiltonian, where there are any.
     pub drive: Option<Drive>,
+    /// The times besides those of inputs at which steps end, and where they are named.
+    pub breaks: (Vec<f64>, Span),
     pub choice: Choice,
 }
 
@@ -105,6 +107,11 @@ pub(crate) fn assemble_either(draft: Draft, diagnostics: &Diagnostics) -> Option
         };
         let smooth = in_units(assemble_smooth(draft, None, diagnostics)?, polynomial.as_ref());
         return Some(smooth.into());
+    }
+    if !draft.breaks.0.is_empty() {
+        let message =
+            "`breaks` are times at which a function of the time jumps: nothing here depends on t";
+        diagnostics.report_other(draft.breaks.1, message, "leave `breaks` out");
     }
     let open = open(&draft);
     let problem = assemble_polynomial(draft, read, diagnostics)?;
@@ -170,7 +177,8 @@ fn assemble_smooth(
     diagnostics: &Diagnostics,
 ) -> Option<Smooth> {
     let Draft { name, algebra, coordinates, coordinates_span, hamiltonian: energy, .. } = draft;
-    let (signals, choice, drive) = (draft.signals, draft.choice, draft.drive);
+    let (signals, choice, drive, breaks) =
+        (draft.signals, draft.choice, draft.drive, draft.breaks.0);
     check_dimension(algebra.as_ref(), coordinates.len(), coordinates_span, diagnostics);
     let placed = |place| !matches!(place, Span::Whole);
     let chosen = [
@@ -211,6 +219,7 @@ fn assemble_smooth(
         units: vec![1.0; coordinates.len()],
         moves,
         signals,
+        breaks,
         name,
         algebra: algebra?,
         coordinates,

@@ -325,7 +325,7 @@ impl Pass<'_> {
                     ),
                     false => (
                         "`abs` of the time has a kink: the Hamiltonian must be smooth",
-                        "write sqrt(a^2 + b^2) with a small b, or give a function of the time by its values under [inputs]",
+                        "write sqrt(a^2 + b^2) with a small b, or give a function of the time by its values under [inputs], with hold = \"previous\" where it jumps",
                     ),
                 };
                 self.diagnostics.report_other(span, message, help);

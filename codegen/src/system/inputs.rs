@@ -7,6 +7,7 @@ use crate::signal::{Columns, Interpolation, Signal, SignalError};
 
 const TIMES: &str = "times = [0, 1, 2, 3]";
 const TABLE: &str = "table = \"wheels.csv\"";
+const BREAKS: &str = "breaks = [0.5, 1.25]";
 const HOLD: &str = "hold = \"previous\"";
 const COLUMN: &str = "times = \"t\"";
 
@@ -21,6 +22,14 @@ pub(super) fn read(root: &Table<'_>, given: &[Signal]) -> Vec<(Signal, Span)> {
         }
     }
     found
+}
+
+/// The times `breaks`, at which functions of the time jump or bend, and where they are named.
+pub(super) fn breaks(root: &Table<'_>) -> (Vec<f64>, Span) {
+    let found = root.array("breaks", BREAKS).and_then(|(list, place)| {
+        Some((root.numbers("breaks", list, BREAKS)?.iter().map(nearest_float).collect(), place))
+    });
+    found.unwrap_or((Vec::new(), Span::Whole))
 }
 
 /// Reads `times` and the values of each input, with the places of these; with `table`, the names of the columns that hold them. `hold` says

@@ -313,6 +313,7 @@ fn system<H>(
         "damping",
         "parameters",
         "inputs",
+        "breaks",
         "units",
         "integrator",
         "initial",
@@ -367,8 +368,18 @@ fn system<H>(
         _ => None,
     };
     let potential = potential.filter(|_| !joined);
-    let draft =
-        Draft { name, algebra, coordinates, coordinates_span, hamiltonian, signals, drive, choice };
+    let breaks = inputs::breaks(&root);
+    let draft = Draft {
+        name,
+        algebra,
+        coordinates,
+        coordinates_span,
+        hamiltonian,
+        signals,
+        drive,
+        breaks,
+        choice,
+    };
     let problem = (kind.assemble)(draft, diagnostics)?;
     if let Some(velocity) = velocity {
         let gradient = (kind.gradient)(&problem, run.initial_time);

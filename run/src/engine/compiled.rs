@@ -245,6 +245,16 @@ impl Compiled {
         self.folded = folded;
     }
 
+    /// True if these steps have this size and these values of the parameters.
+    pub(super) fn is_for(&self, size: f64, parameters: &[f64]) -> bool {
+        self.folded.size == size && self.folded.parameters == parameters
+    }
+
+    /// Lets the next step of a state know none before it.
+    pub(super) fn forget(&self, state: &mut Numbers) {
+        self.programs.step.forget(&mut state.g);
+    }
+
     /// These steps with another size or other values of the parameters.
     ///
     /// # Errors
@@ -254,7 +264,7 @@ impl Compiled {
         size: f64,
         parameters: &[f64],
     ) -> Result<Arc<Self>, StepError> {
-        if self.folded.size == size && self.folded.parameters == parameters {
+        if self.is_for(size, parameters) {
             return Ok(self.clone());
         }
         let folded = self.fold(size, parameters)?;

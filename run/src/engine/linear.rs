@@ -33,6 +33,23 @@ pub(crate) struct Linear {
     pub refused: Option<Vec<f64>>,
 }
 
+impl Linear {
+    /// The derivative of this step followed by the next one.
+    pub(super) fn then(self, next: &Self) -> Self {
+        let inputs = &next.state * &self.inputs;
+        let columns = inputs.column_iter().chain(next.inputs.column_iter());
+        let columns: Vec<_> = columns.map(|column| column.into_owned()).collect();
+        let none = DMatrix::zeros(next.state.nrows(), 0);
+        Self {
+            state: &next.state * &self.state,
+            parameters: &next.state * &self.parameters + &next.parameters,
+            inputs: if columns.is_empty() { none } else { DMatrix::from_columns(&columns) },
+            read: [self.read, next.read.clone()].concat(),
+            refused: None,
+        }
+    }
+}
+
 /// Corrections of Newton's method at most, and the one, relative to the numbers, after which there is no other.
 const MOST_CORRECTIONS: u32 = 30;
 const ROUNDING: f64 = 1e-13;

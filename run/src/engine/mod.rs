@@ -1,5 +1,6 @@
 //! The step the command line runs: its programs, and beside them the runtime's step on a group of tables.
 
+mod breaks;
 mod card;
 mod charted;
 mod collocation;
@@ -12,6 +13,7 @@ mod motion;
 mod series;
 mod space;
 
+pub(crate) use breaks::Breaks;
 pub(crate) use card::{card, device_text};
 pub(crate) use charted::Charted;
 pub use compiled::STEEP;

@@ -1,5 +1,6 @@
 //! Steps of one size, whatever makes them.
 
+use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use coadjoint::steps::{Piece, Splitting, compose};
@@ -7,6 +8,7 @@ use coadjoint::{Phase, StepError};
 use coadjoint_codegen::integrator::Kicks;
 use coadjoint_codegen::step::Origin;
 
+use super::breaks::Breaks;
 use super::compiled::{Compiled, Folded, Numbers, Solved, Solves};
 use super::kick::Torque;
 use super::linear::Linear;
@@ -57,6 +59,9 @@ fn lengths(kicks: Option<&Kicks>, size: f64) -> Vec<f64> {
     kicks.map_or_else(|| vec![size], |kicks| parts(kicks.splitting))
 }
 
+/// Sizes of steps whose coefficients are kept, beside that of the grid.
+const MOST_OTHERS: usize = 16;
+
 /// Two steps that differ by less, relative to the momentum, are the same one.
 const SAME: f64 = 1e-11;
 
@@ -71,10 +76,12 @@ pub(crate) struct Motion<'a> {
     kicked: Option<Kicked<'a>>,
     /// The step without programs, once one was needed.
     map: OnceLock<Map<'a>>,
-    /// The programs of the step of another size that was made last.
-    other: Mutex<Option<Arc<Compiled>>>,
+    /// The programs of steps of other sizes that were made last.
+    others: Mutex<VecDeque<Arc<Compiled>>>,
     /// The system, where its steps may have derivatives.
     origin: Option<&'a Origin>,
+    /// The times at which the equations jump or bend, so that steps end there.
+    breaks: Breaks,
     /// The derivatives of the coefficients in each parameter, once they were asked for.
     slopes: OnceLock<Vec<Vec<f64>>>,
 }
@@ -97,8 +104,10 @@ impl<'a> Motion<'a> {
             Ok::<_, StepError>(Kicked { kicks, torque })
         });
         let kicked = kicked.transpose()?;
-        let (map, other, slopes) = Default::default();
-        let motion = Self { space, grid, parameters, method, kicked, map, other, origin, slopes };
+        let (map, others, slopes) = Default::default();
+        let breaks = Breaks::new(origin.map(Origin::breaks).unwrap_or_default());
+        let motion =
+            Self { space, grid, parameters, method, kicked, map, others, origin, breaks, slopes };
         if motion.space.compiled.is_none() {
             motion.whole()?;
         }
@@ -174,6 +183,45 @@ impl<'a> Motion<'a> {
         first: u64,
         count: u64,
     ) -> Result<Solves, (u64, StepError)> {
+        let (mut total, mut done): (Solves, u64) = (None, 0);
+        while done < count {
+            let next = self.breaks.next(self.grid, first + done);
+            let whole = next.map_or(count, |next| count.min(next - first)) - done;
+            let made = match whole {
+                0 => self.in_parts(state, first + done).map_err(|error| (done, error))?,
+                _ => {
+                    let made = self.undivided(state, first + done, whole);
+                    made.map_err(|(more, error)| (done + more, error))?
+                }
+            };
+            done += whole.max(1);
+            total = both(total, made);
+        }
+        Ok(total)
+    }
+
+    /// The first step of a grid's from this one on in which there are breaks.
+    pub(crate) fn divided(&self, first: u64) -> Option<u64> {
+        self.breaks.next(self.grid, first)
+    }
+
+    /// Makes the step of this number, in parts that end at breaks.
+    fn in_parts(&self, state: &mut Numbers, number: u64) -> Result<Solves, StepError> {
+        *state = self.beside(state, self.grid.time(number), self.grid.step)?;
+        if let Some(compiled) = &self.space.compiled {
+            // The parts have other rates than the next step.
+            compiled.forget(state);
+        }
+        Ok(self.space.compiled.is_some().then_some(Solved::one(0, f64::EPSILON)))
+    }
+
+    /// Makes `count` steps without breaks after the first ones.
+    fn undivided(
+        &self,
+        state: &mut Numbers,
+        first: u64,
+        count: u64,
+    ) -> Result<Solves, (u64, StepError)> {
         if let Some(compiled) = &self.space.compiled {
             let rescue = |state: &mut Numbers, number| {
                 self.rescue(state, self.grid.time(number), self.grid.step)
@@ -203,14 +251,26 @@ impl<'a> Motion<'a> {
         size: f64,
     ) -> Result<Numbers, StepError> {
         let mut next = state.clone();
-        let other = self.space.compiled.as_ref().map(|own| {
-            // A thread that panicked has left whole programs, if any.
-            let mut other = self.other.lock().unwrap_or_else(PoisonError::into_inner);
-            let found = other.as_ref().unwrap_or(own).anew(size, &self.parameters)?;
-            Ok::<_, StepError>(other.insert(found).clone())
-        });
-        self.alone(other.transpose()?.as_ref(), &mut next, [time, size])?;
+        for [time, size] in self.breaks.parts([time, size]) {
+            let other = self.space.compiled.as_ref().map(|own| self.of_size(own, size));
+            self.alone(other.transpose()?.as_ref(), &mut next, [time, size])?;
+        }
         Ok(next)
+    }
+
+    /// The programs with the coefficients of another size.
+    fn of_size(&self, own: &Arc<Compiled>, size: f64) -> Result<Arc<Compiled>, StepError> {
+        // A thread that panicked has left whole programs, if any.
+        let mut others = self.others.lock().unwrap_or_else(PoisonError::into_inner);
+        for known in &*others {
+            if known.is_for(size, &self.parameters) {
+                return Ok(known.clone());
+            }
+        }
+        let made = own.anew(size, &self.parameters)?;
+        others.push_front(made.clone());
+        others.truncate(MOST_OTHERS);
+        Ok(made)
     }
 
     /// Makes one step from this time, whatever steps were made before.
@@ -218,7 +278,8 @@ impl<'a> Motion<'a> {
     /// # Errors
     /// Returns the reason for which there is none.
     pub(crate) fn one_at(&self, state: &mut Numbers, time: f64) -> Result<(), StepError> {
-        self.alone(self.space.compiled.as_ref(), state, [time, self.grid.step])
+        *state = self.beside(state, time, self.grid.step)?;
+        Ok(())
     }
 
     /// The ratio of the last two terms of the series at each momentum, where it may be worth a warning; else 0.
@@ -294,7 +355,10 @@ impl<'a> Motion<'a> {
                 self.slopes.get_or_init(|| made)
             }
         };
-        let time = self.grid.time(first);
+        let (time, breaks) = (self.grid.time(first), self.breaks.next(self.grid, first));
+        if breaks == Some(first) {
+            return self.linear_in_parts((origin, compiled), state, time);
+        }
         let linear = compiled.linear(origin, slopes, state, time)?;
         let Some(refused) = linear.as_ref().and_then(|linear| linear.refused.as_ref()) else {
             return Ok(linear);
@@ -308,6 +372,30 @@ impl<'a> Motion<'a> {
         Ok(linear.filter(|_| same))
     }
 
+    /// The derivative of a step with breaks.
+    fn linear_in_parts(
+        &self,
+        (origin, own): (&Origin, &Arc<Compiled>),
+        state: &Numbers,
+        time: f64,
+    ) -> Result<Option<Linear>, StepError> {
+        let (mut total, mut now): (Option<Linear>, _) = (None, state.clone());
+        for [time, size] in self.breaks.parts([time, self.grid.step]) {
+            let compiled = self.of_size(own, size)?;
+            compiled.forget(&mut now);
+            let linear = compiled.linear(origin, &compiled.slopes()?, &now, time)?;
+            let Some(next) = linear.filter(|linear| linear.refused.is_none()) else {
+                return Ok(None);
+            };
+            total = Some(match total {
+                None => next,
+                Some(total) => total.then(&next),
+            });
+            self.alone(Some(&compiled), &mut now, [time, size])?;
+        }
+        Ok(total)
+    }
+
     /// Takes these values of the parameters, and what its programs read for them, where it has any. Steps made before are
     /// forgotten.
     pub(crate) fn vary(&mut self, parameters: &[f64], folded: Option<Folded>) {
@@ -319,6 +407,7 @@ impl<'a> Motion<'a> {
         }
         // These are of other values.
         (self.map, self.slopes) = Default::default();
+        self.others.get_mut().unwrap_or_else(PoisonError::into_inner).clear();
         if let (Some(compiled), Some(folded)) = (&mut self.space.compiled, folded) {
             Arc::make_mut(compiled).with(folded);
         }
@@ -337,10 +426,15 @@ fn one_by_one(
     let mut total: Solves = None;
     for made in 0..count {
         let solved = step(first + made).map_err(|error| (made, error))?;
-        total = match (total, solved) {
-            (Some(total), Some(solved)) => Some(total.with(solved)),
-            (total, solved) => total.or(solved),
-        };
+        total = both(total, solved);
     }
     Ok(total)
+}
+
+/// The solves of steps and of those after them.
+fn both(total: Solves, solved: Solves) -> Solves {
+    match (total, solved) {
+        (Some(total), Some(solved)) => Some(total.with(solved)),
+        (total, solved) => total.or(solved),
+    }
 }

@@ -98,7 +98,9 @@ impl March<'_, '_> {
             return;
         }
         let mut made = [0; WIDTH];
-        if let Some(compiled) = self.motion.lanes() {
+        // A step with breaks is made row by row.
+        let whole = self.motion.divided(first) != Some(first);
+        if let Some(compiled) = self.motion.lanes().filter(|_| whole) {
             let (g, mu) = block.split_at_mut(self.element(block) * WIDTH);
             let live = from_fn(|lane| ways.get(lane).is_some_and(|w| w.stopped.is_none()));
             let (start, steps) = (self.motion.grid().start, [first, end - first]);
@@ -127,6 +129,10 @@ impl March<'_, '_> {
         let mut done = first;
         while done < end && !self.stop.load(Ordering::Relaxed) {
             let next = end.min(done + STRETCH);
+            let next = match self.motion.divided(done) {
+                Some(divided) => next.min(divided.max(done + 1)),
+                None => next,
+            };
             let blocks = states.blocks_mut().par_chunks_mut(length);
             let blocks = blocks.zip(ways.par_chunks_mut(WIDTH));
             blocks.for_each(|(block, ways)| self.abreast(ways, block, done, next));

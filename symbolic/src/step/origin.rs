@@ -139,6 +139,15 @@ impl Origin {
         }
     }
 
+    /// The times at which steps end, since the equations jump or bend there.
+    pub fn breaks(&self) -> Vec<f64> {
+        let of_inputs = self.signals().iter().flat_map(Signal::breaks);
+        of_inputs
+            .copied()
+            .chain(self.smooth().into_iter().flat_map(|own| own.breaks.clone()))
+            .collect()
+    }
+
     /// True if the equations depend on the time other than through the state.
     pub fn depends_on_time(&self) -> bool {
         self.smooth().is_some_and(Smooth::depends_on_time)

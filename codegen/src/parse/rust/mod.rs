@@ -59,6 +59,7 @@ fn assembled<T>(
         hamiltonian,
         signals,
         drive: None,
+        breaks: (Vec::new(), Span::Whole),
         choice,
     };
     let assembled = assemble(draft, &diagnostics);
