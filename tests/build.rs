@@ -17,6 +17,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Build::new("systems/weighted_body.toml").write("weighted_body.rs")?;
     Build::new("systems/fast_body.toml").write("fast_body.rs")?;
     Build::new("systems/ring_20.toml").write("ring_20.rs")?;
+    Build::new("systems/driven_vehicle.toml").write("driven_vehicle.rs")?;
     let folder = PathBuf::from(std::env::var("OUT_DIR")?).join("emitted");
     std::fs::create_dir_all(&folder)?;
     for source in emitted::SYSTEMS {

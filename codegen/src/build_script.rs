@@ -146,7 +146,7 @@ impl Build {
         let system = system::read_either(&text, self.options, &[])
             .map_err(|mistakes| BuildError::System(mistakes.render(&name, &text)))?;
         let refused = |why| BuildError::System(format!("{name}: {why}"));
-        system.writable_as_rust().map_err(refused)?;
+        system.writable().map_err(refused)?;
         let options = emit::Options::for_problem(system.problem.facts().name);
         // As a run makes its steps, so does the module.
         let (hamiltonian, gave_way) = system.problem.settled();

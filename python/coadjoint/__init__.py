@@ -15,6 +15,7 @@ from .errors import CoadjointWarning, Error, InputError, RunError
 from .lattice import Lattice, LatticeRun
 from .learning import Model, learn
 from .results import Drift, Failure, Run, States, Unknown
+from .stepper import Stepper
 from .system import Law, Laws, System, Verdict
 
 if TYPE_CHECKING:
@@ -34,6 +35,7 @@ __all__ = [
     "Run",
     "RunError",
     "States",
+    "Stepper",
     "System",
     "Unknown",
     "Verdict",

@@ -112,6 +112,12 @@ class Stepper:
     def backend(self) -> str: ...
     @property
     def parameters(self) -> list[tuple[str, int]]: ...
+    def begin(
+        self,
+        momentum: NDArray[np.float64],
+        group_element: NDArray[np.float64] | None,
+        time: float,
+    ) -> ControlLoop: ...
     def advance(
         self,
         momentum: NDArray[np.float64],
@@ -120,6 +126,14 @@ class Stepper:
         steps: int,
         parameters: list[float] | None,
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+
+@final
+class ControlLoop:
+    @property
+    def state(
+        self,
+    ) -> tuple[float, NDArray[np.float64], NDArray[np.float64]]: ...
+    def advance(self, steps: int, parameters: list[float] | None) -> None: ...
 
 def forward(
     run: dict[str, Any],

@@ -19,6 +19,7 @@ from ._progress import Progress, listener
 from .errors import CoadjointWarning, InputError
 from .lattice import Lattice, lattice
 from .results import Run, States
+from .stepper import Stepper, held
 
 if TYPE_CHECKING:
     import sympy
@@ -509,27 +510,12 @@ class System:
         ...                     parameters=dict(u=[0, 0, 0]))
         >>> mu, g = steered.step([2, 0.5, 1], step=0.1, steps=10, parameters=dict(u=[0, 0.2, 0]))
         """
-        size = self._facts["step"] if step is None else step
-        if size is None and self._facts["tolerance"] is None:
-            raise InputError("step is missing: give step=0.1")
-        if size is not None and type(size) is not float or type(backend) is not str:
-            size = _arrays.real(size, "step", self._facts["time_unit"])
-            _arrays.text(backend, "backend")
         names = () if parameters is None else tuple(_text.mapping(parameters, "parameters"))
-        key = (size, backend, names)
-        stepper = self._steppers.get(key)
-        if stepper is None:
-            stepper = self._core.stepper(size, backend, list(names))
-            self._steppers[key] = stepper
-        values = None if not names or parameters is None else _given(stepper.parameters, parameters)
+        stepper = self._stepper(step, backend, names)
+        values = None if not names or parameters is None else held(stepper.parameters, parameters)
         if type(steps) is not int or not 0 <= steps < 2**63:
             steps = _arrays.count(steps, "steps")
-        if t0 is None:
-            if self._facts["moves"]:
-                raise InputError("t0 is missing: the system depends on time; give t0=, the time of this state")
-            t0 = 0.0
-        elif type(t0) is not float or not math.isfinite(t0):
-            t0 = _arrays.real(t0, "t0", self._facts["time_unit"])
+        t0 = self._time(t0)
         # Results of the last call are taken as they are; the extension checks the numbers as it copies them.
         if _ready(momentum, 1) and (group_element is None or _ready(group_element, 2)):
             return stepper.advance(momentum, group_element, t0, steps, values)
@@ -537,6 +523,58 @@ class System:
         if mu is None:
             raise InputError("momentum is missing: give momentum=[…]")
         return stepper.advance(mu, element, t0, steps, values)
+
+    def _stepper(self, step: Real | None, backend: Backend, names: tuple[str, ...]) -> _core.Stepper:
+        """Steps of this size, which are given the parameters with these names."""
+        size = self._facts["step"] if step is None else step
+        if size is None and self._facts["tolerance"] is None:
+            raise InputError("step is missing: give step=0.1")
+        if size is not None and type(size) is not float or type(backend) is not str:
+            size = _arrays.real(size, "step", self._facts["time_unit"])
+            _arrays.text(backend, "backend")
+        key = (size, backend, names)
+        stepper = self._steppers.get(key)
+        if stepper is None:
+            stepper = self._steppers[key] = self._core.stepper(size, backend, list(names))
+        return stepper
+
+    def _time(self, t0: Real | None) -> float:
+        """The time of a state."""
+        if t0 is None:
+            if self._facts["moves"]:
+                raise InputError("t0 is missing: the system depends on time; give t0=, the time of this state")
+            return 0.0
+        return t0 if type(t0) is float and math.isfinite(t0) else _arrays.real(t0, "t0", self._facts["time_unit"])
+
+    def stepper(
+        self,
+        momentum: Numbers,
+        group_element: Numbers | Rotation | None = None,
+        *,
+        t0: Real | None = None,
+        step: Real | None = None,
+        parameters: Iterable[str] = (),
+        backend: Backend = "jit",
+    ) -> Stepper:
+        """A state that goes on by steps of one size, as in a control loop: it keeps the time, and what steps leave to the next ones.
+
+        ``parameters`` are the names of those that each call of :meth:`Stepper.advance` gives.
+
+        >>> import coadjoint as ca
+        >>> steered = ca.System("SO3", "x^2/3 + y^2/4 + z^2/5", coordinates="x y z", torque=["u[0]", "u[1]", "u[2]"],
+        ...                     parameters=dict(u=[0, 0, 0]))
+        >>> loop = steered.stepper([2, 0.5, 1], step=0.01, parameters=["u"])
+        >>> for _ in range(3):
+        ...     loop.advance(10, u=-0.1 * loop.momentum)
+        >>> loop.time
+        0.3
+        """
+        names = (parameters,) if isinstance(parameters, str) else tuple(parameters)
+        made = self._stepper(step, backend, tuple(_arrays.text(name, "parameters") for name in names))
+        mu, element = self._state(momentum, group_element)
+        if mu is None:
+            raise InputError("momentum is missing: give momentum=[…]")
+        return Stepper(made, made.begin(mu, element, self._time(t0)))
 
     # Algebra.
 
@@ -863,18 +901,6 @@ def _same(inputs: str | None, kind: type[System], *parts: Any) -> System:
     if system._facts["inputs_sha256"] != inputs:
         raise InputError(f"{system._name}: the table of its inputs is another than it was when the system was pickled")
     return system
-
-
-def _given(known: list[tuple[str, int]], parameters: Mapping[str, Any]) -> list[float]:
-    """The numbers of parameters, one after the other, in the order of a stepper."""
-    values: list[float] = []
-    for name, count in known:
-        value = parameters[name]
-        own = [value] if count == 1 and type(value) is float else _arrays.floats(value, f"parameter {name}").ravel().tolist()
-        if len(own) != count:
-            raise InputError(f"parameter {name} has {len(own)} numbers; the system's has {count}")
-        values.extend(own)
-    return values
 
 
 def _ready(array: Any, dimensions: int) -> TypeGuard[Floats]:

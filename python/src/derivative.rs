@@ -104,7 +104,7 @@ pub fn forward<'py>(
         inputs.iter().map(|(name, own)| (name.clone(), matrix(own))).collect();
     let job = move |run: &Derivatives<'_>| {
         let samples = |signal: &Signal| DMatrix::zeros(signal.table()[0].len(), state.ncols());
-        let own = |signal| inputs.remove(&signal.name).unwrap_or_else(|| samples(signal));
+        let own = |signal: &Signal| inputs.remove(&signal.name).unwrap_or_else(|| samples(signal));
         let inputs = run.signals().iter().map(own).collect();
         run.forward(&Changes { state, parameters, inputs }, &at)
     };

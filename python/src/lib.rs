@@ -32,7 +32,7 @@ mod _core {
     #[pymodule_export]
     use super::learn::{ModelCore, learn};
     #[pymodule_export]
-    use super::stepper::Stepper;
+    use super::stepper::{ControlLoop, Stepper};
     #[pymodule_export]
     use super::system::Core;
 

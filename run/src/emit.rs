@@ -40,7 +40,7 @@ pub fn rust(path: &Path, source: Source) -> Result<String, RunError> {
             ));
         }
     };
-    system.writable_as_rust().map_err(RunError::of(path))?;
+    system.writable().map_err(RunError::of(path))?;
     let style = Options::for_problem(system.problem.facts().name);
     let origin = derive(path, system.problem.settled().0)?;
     if origin.is_function() {

@@ -66,6 +66,13 @@ pub fn undefined(expressions: &[&'static str], watched: &[f64]) -> Option<Undefi
     found.map(|(&[argument, _], &expression)| Undefined { expression, argument })
 }
 
+/// 1, 0 or −1 in each lane.
+pub fn sign<T: Scalar>(value: T) -> T {
+    let zero = T::of(0.0);
+    let one_or_minus = T::of(1.0).simd_copysign(value);
+    zero.select(value.simd_eq(zero), one_or_minus)
+}
+
 /// The monomials of S_K and S_{K−2}, those of S_K marked, and the direct factor of the group that each coordinate belongs to.
 #[derive(Debug)]
 pub struct LastTerms {

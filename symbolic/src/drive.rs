@@ -183,6 +183,14 @@ impl Drive {
         Self { program, velocity: false, damps: false, ..self.clone() }
     }
 
+    /// A program of it with slots for all symbols of the system.
+    pub fn of_system(&self, program: &Program) -> Program {
+        let graph = Graph::new();
+        let inputs: Vec<Id> = (0..program.inputs()).map(|at| graph.input(at)).collect();
+        let outputs = graph.call_from(program, &inputs, self.first);
+        graph.finish(inputs.len(), &outputs)
+    }
+
     /// The inputs of its programs in a state. `entries` may be empty where they do not [read](Drive::reads_element) the element.
     pub fn inputs(
         &self,

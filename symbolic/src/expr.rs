@@ -28,11 +28,13 @@ pub enum Function {
     Ln,
     /// The absolute value.
     Abs,
+    /// 1, 0 or −1.
+    Sign,
 }
 
 impl Function {
     /// Every function.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Sqrt,
         Self::Sin,
         Self::Cos,
@@ -42,6 +44,7 @@ impl Function {
         Self::Exp,
         Self::Ln,
         Self::Abs,
+        Self::Sign,
     ];
 
     /// The name of the function: the same in a system file and as a method of `f64`.
@@ -56,6 +59,7 @@ impl Function {
             Self::Exp => "exp",
             Self::Ln => "ln",
             Self::Abs => "abs",
+            Self::Sign => "sign",
         }
     }
 
@@ -76,6 +80,8 @@ impl Function {
             Self::Exp => x.exp(),
             Self::Ln => x.ln(),
             Self::Abs => x.abs(),
+            Self::Sign if x == 0.0 => 0.0,
+            Self::Sign => x.signum(),
         }
     }
 
@@ -92,6 +98,7 @@ impl Function {
             Self::Ln => 1.0 / x,
             Self::Abs if x == 0.0 => f64::NAN,
             Self::Abs => x.signum(),
+            Self::Sign => 0.0,
         }
     }
 }

@@ -446,7 +446,6 @@ fn drives_go_through_every_door() {
     let header = folder.run("emit system.toml --language c").ok();
     header.prints(&["Of a velocity eta and a torque tau", "damping = [0.02, 0.02, 0.02]"]);
     for (command, word) in [
-        ("emit system.toml", "no Rust code is written of a velocity, a torque or damping"),
         (
             "verify system.toml out.csv",
             "a system with a velocity, a torque or damping is not judged",

@@ -48,8 +48,8 @@ pub(crate) enum Mistake {
     UnknownFunction(String, Option<String>),
     #[error("`{0}` is a function and needs an argument")]
     FunctionWithoutArgument(String),
-    #[error("`{0}` takes one argument, not {1}")]
-    ArgumentCount(String, usize),
+    #[error("`{0}` takes {1}, not {2}")]
+    ArgumentCount(String, &'static str, usize),
 
     #[error("this sum cannot be read: {0}")]
     Sum(String),
@@ -259,7 +259,7 @@ impl Mistake {
             }
             Self::NoList(_) => "give it as a list under [parameters], such as P = [0, 1, 2]",
             Self::UnknownFunction(..) => {
-                "known functions: sqrt, sin, cos, tan, atan, tanh, exp, ln, abs"
+                "known functions: sqrt, sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, ln, abs, sign, min, max"
             }
             Self::FunctionWithoutArgument(name) => {
                 return Some(format!("write `{name}(…)` with parentheses"));

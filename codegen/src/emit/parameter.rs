@@ -44,7 +44,10 @@ pub(crate) fn symbols(symbols: &[Symbol], parameters: &[String]) -> Vec<TokenStr
         parameters,
         number: &|value| format!("T::of({})", float(value)),
         power: &|base, exponent| format!("{base}.simd_powi({exponent})"),
-        call: &|function, argument| format!("{argument}.simd_{}()", function.name()),
+        call: &|function, argument| match function {
+            Function::Sign => format!("plumbing::sign({argument})"),
+            _ => format!("{argument}.simd_{}()", function.name()),
+        },
     };
     symbols.iter().map(|symbol| tokens(&expression(&symbol.expr, &notation))).collect()
 }

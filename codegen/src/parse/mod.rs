@@ -1,6 +1,7 @@
 //! Parses the input of users into expressions with places.
 
 mod brackets;
+mod composite;
 mod decimal;
 mod names;
 pub mod rust;

@@ -196,7 +196,7 @@ impl Reader<'_> {
 }
 
 /// A fraction that agrees with π to 21 digits: more than any step computes with, and short.
-fn pi() -> Rational {
+pub(super) fn pi() -> Rational {
     Rational::new(21_053_343_141_i64.into(), 6_701_487_259_i64.into())
 }
 

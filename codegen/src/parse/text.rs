@@ -11,6 +11,7 @@ use crate::cancel;
 use crate::diagnostic::{Diagnostics, Mistake, Span, nearest};
 use crate::expr::{Arena, ExprId, Function, Node};
 use crate::number::integer;
+use crate::parse::composite::Composite;
 use crate::parse::names::{Name, Names, is_word};
 use crate::parse::sum::{self, Scope};
 use crate::parse::token::{Token, Tokens};
@@ -97,7 +98,28 @@ enum Operator {
 struct Callee {
     name: String,
     /// `None` if it was unknown, which has been reported.
-    function: Option<Function>,
+    function: Option<Known>,
+}
+
+/// A function that a text may call.
+#[derive(Clone, Copy, Debug)]
+enum Known {
+    Elementary(Function),
+    Composite(Composite),
+}
+
+impl Known {
+    fn lookup(name: &str) -> Option<Self> {
+        let elementary = Function::lookup(name).map(Self::Elementary);
+        elementary.or_else(|| Composite::lookup(name).map(Self::Composite))
+    }
+
+    fn arguments(self) -> usize {
+        match self {
+            Self::Elementary(_) => 1,
+            Self::Composite(function) => function.arguments(),
+        }
+    }
 }
 
 impl Operator {
@@ -211,7 +233,7 @@ impl Parser<'_> {
             Ok(Name::Number(value)) => Node::Number(value),
             Ok(Name::Time) => Node::Time,
             Ok(Name::Signal(i)) => Node::Signal(i),
-            Err(_) if Function::lookup(name).is_some() => {
+            Err(_) if Known::lookup(name).is_some() => {
                 return self.wrong(span, Mistake::FunctionWithoutArgument(name.to_owned()));
             }
             Err(_) if self.scope.names.excuses(name) => Node::Wrong,
@@ -221,7 +243,7 @@ impl Parser<'_> {
     }
 
     fn callee(&mut self, name: String, span: Span) {
-        let function = Function::lookup(&name);
+        let function = Known::lookup(&name);
         if function.is_none() {
             if self.scope.get(&name).is_ok() {
                 // `x (y + 1)`: a product without its operator.
@@ -230,7 +252,8 @@ impl Parser<'_> {
                 self.binary(Operator::Mul, span);
                 return;
             }
-            let known = Function::ALL.map(Function::name);
+            let composite = Composite::ALL.map(Composite::name).into_iter();
+            let known = Function::ALL.map(Function::name).into_iter().chain(composite);
             let suggestion = match name.as_str() {
                 "log" => Some("ln"),
                 "fabs" => Some("abs"),
@@ -287,7 +310,7 @@ impl Parser<'_> {
         };
         let known = self.scope.get(&form.index);
         let taken = known.is_ok_and(|meaning| meaning != Name::Time)
-            || Function::lookup(&form.index).is_some();
+            || Known::lookup(&form.index).is_some();
         let reason = match &bounds {
             _ if !is_word(&form.index) => "its index is no name",
             _ if self.scope.indices.len() >= sum::MOST_NESTED => "more than 64 sums are nested",
@@ -351,24 +374,31 @@ impl Parser<'_> {
         match self.operators.pop() {
             Some((Operator::Open { call, arguments }, open)) => {
                 let whole = open.to(span);
-                let Some((argument, _)) = self.operands.pop() else { return };
                 let Some(callee) = call else {
+                    let Some((argument, _)) = self.operands.pop() else { return };
                     // The operand now spans its parentheses.
                     self.operands.push((argument, whole));
                     return;
                 };
-                if arguments != 1 {
-                    for _ in 1..arguments {
-                        self.operands.pop();
+                let first = self.operands.len().saturating_sub(arguments);
+                let found: Vec<ExprId> = self.operands.drain(first..).map(|(id, _)| id).collect();
+                match (callee.function, &found[..]) {
+                    (None, _) => self.operand(Node::Wrong, whole),
+                    (Some(known), _) if known.arguments() != arguments => {
+                        let wanted =
+                            if known.arguments() == 1 { "one argument" } else { "two arguments" };
+                        let mistake = Mistake::ArgumentCount(callee.name, wanted, arguments);
+                        self.wrong(whole, mistake);
                     }
-                    if callee.function.is_none() {
-                        return self.operand(Node::Wrong, whole);
+                    (Some(Known::Elementary(function)), &[argument]) => {
+                        self.operand(Node::Call(function, argument), whole);
                     }
-                    return self.wrong(whole, Mistake::ArgumentCount(callee.name, arguments));
-                }
-                match callee.function {
-                    Some(function) => self.operand(Node::Call(function, argument), whole),
-                    None => self.operand(Node::Wrong, whole),
+                    (Some(Known::Composite(function)), found) => {
+                        if let Some(made) = function.build(self.arena, found, whole) {
+                            self.operands.push((made, whole));
+                        }
+                    }
+                    _ => {}
                 }
             }
             _ => self.diagnostics.report(span, Mistake::Unexpected(")".to_owned())),

@@ -4,7 +4,7 @@ use super::choice::Choice;
 use super::coefficient::{ONE, Table};
 use super::frame;
 use super::polynomial::{Sum, polynomial};
-use super::program::{Lowered, lower};
+use super::program::{Kinked, Lowered, lower};
 use crate::diagnostic::{Diagnostic, Diagnostics, Mistake, Span};
 use crate::drive::Drive;
 #[cfg(feature = "system")]
@@ -205,7 +205,8 @@ fn assemble_smooth(
             let mut table = Table::new();
             let inputs: Vec<String> = signals.iter().map(|signal| signal.name.clone()).collect();
             let names = [&coordinates[..], &energy.scalar_names(), &inputs];
-            let roots = (&[root][..], false);
+            let kinked = if breaks.is_empty() { Kinked::Nowhere } else { Kinked::InTime };
+            let roots = (&[root][..], kinked);
             let lowered = lower(&energy.arena, roots, names, &mut table, diagnostics)?;
             let level = |node: &coadjoint_program::Node| *node == coadjoint_program::Node::Zero;
             if drive.is_none() && lowered.gradient.nodes().iter().all(level) {
@@ -328,7 +329,7 @@ pub(crate) fn function(
 ) -> Option<(coadjoint_program::Program, Vec<f64>)> {
     let (root, _) = energy.root?;
     let names = [names, &[], &[]];
-    let roots = (&[root][..], false);
+    let roots = (&[root][..], Kinked::Nowhere);
     let lowered = lower(&energy.arena, roots, names, &mut Table::new(), diagnostics)?;
     Some((lowered.value, values(&lowered.symbols)))
 }
@@ -370,7 +371,8 @@ pub(crate) fn of_sites(
         }
     }
     let names = [coordinates, &scalars, &[]];
-    let lowered = lower(&energy.arena, (&[root], false), names, &mut Table::new(), diagnostics)?;
+    let lowered =
+        lower(&energy.arena, (&[root], Kinked::Nowhere), names, &mut Table::new(), diagnostics)?;
     Some(OfSites::Programs(Box::new([lowered.value, lowered.gradient]), lowered.symbols))
 }
 
@@ -443,7 +445,8 @@ fn formula(
     diagnostics: &Diagnostics,
 ) -> Option<Lowered> {
     let found = Diagnostics::new();
-    let lowered = lower(arena, (roots, of != POTENTIAL), names, &mut Table::new(), &found);
+    let kinked = if of == POTENTIAL { Kinked::Nowhere } else { Kinked::Anywhere };
+    let lowered = lower(arena, (roots, kinked), names, &mut Table::new(), &found);
     for found in found.list() {
         diagnostics.report(found.span, found.mistake.in_formula(of));
     }

@@ -409,6 +409,7 @@ fn exact_root(x: &Rational, degree: u32) -> Option<Rational> {
 fn exact(function: Function, x: &Rational) -> Option<Rational> {
     match function {
         Function::Abs => Some(x.abs()),
+        Function::Sign => Some(x.signum()),
         Function::Sqrt => exact_root(x, 2),
         Function::Sin | Function::Tan | Function::Atan | Function::Tanh if x.is_zero() => {
             Some(Rational::zero())

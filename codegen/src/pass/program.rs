@@ -75,6 +75,15 @@ impl Scale {
     }
 }
 
+/// The expressions that may have kinks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kinked {
+    Nowhere,
+    /// Those of the time alone, at whose kinks steps end.
+    InTime,
+    Anywhere,
+}
+
 /// A value on the way.
 #[derive(Clone)]
 enum Value {
@@ -93,10 +102,10 @@ impl Value {
 }
 
 /// Lowers the expressions `roots` in coordinates, scalar parameters and inputs with these names, with the gradient of their
-/// sum, where they may have kinks if they are `kinked`; `None` if something was wrong, which is then reported.
+/// sum; `None` if something was wrong, which is then reported.
 pub(super) fn lower(
     arena: &Arena,
-    (roots, kinked): (&[ExprId], bool),
+    (roots, kinked): (&[ExprId], Kinked),
     names: [&[String]; 3],
     table: &mut Table,
     diagnostics: &Diagnostics,
@@ -210,8 +219,8 @@ struct Pass<'a> {
     watched: Vec<(ExprId, Id, Id)>,
     /// The arguments of functions that vary faster than their arguments.
     scales: Vec<(Scale, Id)>,
-    /// True if expressions may have kinks, and those that have one.
-    kinked: bool,
+    /// The expressions that may have kinks, and those that have one which no step ends at.
+    kinked: Kinked,
     kinks: Vec<ExprId>,
     values: Vec<Option<Value>>,
     /// True for an expression that depends on coordinates, and not on the time alone.
@@ -313,24 +322,7 @@ impl Pass<'_> {
                 self.scales.push((Scale::Ratio, a));
                 return Some(root);
             }
-            Function::Abs if self.kinked => {
-                self.kinks.push(id);
-                return Some(self.graph.abs(a));
-            }
-            Function::Abs => {
-                let (message, help) = match self.placed[id.index()] {
-                    true => (
-                        "`abs` of the momentum has a kink: the Hamiltonian must be smooth",
-                        "write sqrt(a^2 + b^2) with a small b, or powers of what it is of",
-                    ),
-                    false => (
-                        "`abs` of the time has a kink: the Hamiltonian must be smooth",
-                        "write sqrt(a^2 + b^2) with a small b, or give a function of the time by its values under [inputs], with hold = \"previous\" where it jumps",
-                    ),
-                };
-                self.diagnostics.report_other(span, message, help);
-                return None;
-            }
+            Function::Abs | Function::Sign => return self.kink(id, function, a, span),
             Function::Sin => Elementary::Sin,
             Function::Cos => Elementary::Cos,
             Function::Tan => Elementary::Tan,
@@ -355,6 +347,38 @@ impl Pass<'_> {
             self.watched.push((id, a, value));
         }
         Some(value)
+    }
+
+    /// |a| or the sign of a, where it may have a kink.
+    fn kink(&mut self, id: ExprId, function: Function, a: Id, span: Span) -> Option<Id> {
+        let placed = self.placed[id.index()];
+        if self.kinked == Kinked::Nowhere || self.kinked == Kinked::InTime && placed {
+            let (of, help) = match placed {
+                true => {
+                    ("momentum", "write sqrt(a^2 + b^2) with a small b, or powers of what it is of")
+                }
+                false => (
+                    "time",
+                    "name the times of its kinks, breaks = [0.5, 1.25], so that steps end there; or give a function of the time by its \
+                     values under [inputs], with hold = \"previous\" where it jumps",
+                ),
+            };
+            let name = function.name();
+            let message =
+                format!("`{name}` of the {of} has a kink: the Hamiltonian must be smooth");
+            self.diagnostics.report_other(span, &message, help);
+            return None;
+        }
+        if self.kinked == Kinked::Anywhere {
+            self.kinks.push(id);
+        }
+        let graph = &self.graph;
+        if function == Function::Abs {
+            return Some(graph.abs(a));
+        }
+        let [zero, one, minus] = [0.0, 1.0, -1.0].map(|value| graph.constant(value));
+        let low = graph.select(zero, a, zero, minus);
+        Some(graph.select(a, zero, low, one))
     }
 
     fn power(&mut self, id: ExprId, a: &Value, b: &Value, span: Span) -> Option<Value> {

@@ -122,19 +122,6 @@ impl System<Hamiltonian> {
         self.problem.smooth()?.drive.as_deref()
     }
 
-    /// Checks that it can be written as Rust.
-    ///
-    /// # Errors
-    /// As [`System::writable`]; refuses velocities, torques and damping too.
-    pub fn writable_as_rust(&self) -> Result<(), String> {
-        if self.drive().is_some() {
-            return Err("no Rust code is written of a velocity, a torque or damping; `--language c` writes a header, and in Rust \
-                        `Collocation::driven` makes such steps from closures"
-                .to_owned());
-        }
-        self.writable()
-    }
-
     /// Checks that it can be written as code.
     ///
     /// # Errors

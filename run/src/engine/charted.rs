@@ -62,17 +62,20 @@ impl Charted {
         compiled: Option<&Arc<Compiled>>,
     ) -> Result<Motion<'a>, StepError> {
         let compiled = compiled.map(|own| own.anew(grid.step, parameters)).transpose()?;
-        let method: Box<dyn Method<'a> + 'a> = match (origin, self.cayley.clone()) {
-            (Origin::Collocation(smooth), _) => {
-                collocated(smooth, &self.exponential, grid.step, parameters)?
-            }
-            (Origin::Series(integrator), None) => {
-                Box::new(Series::<_, Exponential>::new(integrator, self.exponential.clone()))
-            }
-            (Origin::Series(integrator), Some(group)) => {
-                Box::new(Series::<_, Cayley>::new(integrator, group))
-            }
-        };
+        let (exponential, cayley) = (self.exponential.clone(), self.cayley.clone());
+        let method = Box::new(move |parameters: &[f64]| -> Result<Box<dyn Method<'a> + 'a>, _> {
+            Ok(match (origin, cayley.clone()) {
+                (Origin::Collocation(smooth), _) => {
+                    collocated(smooth, &exponential, grid.step, parameters)?
+                }
+                (Origin::Series(integrator), None) => {
+                    Box::new(Series::<_, Exponential>::new(integrator, exponential.clone()))
+                }
+                (Origin::Series(integrator), Some(group)) => {
+                    Box::new(Series::<_, Cayley>::new(integrator, group))
+                }
+            })
+        });
         let (space, own) = (self.space(compiled), parameters.to_vec());
         Motion::new(space, grid, own, method, Some(origin))
     }
@@ -86,10 +89,13 @@ impl Charted {
         model: &'a ModelFile,
         grid: Grid,
     ) -> Result<Motion<'a>, StepError> {
-        let method: Box<dyn Method<'a> + 'a> = match self.cayley.clone() {
-            None => Box::new(Learned::<_, Exponential>::new(model, self.exponential.clone())),
-            Some(group) => Box::new(Learned::<_, Cayley>::new(model, group)),
-        };
+        let (exponential, cayley) = (self.exponential.clone(), self.cayley.clone());
+        let method = Box::new(move |_: &[f64]| -> Result<Box<dyn Method<'a> + 'a>, StepError> {
+            Ok(match cayley.clone() {
+                None => Box::new(Learned::<_, Exponential>::new(model, exponential.clone())),
+                Some(group) => Box::new(Learned::<_, Cayley>::new(model, group)),
+            })
+        });
         Motion::new(self.space(None), grid, Vec::new(), method, None)
     }
 }

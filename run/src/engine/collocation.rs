@@ -49,16 +49,10 @@ fn at_nodes<'a, const M: usize>(
     parameters: &[f64],
 ) -> Result<Box<dyn Method<'a> + 'a>, StepError> {
     if smooth.drive.is_none() {
-        let make = |_: &Smooth, _: &Arc<Tables>, _: &[f64]| ();
-        return Ok(Box::new(Collocated::<M, ()>::new(smooth, group, size, parameters, make)?));
+        return Ok(Box::new(Collocated::<M, ()>::new(smooth, group, size, parameters, ())?));
     }
-    Ok(Box::new(Collocated::<M, Actuator<'a>>::new(
-        smooth,
-        group,
-        size,
-        parameters,
-        Actuator::new,
-    )?))
+    let drive = Actuator::new(smooth, group, parameters);
+    Ok(Box::new(Collocated::<M, _>::new(smooth, group, size, parameters, drive)?))
 }
 
 /// The energy by its programs.
@@ -99,16 +93,11 @@ impl Energy<DVector<f64>> for Interpreted<'_> {
 /// Steps of one size that know those before them.
 type Remembering<'a, const M: usize, D> = Mutex<Collocation<Tables, Interpreted<'a>, M, D>>;
 
-/// Makes the drive for these values of the parameters.
-type Make<'a, D> = fn(&'a Smooth, &Arc<Tables>, &[f64]) -> D;
-
 /// Collocation at `M` nodes.
 struct Collocated<'a, const M: usize, D> {
     smooth: &'a Smooth,
-    group: Arc<Tables>,
     energy: Interpreted<'a>,
     drive: D,
-    make: Make<'a, D>,
     /// Of a function of the user's. Steps of a system too large for programs begin anew: so their bits do not depend on how a run is
     /// cut.
     whole: Option<Remembering<'a, M, D>>,
@@ -120,14 +109,13 @@ impl<'a, const M: usize, D: Drive<Tables> + Clone> Collocated<'a, M, D> {
         group: &Arc<Tables>,
         size: f64,
         parameters: &[f64],
-        make: Make<'a, D>,
+        drive: D,
     ) -> Result<Self, StepError> {
         let energy = Interpreted::new(step::Energy::smooth(smooth, parameters));
-        let (drive, group) = (make(smooth, group, parameters), group.clone());
         let remembers = smooth.given.is_some() && smooth.kicks.is_none();
-        let whole = || Collocation::driven((*group).clone(), energy.clone(), drive.clone(), size);
+        let whole = || Collocation::driven((**group).clone(), energy.clone(), drive.clone(), size);
         let whole = remembers.then(whole).transpose()?.map(Mutex::new);
-        Ok(Self { smooth, group, energy, drive, make, whole })
+        Ok(Self { smooth, energy, drive, whole })
     }
 }
 
@@ -149,19 +137,6 @@ where
         let mut whole = self.whole.as_ref()?.lock().unwrap_or_else(PoisonError::into_inner);
         let report = whole.advance(phase, time).ok()?;
         Some(Solved::one(report.iterations, report.residual))
-    }
-
-    fn vary(&mut self, parameters: &[f64]) {
-        self.energy = Interpreted::new(step::Energy::smooth(self.smooth, parameters));
-        self.drive = (self.make)(self.smooth, &self.group, parameters);
-        if let Some(whole) = &mut self.whole {
-            let step = whole.get_mut().unwrap_or_else(PoisonError::into_inner);
-            let (group, energy) = (step.group().clone(), self.energy.clone());
-            let drive = self.drive.clone();
-            if let Ok(varied) = Collocation::driven(group, energy, drive, step.step()) {
-                *step = varied;
-            }
-        }
     }
 
     fn may_be_undefined(&self) -> bool {

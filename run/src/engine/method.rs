@@ -22,8 +22,10 @@ pub(super) trait Method<'a>: Send + Sync {
         None
     }
 
-    /// Takes other values of the parameters.
-    fn vary(&mut self, _parameters: &[f64]) {}
+    /// Forgets the values of the parameters; false if it is made of them, so that it is to be made anew.
+    fn forgets(&mut self) -> bool {
+        false
+    }
 
     /// The ratio of the last two terms of a series at each momentum, where it may be worth a warning, for steps whose longest flow has
     /// this length; else 0.

@@ -16,6 +16,10 @@ use super::method::{Flow, Method, advise};
 use super::space::{Space, Tables};
 use crate::grid::Grid;
 
+/// Makes the method for these values of the parameters that are kept.
+pub(super) type Maker<'a> =
+    Box<dyn Fn(&[f64]) -> Result<Box<dyn Method<'a> + 'a>, StepError> + Send + Sync + 'a>;
+
 /// The kicks between the flows of a step.
 #[derive(Debug)]
 struct Kicked<'a> {
@@ -72,7 +76,9 @@ pub(crate) struct Motion<'a> {
     grid: Grid,
     /// The values of the parameters that are kept.
     parameters: Vec<f64>,
-    method: Box<dyn Method<'a> + 'a>,
+    maker: Maker<'a>,
+    /// The method for these values, once it was needed.
+    method: OnceLock<Box<dyn Method<'a> + 'a>>,
     kicked: Option<Kicked<'a>>,
     /// The step without programs, once one was needed.
     map: OnceLock<Map<'a>>,
@@ -95,7 +101,7 @@ impl<'a> Motion<'a> {
         space: Space,
         grid: Grid,
         parameters: Vec<f64>,
-        method: Box<dyn Method<'a> + 'a>,
+        maker: Maker<'a>,
         origin: Option<&'a Origin>,
     ) -> Result<Self, StepError> {
         let kicks = origin.and_then(Origin::kicks);
@@ -104,10 +110,21 @@ impl<'a> Motion<'a> {
             Ok::<_, StepError>(Kicked { kicks, torque })
         });
         let kicked = kicked.transpose()?;
-        let (map, others, slopes) = Default::default();
+        let (method, map, others, slopes) = Default::default();
         let breaks = Breaks::new(origin.map(Origin::breaks).unwrap_or_default());
-        let motion =
-            Self { space, grid, parameters, method, kicked, map, others, origin, breaks, slopes };
+        let motion = Self {
+            space,
+            grid,
+            parameters,
+            maker,
+            method,
+            kicked,
+            map,
+            others,
+            origin,
+            breaks,
+            slopes,
+        };
         if motion.space.compiled.is_none() {
             motion.whole()?;
         }
@@ -128,6 +145,15 @@ impl<'a> Motion<'a> {
         self.kicked.as_ref().map(|own| own.kicks)
     }
 
+    /// The method for these values of the parameters.
+    fn method(&self) -> Result<&dyn Method<'a>, StepError> {
+        if let Some(method) = self.method.get() {
+            return Ok(&**method);
+        }
+        let made = (self.maker)(&self.parameters)?;
+        Ok(&**self.method.get_or_init(|| made))
+    }
+
     /// The step of this size by a method.
     fn map<'m>(&self, method: &dyn Method<'m>, size: f64) -> Result<Map<'m>, StepError> {
         let flow = |length| method.flow(&self.space.group, length, &self.parameters);
@@ -140,7 +166,7 @@ impl<'a> Motion<'a> {
         if let Some(map) = self.map.get() {
             return Ok(map);
         }
-        let made = self.map(&*self.method, self.grid.step)?;
+        let made = self.map(self.method()?, self.grid.step)?;
         Ok(self.map.get_or_init(|| made))
     }
 
@@ -149,7 +175,7 @@ impl<'a> Motion<'a> {
         let (kicked, phase) = (self.kicked.as_ref(), self.space.phase(state));
         let step = |phase: &mut Phase<Tables>, size: f64| match size == self.grid.step {
             true => self.whole()?.step(kicked, phase, time),
-            false => self.map(&*self.method, size)?.step(kicked, phase, time),
+            false => self.map(self.method()?, size)?.step(kicked, phase, time),
         };
         let mut next = phase.clone();
         let solves = step(&mut next, size).map_err(|error| {
@@ -232,7 +258,7 @@ impl<'a> Motion<'a> {
         }
         one_by_one(first, count, |number| {
             let (time, mut phase) = (self.grid.time(number), self.space.phase(state));
-            if let Some(solved) = self.method.go_on(&mut phase, time) {
+            if let Some(solved) = self.method()?.go_on(&mut phase, time) {
                 *state = self.space.state(&phase);
                 return Ok(Some(solved));
             }
@@ -288,7 +314,10 @@ impl<'a> Motion<'a> {
         let flows = self.kicks().map(|kicks| kicks.splitting.flows().fold(0.0, longer));
         let longest = self.grid.step * flows.unwrap_or(1.0);
         let compiled = self.space.compiled.as_deref();
-        self.method.ratios(compiled, longest, &self.parameters, momenta)
+        self.method().map_or_else(
+            |_| vec![0.0; momenta.len()],
+            |method| method.ratios(compiled, longest, &self.parameters, momenta),
+        )
     }
 
     /// The ratio at one momentum.
@@ -306,7 +335,7 @@ impl<'a> Motion<'a> {
         if !error.asks_for_smaller_step() {
             return None;
         }
-        let comoving = self.method.comoving()?;
+        let comoving = self.method().ok()?.comoving()?;
         let map = self.map(&*comoving, self.grid.step).ok()?;
         let made = map.step(self.kicked.as_ref(), &mut self.space.phase(state), time);
         made.is_ok().then_some(
@@ -319,13 +348,13 @@ impl<'a> Motion<'a> {
     /// # Errors
     /// The expression in them that is not.
     pub(crate) fn defined(&self, state: &Numbers, time: f64) -> Result<(), StepError> {
-        self.method.defined(time, &|| self.space.phase(state), &state.mu)?;
+        self.method()?.defined(time, &|| self.space.phase(state), &state.mu)?;
         self.kicked.as_ref().map_or(Ok(()), |own| own.torque.defined(&self.space, state, time))
     }
 
     /// True if there are states in which something is not [`defined`](Motion::defined).
     pub(crate) fn may_be_undefined(&self) -> bool {
-        self.kicked.is_some() || self.method.may_be_undefined()
+        self.kicked.is_some() || self.method().map_or(true, |method| method.may_be_undefined())
     }
 
     /// The programs that move many states side by side, where there are any.
@@ -401,7 +430,9 @@ impl<'a> Motion<'a> {
     pub(crate) fn vary(&mut self, parameters: &[f64], folded: Option<Folded>) {
         self.parameters.clear();
         self.parameters.extend_from_slice(parameters);
-        self.method.vary(parameters);
+        if !self.method.get_mut().is_some_and(|method| method.forgets()) {
+            self.method = OnceLock::new();
+        }
         if let Some(kicked) = &mut self.kicked {
             kicked.torque.vary(parameters);
         }

@@ -55,8 +55,9 @@ where
         }))
     }
 
-    fn vary(&mut self, _: &[f64]) {
+    fn forgets(&mut self) -> bool {
         self.converging = OnceLock::new();
+        true
     }
 
     fn ratios(

@@ -25,7 +25,7 @@ pub(crate) use recorder::drifting;
 pub use recorder::{Drift, Outcome, Scales};
 pub use run::{run, run_model};
 pub use setup::{Schedule, Setup, Stop, Times};
-pub use single::Single;
+pub use single::{Ongoing, Single};
 pub(crate) use sink::DRIFTS;
 pub use sink::{Begun, Halt, Record, Resume, Sink};
 pub(crate) use slow::many;

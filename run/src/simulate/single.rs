@@ -101,4 +101,48 @@ impl<S: AsRef<Derived>> Single<S> {
         mu.copy_from_slice(&state.mu);
         made.map(drop).map_err(|(done, error)| (done + 1, error))
     }
+
+    /// A state of this time that goes on by such steps; its matrix, row by row, is not checked.
+    ///
+    /// # Errors
+    /// Fails if a coefficient is not finite.
+    pub fn begin(&self, matrix: &[f64], mu: &[f64], start: f64) -> Result<Ongoing, RunError> {
+        let motion = self.motion(start, None).map_err(RunError::unmade)?;
+        let state = Numbers { g: motion.space().numbers(matrix), mu: mu.to_vec() };
+        Ok(Ongoing { state, start, made: 0 })
+    }
+
+    /// Makes `steps` more steps of a state, as [`Single::advance`].
+    ///
+    /// # Errors
+    /// As [`Single::advance`].
+    pub fn go_on(
+        &self,
+        ongoing: &mut Ongoing,
+        steps: u64,
+        parameters: Option<&[f64]>,
+    ) -> Result<(), (u64, StepError)> {
+        let motion = self.motion(ongoing.start, parameters).map_err(|error| (1, error))?;
+        let made = motion.advance(&mut ongoing.state, ongoing.made, steps);
+        ongoing.made += made.as_ref().err().map_or(steps, |(done, _)| *done);
+        made.map(drop).map_err(|(done, error)| (done + 1, error))
+    }
+
+    /// The time of a state, its matrix, row by row, and its momentum.
+    pub fn state(&self, ongoing: &Ongoing) -> (f64, Vec<f64>, Vec<f64>) {
+        let Ongoing { state, start, made } = ongoing;
+        let matrix = match &self.compiled {
+            Some(compiled) => compiled.matrix_of(&state.g),
+            None => state.g.clone(),
+        };
+        (Grid { start: *start, step: self.step }.time(*made), matrix, state.mu.clone())
+    }
+}
+
+/// A state that goes on from call to call, with what its steps leave to the next ones.
+#[derive(Clone, Debug)]
+pub struct Ongoing {
+    state: Numbers,
+    start: f64,
+    made: u64,
 }

@@ -8,7 +8,7 @@ use crate::drive::Drive;
 use crate::hamilton_jacobi::{DeriveError, TermLimit};
 use crate::integrator::{Integrator, Kick, Kicks};
 use crate::problem::Symbol;
-use crate::signal::Signal;
+use crate::signal::{Interpolation, Signal};
 use crate::smooth::{Facts, Hamiltonian, Smooth};
 
 /// A system that the programs of a step are made from.
@@ -181,6 +181,14 @@ impl Origin {
         };
         if self.drive().is_some_and(Drive::is_dissipative) {
             label.push_str(", damped");
+        }
+        let table = self.signals().iter().find(|signal| !signal.table()[0].is_empty());
+        if let Some(table) = table {
+            label.push_str(match table.between {
+                Interpolation::Previous => ", inputs held",
+                Interpolation::Linear => ", inputs by lines",
+                Interpolation::Spline => ", inputs by splines",
+            });
         }
         if let Some(kicks) = self.kicks() {
             label.push_str(", ");

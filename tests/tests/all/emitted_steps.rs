@@ -10,7 +10,8 @@ use coadjoint::{GeneratingFunction, LieGroup as _, Phase, SE3, SO3, StepError};
 use coadjoint_codegen::graph::{Graph, Id, Node, Program};
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::{FoldTable, Integrator, Kick};
-use coadjoint_codegen::system::{Options, Parameters, read};
+use coadjoint_codegen::step::Origin;
+use coadjoint_codegen::system::{Options, Parameters, read, read_either};
 use coadjoint_program::{Kernel, KernelParts, Precision, Programs, Stepper};
 use coadjoint_tests::emitted;
 use coadjoint_tests::kernels::from_function;
@@ -35,6 +36,9 @@ mod tables {
 }
 mod twist {
     include!(concat!(env!("OUT_DIR"), "/emitted/twist.rs"));
+}
+mod driven_vehicle {
+    include!(concat!(env!("OUT_DIR"), "/driven_vehicle.rs"));
 }
 mod weighted_body {
     include!(concat!(env!("OUT_DIR"), "/weighted_body.rs"));
@@ -161,13 +165,12 @@ const START: f64 = -9.3;
 
 /// Steps from a momentum as the emitted code makes them, beside those of the kernel that it is printed from.
 fn has_the_bits_of_its_kernel<G, const N: usize>(
-    source: emitted::Source,
+    origin: &Origin,
     parameters: &[f64],
     advance: impl Fn(&mut Phase<G>, f64, u64),
 ) where
     G: ElementNumbers + coadjoint::LieGroup<Scalar = f64, Vector = SVector<f64, N>> + Default,
 {
-    let origin = emitted::origin(source).unwrap();
     let (step, fused) = (origin.step(Precision::Double).unwrap(), cfg!(target_feature = "fma"));
     let kernel = if fused { step.kernel().clone() } else { unfused(step.kernel()) };
     let mut slots = step.fold(H, parameters).unwrap();
@@ -199,34 +202,50 @@ fn has_the_bits_of_its_kernel<G, const N: usize>(
 
 #[test]
 fn emitted_steps_have_the_bits_of_kernels() -> Result<(), StepError> {
+    let of = |source| emitted::origin(source).unwrap();
     let step = rigid_body::RigidBody::new(H)?;
-    has_the_bits_of_its_kernel::<SO3, 3>(emitted::RIGID_BODY, &[], |phase, _, count| {
+    has_the_bits_of_its_kernel::<SO3, 3>(&of(emitted::RIGID_BODY), &[], |phase, _, count| {
         step.advance_by(phase, count).unwrap();
     });
     let step = comoving_body::ComovingBody::new(H, [1.5, 0.8], [0.9, 1.4])?;
     let parameters = [1.5, 0.8, 0.9, 1.4];
-    has_the_bits_of_its_kernel::<SE3, 6>(emitted::COMOVING_BODY, &parameters, |phase, _, count| {
-        step.advance_by(phase, count).unwrap();
-    });
+    has_the_bits_of_its_kernel::<SE3, 6>(
+        &of(emitted::COMOVING_BODY),
+        &parameters,
+        |phase, _, count| {
+            step.advance_by(phase, count).unwrap();
+        },
+    );
     let step = three_wave::ThreeWave::new(H, 0.7)?;
-    has_the_bits_of_its_kernel::<SL2, 3>(emitted::THREE_WAVE, &[0.7], |phase, _, count| {
+    has_the_bits_of_its_kernel::<SL2, 3>(&of(emitted::THREE_WAVE), &[0.7], |phase, _, count| {
         step.advance_by(phase, count).unwrap();
     });
     let step = relativistic::Relativistic::new(H, [1.5, 2.0, 2.5])?;
     let parameters = [1.5, 2.0, 2.5];
-    has_the_bits_of_its_kernel::<SO3, 3>(emitted::RELATIVISTIC, &parameters, |phase, _, count| {
-        step.advance_by(phase, count).unwrap();
-    });
+    has_the_bits_of_its_kernel::<SO3, 3>(
+        &of(emitted::RELATIVISTIC),
+        &parameters,
+        |phase, _, count| {
+            step.advance_by(phase, count).unwrap();
+        },
+    );
     let step = tables::Tables::new(H)?;
     has_the_bits_of_its_kernel::<tables::TablesGroup, 3>(
-        emitted::TABLES,
+        &of(emitted::TABLES),
         &[],
         |phase, _, count| {
             step.advance_by(phase, count).unwrap();
         },
     );
+    let step = driven_vehicle::DrivenVehicle::new(H, 0.2)?;
+    let text = include_str!("../../systems/driven_vehicle.toml");
+    let driven = read_either(text, Options::default(), &["c".to_owned()]).unwrap();
+    let driven = Origin::derive(driven.problem, TermLimit::default()).unwrap();
+    has_the_bits_of_its_kernel::<SE3, 6>(&driven, &[0.2], |phase, time, count| {
+        step.advance_by(phase, time, count).unwrap();
+    });
     let step = twist::Twist::new(H, 0.3)?;
-    has_the_bits_of_its_kernel::<SO3, 3>(emitted::TWIST, &[0.3], |phase, time, count| {
+    has_the_bits_of_its_kernel::<SO3, 3>(&of(emitted::TWIST), &[0.3], |phase, time, count| {
         step.advance_by(phase, time, count).unwrap();
     });
     Ok(())
@@ -243,6 +262,21 @@ fn a_group_given_by_tables_keeps_momentum_and_steps_in_time() -> Result<(), Step
     }
     let drift = (phase.spatial_momentum(&group) - before).amax();
     assert!(drift < 1e-12, "{drift:e}");
+    Ok(())
+}
+
+/// Steps too long for the programs are made by the runtime, which is given the velocity and the torque too.
+#[test]
+fn emitted_drives_are_those_of_the_file_in_steps_that_programs_refuse() -> Result<(), StepError> {
+    let mut start = Phase::<SE3>::at_identity([3.0, -2.0, 4.0, 0.3, 0.2, -0.1]);
+    let fine = driven_vehicle::DrivenVehicle::new(0.01, 0.2)?;
+    fine.advance_by(&mut start, 0.5, 40)?;
+    let (mut refused, mut exact) = (start.clone(), start);
+    let step = driven_vehicle::DrivenVehicle::new(0.6, 0.2)?;
+    let report = step.advance(&mut refused, 0.9)?;
+    fine.advance_by(&mut exact, 0.9, 60)?;
+    let off = (refused.momentum - exact.momentum).amax();
+    assert!(off < 1e-3 && report.iterations > 4, "{off:e} {report:?}");
     Ok(())
 }
 

@@ -55,6 +55,7 @@ pub(crate) fn symbols(symbols: &[Symbol], parameters: &[String], names: &Names) 
         call: &|function, argument| match function {
             Function::Ln => format!("log({argument})"),
             Function::Abs => format!("fabs({argument})"),
+            Function::Sign => format!("(({argument} > 0.0) - ({argument} < 0.0))"),
             _ => format!("{}({argument})", function.name()),
         },
     };
