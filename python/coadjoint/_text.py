@@ -18,12 +18,21 @@ _FUNCTIONS = {
     "sin": "sin",
     "cos": "cos",
     "tan": "tan",
+    "asin": "asin",
+    "acos": "acos",
     "atan": "atan",
+    "atan2": "atan2",
+    "sinh": "sinh",
+    "cosh": "cosh",
     "tanh": "tanh",
     "exp": "exp",
     "log": "ln",
     "Abs": "abs",
+    "sign": "sign",
 }
+
+# Functions of SymPy that are 1 over these.
+_INVERSES = {"sec": "cos", "csc": "sin", "cot": "tan", "sech": "cosh", "csch": "sinh", "coth": "tanh"}
 
 
 def quoted(text: str) -> str:
@@ -127,6 +136,15 @@ def _sympy(value: Any, what: str) -> str:
             return f"{atom(base)}^{atom(exponent)}"
         if isinstance(part, sympy.exp):
             return f"exp({walk(part.args[0])})"
+        if isinstance(part, (sympy.Min, sympy.Max)):
+            name, (first, *others) = type(part).__name__.lower(), map(walk, part.args)
+            for other in others:
+                first = f"{name}({first}, {other})"
+            return first
+        if isinstance(part, sympy.Heaviside):
+            return f"((1 + sign({walk(part.args[0])}))/2)"
+        if inverse := _INVERSES.get(type(part).__name__):
+            return f"(1/{inverse}({walk(part.args[0])}))"
         if part.is_Function:
             function = _FUNCTIONS.get(type(part).__name__)
             if function is None:

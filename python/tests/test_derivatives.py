@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.linalg import expm, expm_frechet
 from scipy.spatial.transform import Rotation
 
 import coadjoint as ca
@@ -84,3 +85,68 @@ def test_parameters_of_potentials_are_differentiated() -> None:
     assert np.isfinite(run.jvp(momentum=[1, 0, 0]).momentum).all()
     slope = (falling(1.001).momentum[-1] - falling(0.999).momentum[-1]) / 0.002
     assert np.allclose(run.jvp(parameters={"w": 1}).momentum[-1], slope, atol=1e-6)
+
+
+def test_samples_have_the_exact_gradient_of_a_pulse() -> None:
+    """The population of a qubit after eight held amplitudes, against Fréchet derivatives of the matrix exponentials."""
+    amplitudes = np.array([0.5, -0.7, 0.9, 0.3, -0.2, 0.8, -0.9, 0.4])
+    x, z, slot = np.array([[0, 1], [1, 0]], complex), np.diag([1, -1]).astype(complex), 5 / 8
+    pulses = dict(times=list(np.arange(8) * slot), u=list(amplitudes), hold="previous")
+    qubit = ca.System("SU2", "-2*z - 2*u*x", coordinates="x y z", inputs=pulses)
+    gates = [expm(-1j * slot * (z + u * x)) for u in amplitudes]
+    slopes = [expm_frechet(-1j * slot * (z + u * x), -1j * slot * x, compute_expm=False) for u in amplitudes]
+    whole = np.linalg.multi_dot(gates[::-1])
+    right = []
+    for k in range(8):
+        changed = np.linalg.multi_dot([slopes[k] if j == k else gates[j] for j in range(8)][::-1])
+        right.append(2 * (np.conj(whole[0, 0]) * changed[0, 0]).real)
+    # Steps that end at the slots, and steps that the slots divide.
+    for step in (0.125, 0.3):
+        run = qubit.simulate([0, 0, 1], time=5, step=step)
+        weights = np.zeros_like(run.momentum)
+        weights[-1, 2] = 0.5
+        gradient = run.vjp(momentum=weights, inputs=["u"]).inputs["u"]
+        assert abs(gradient - right).max() < 1e-13
+        assert abs(run.jvp(inputs={"u": amplitudes}).momentum[-1, 2] / 2 - right @ amplitudes) < 1e-13
+    for wrong in (dict(inputs=["v"]), dict(inputs=["t"])):
+        with pytest.raises(InputError, match="is no input of the system"):
+            run.vjp(momentum=weights, **wrong)
+    with pytest.raises(InputError, match="8 numbers|8"):
+        run.jvp(inputs={"u": [1, 2]})
+    called = ca.System("SU2", "-2*z - 2*u*x", coordinates="x y z", inputs=dict(u=np.sin))
+    with pytest.raises(InputError, match="is a function, which has no samples"):
+        called.simulate([0, 0, 1], time=1, step=0.1).jvp(inputs={"u": [1]})
+
+
+def test_torques_and_damping_have_derivatives() -> None:
+    def vehicle(c: float, start: np.ndarray) -> ca.Run:
+        torque = ["-c*omega[0]", "c*g[2][0]*sin(t)", "-z*abs(z)/5"]
+        system = ca.System(
+            "SO3", "x^2/3 + y^2/4 + z^2/5", coordinates="x y z", torque=torque, damping=0.1, parameters=dict(c=c)
+        )
+        return system.simulate(start, time=3, step=0.1)
+
+    run, change = vehicle(0.2, MOMENTUM), np.array([0.5, -1, 0.25])
+    found = run.jvp(momentum=change, parameters=dict(c=1)).momentum
+    ahead, behind = vehicle(0.2 + 1e-4, MOMENTUM + 1e-4 * change), vehicle(0.2 - 1e-4, MOMENTUM - 1e-4 * change)
+    np.testing.assert_allclose(found, (ahead.momentum - behind.momentum) / 2e-4, atol=1e-6)
+
+
+def test_a_control_loop_keeps_its_state() -> None:
+    """A law of attitude and rate every 0.1, its torque held in between, against DOP853."""
+    body = ca.System("SO3", "x^2/6 + y^2/4 + z^2/2", coordinates="x y z", torque=["u[0]", "u[1]", "u[2]"], parameters=dict(u=[0, 0, 0]))
+    loop = body.stepper([0.3, -0.2, 0.5], step=0.02, parameters=["u"])
+    for _ in range(50):
+        g, mu = loop.group_element, loop.momentum
+        error = np.array([g[2, 1] - g[1, 2], g[0, 2] - g[2, 0], g[1, 0] - g[0, 1]]) / 2
+        loop.advance(5, u=-error - 0.8 * mu / [3, 2, 1])
+    assert abs(loop.time - 5) < 1e-12
+    assert abs(loop.momentum - [-0.17446254, 0.06184369, 0.025306]).max() < 1e-7
+    with pytest.raises(InputError, match="advance takes the parameters"):
+        loop.advance(1)
+    with pytest.raises(InputError, match="3 numbers"):
+        loop.advance(1, u=[1, 2])
+    before = loop.momentum
+    with pytest.raises(ca.RunError):
+        loop.advance(1, u=[1e9, 0, 0])
+    assert (loop.momentum == before).all()

@@ -95,14 +95,6 @@ def test_derivatives_and_verdicts_are_of_the_time_of_the_run() -> None:
 
 
 def test_messages_say_what_there_is() -> None:
-    for given in (dict(torque=["-b*x", "0", "0"]), dict(damping=0.1)):
-        system = ca.System("SO3", BODY + " + b*z", coordinates="x y z", parameters=dict(b=0.1), **given)
-        run = system.simulate(START, time=1, step=0.1)
-        for asked in (dict(momentum=[1, 0, 0]), dict(parameters=dict(b=1))):
-            with pytest.raises(InputError, match="no derivatives are known of .* torques and damping"):
-                run.jvp(**asked)
-        with pytest.raises(InputError, match="no derivatives are known"):
-            run.vjp(momentum=run.momentum, parameters=["b"])
     with pytest.raises(InputError, match=r"steps=1.5: a whole number"):
         driven(dict(hamiltonian=BODY)).step(START, step=0.1, steps=np.float64(1.5))
     with pytest.raises(InputError, match="a rotation or a quaternion is an element of SO3 alone"):

@@ -193,7 +193,7 @@ fn driven(drive: &Drive, options: &Options, types: &Types, energy: &Ident) -> To
             ) -> [#vector; 2] {
                 #state
                 let both = acting(#arguments);
-                [#vector::from_fn(|i, _| both[i]), #vector::from_fn(|i, _| both[#n + i])]
+                [<#vector>::from_fn(|i, _| both[i]), <#vector>::from_fn(|i, _| both[#n + i])]
             }
 
             fn undefined(

@@ -18,3 +18,5 @@ pub(crate) use names::Name;
 pub(crate) use names::Names;
 #[cfg(feature = "system")]
 pub(crate) use token::words;
+#[cfg(feature = "system")]
+pub(crate) use vectors::components;

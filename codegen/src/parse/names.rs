@@ -18,6 +18,11 @@ pub(crate) enum Name {
     Time,
     /// An input, a function of the time, counted from 0.
     Signal(usize),
+    /// A part of formulas: its text, and where it begins in the file.
+    Part {
+        text: String,
+        offset: usize,
+    },
 }
 
 impl Name {
@@ -27,6 +32,7 @@ impl Name {
             Self::Parameter(_) | Self::Number(_) => "a parameter",
             Self::Time => "the time",
             Self::Signal(_) => "an input",
+            Self::Part { .. } => "a part under [let]",
         }
     }
 }

@@ -1,14 +1,18 @@
 //! Sums over sites in text: `sum(i, 0..64, x[i]*x[(i + 1) % 64])`, and the index expressions in
 //! their names.
 
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::iter::Peekable;
 use std::ops::Range;
+use std::rc::Rc;
 use std::str::Chars;
 
 use num_traits::ToPrimitive;
 
 use super::names::{Name, Names};
 use crate::diagnostic::Mistake;
+use crate::expr::ExprId;
 use crate::number::{Rational, integer};
 use crate::parse::token::bracketed;
 
@@ -23,6 +27,8 @@ pub(super) const MOST_NESTED: usize = 64;
 pub(super) struct Scope<'a> {
     pub names: &'a Names,
     pub indices: Vec<(String, i64)>,
+    /// The parts read so far; `None` for one that is being read.
+    pub parts: Rc<RefCell<BTreeMap<String, Option<ExprId>>>>,
 }
 
 impl Scope<'_> {

@@ -6,6 +6,7 @@
 //! `sum(i, 0..64, x[i]*x[(i + 1) % 64])`, nest by recursion.
 
 use std::ops::Range;
+use std::rc::Rc;
 
 use crate::cancel;
 use crate::diagnostic::{Diagnostics, Mistake, Span, nearest};
@@ -33,7 +34,7 @@ pub(crate) fn parse(
     diagnostics: &Diagnostics,
 ) -> ExprId {
     let indices = indices.iter().map(|&(name, value)| (name.to_owned(), value)).collect();
-    parse_in(text, offset, &Scope { names, indices }, arena, diagnostics)
+    parse_in(text, offset, &Scope { names, indices, parts: Rc::default() }, arena, diagnostics)
 }
 
 fn parse_in(
@@ -65,10 +66,10 @@ fn parse_in(
             expects_operand = false;
             continue;
         }
-        if let (Some(open), true, true) =
-            (call, expects_operand, token == Token::Name("dot".into()))
-        {
-            let end = parser.dot(text, range.start, open);
+        let of_vectors =
+            ["dot", "norm"].into_iter().find(|name| token == Token::Name((*name).into()));
+        if let (Some(open), true, Some(name)) = (call, expects_operand, of_vectors) {
+            let end = parser.of_vectors(name, text, range.start, open);
             tokens = Tokens::new(text, end).peekable();
             expects_operand = false;
             continue;
@@ -233,6 +234,7 @@ impl Parser<'_> {
             Ok(Name::Number(value)) => Node::Number(value),
             Ok(Name::Time) => Node::Time,
             Ok(Name::Signal(i)) => Node::Signal(i),
+            Ok(Name::Part { text, offset }) => return self.part(name, &text, offset, span),
             Err(_) if Known::lookup(name).is_some() => {
                 return self.wrong(span, Mistake::FunctionWithoutArgument(name.to_owned()));
             }
@@ -240,6 +242,27 @@ impl Parser<'_> {
             Err(mistake) => return self.wrong(span, mistake),
         };
         self.operand(node, span);
+    }
+
+    /// A part of formulas that has a name of its own, which is read once.
+    fn part(&mut self, name: &str, text: &str, offset: usize, span: Span) {
+        let known = self.scope.parts.borrow().get(name).copied();
+        let found = match known {
+            Some(Some(found)) => found,
+            Some(None) => {
+                let what = format!("`{name}` under [let] is made of itself");
+                let help = "a part may be made of parts that are not made of it".to_owned();
+                return self.wrong(span, Mistake::Other(what, Some(help)));
+            }
+            None => {
+                self.scope.parts.borrow_mut().insert(name.to_owned(), None);
+                let scope = Scope { indices: Vec::new(), ..self.scope.clone() };
+                let found = parse_in(text, offset, &scope, self.arena, self.diagnostics);
+                self.scope.parts.borrow_mut().insert(name.to_owned(), Some(found));
+                found
+            }
+        };
+        self.operands.push((found, span));
     }
 
     fn callee(&mut self, name: String, span: Span) {
@@ -267,13 +290,12 @@ impl Parser<'_> {
         self.operators.push((Operator::Open { call, arguments: 0 }, span));
     }
 
-    /// Reads a product of two vectors that begins at `start`, its parenthesis at `open`; returns where it ends.
-    fn dot(&mut self, text: &str, start: usize, open: usize) -> usize {
-        let (sum, end) = match vectors::dot(text, open, self.scope.names) {
+    /// Reads `dot` or `norm`, which begins at `start`, its parenthesis at `open`; returns where it ends.
+    fn of_vectors(&mut self, name: &str, text: &str, start: usize, open: usize) -> usize {
+        let (sum, end) = match vectors::number(name, text, open, self.scope.names) {
             Ok(found) => found,
             Err(end) => {
-                let what =
-                    "dot(a, b) is of two vectors: names of three numbers each, or cross(a, b)";
+                let what = "dot(a, b) and norm(a) are of vectors: names of three numbers each, cross(a, b), their sums and multiples";
                 let help = Some("write for example dot(d, cross(a, b)), with d = [0, 0, 1]".into());
                 let mistake = Mistake::Other(what.to_owned(), help);
                 let excused = self.scope.names.excuses(&text[start..end]);

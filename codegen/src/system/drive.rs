@@ -1,13 +1,15 @@
 //! The keys `velocity`, `torque` and `damping`: motion beside that of the Hamiltonian.
 
+use super::energies::attitude;
 use super::initial::coordinates;
 use super::parameters::Parameters;
+use super::parts::Parts;
 use super::table::{Table, span};
 use crate::diagnostic::Span;
 use crate::expr::{Arena, ExprId};
 use crate::lie::LieAlgebra;
 use crate::number::nearest_float;
-use crate::parse::{Name, Names, text};
+use crate::parse::{Name, Names, components, text};
 use crate::pass::{Acting, Energy, entries};
 use crate::signal::Signal;
 
@@ -42,8 +44,6 @@ pub(super) fn read(
     inputs: &[(Signal, Span)],
 ) -> Option<Stated> {
     let damping = damping(root, algebra);
-    let lists = [("velocity", VELOCITY), ("torque", TORQUE)]
-        .map(|(key, example)| (key, example, root.strings(key, "a list of expressions", example)));
     let entries = entries(algebra?.matrix_size());
     let entry = |name: &String| (name.clone(), Span::Whole);
     let all: Vec<_> = entries.iter().map(entry).chain(coordinates.iter().cloned()).collect();
@@ -61,6 +61,20 @@ pub(super) fn read(
         names.add(&signal.name, Name::Signal(i), *place, root.diagnostics);
     }
     names.known("t", Name::Time);
+    attitude(algebra?, &mut names);
+    Parts::read(root).add_to(root, &mut names);
+    let lists = [("velocity", VELOCITY), ("torque", TORQUE)].map(|(key, example)| {
+        let vector = root.get(key).and_then(|value| Some((value.get_ref().as_str()?, span(value))));
+        let found = vector.and_then(|(text, place)| {
+            let entries = components(text, &names)?;
+            Some((entries.map(|entry| (entry, place)).to_vec(), place))
+        });
+        (
+            key,
+            example,
+            found.or_else(|| root.strings(key, "a list of expressions, or a vector", example)),
+        )
+    });
     let (mut arena, mut sources, mut sound) = (Arena::new(), Vec::new(), true);
     let roots = lists.map(|(key, example, list)| {
         let (list, place) = list?;

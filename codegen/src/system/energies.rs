@@ -2,10 +2,11 @@
 
 use super::initial::copies;
 use super::parameters::Parameters;
+use super::parts::Parts;
 use super::table::Table;
 use crate::diagnostic::Span;
 use crate::expr::{Arena, Node};
-use crate::lie::LieAlgebra;
+use crate::lie::{LieAlgebra, catalogue};
 use crate::parse::{Name, Names, text};
 use crate::pass::{Energy, entries};
 use crate::signal::Signal;
@@ -42,6 +43,7 @@ pub(super) fn hamiltonian(
     }
     // Anything else called t comes first.
     names.known("t", Name::Time);
+    Parts::read(root).add_to(root, &mut names);
     if !root.has("hamiltonian") && root.has("velocity") {
         // A velocity may be all that moves.
         let (mut arena, place) = (Arena::new(), Span::Whole);
@@ -104,6 +106,20 @@ pub(super) fn coordinates(
     (names, whole)
 }
 
+/// Calls the attitude of a body R, from body to space, where the group is one of motions in space and no other name is R.
+pub(super) fn attitude(algebra: &LieAlgebra, names: &mut Names) {
+    let is = |name: &&str| {
+        catalogue::lookup(name).is_ok_and(|known| known.renamed(algebra.name()) == *algebra)
+    };
+    if names.entries("R").is_some() || !["SO3", "SE3"].iter().any(is) {
+        return;
+    }
+    let size = algebra.matrix_size();
+    for (i, j) in (0..9).map(|at| (at / 3, at % 3)) {
+        names.alias(format!("R[{i}][{j}]"), Name::Coordinate(i * size + j));
+    }
+}
+
 /// Reads `potential`, if the file has one and its group is known: a polynomial in the entries of the group element's matrix.
 pub(super) fn potential(
     root: &Table<'_>,
@@ -115,5 +131,7 @@ pub(super) fn potential(
     let entries: Vec<_> = names.into_iter().map(|name| (name, Span::Whole)).collect();
     let mut names = Names::of_coordinates(&entries, root.diagnostics);
     let kept = parameters.add_to(&mut names, root.diagnostics);
+    attitude(algebra?, &mut names);
+    Parts::read(root).add_to(root, &mut names);
     root.energy("potential", POTENTIAL, &names, kept)
 }

@@ -55,6 +55,7 @@ mod inputs;
 pub mod lattice;
 mod options;
 mod parameters;
+mod parts;
 mod project;
 mod run;
 mod splitting;
@@ -300,6 +301,7 @@ fn system<H>(
         "damping",
         "parameters",
         "inputs",
+        "let",
         "breaks",
         "units",
         "integrator",
