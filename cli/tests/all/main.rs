@@ -25,7 +25,6 @@ mod simulate;
 mod simulate_records;
 mod size;
 mod smooth;
-mod smooth_examples;
 mod support;
 mod time;
 mod tolerance;
