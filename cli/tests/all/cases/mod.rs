@@ -24,8 +24,8 @@
 //! with "a" -> "b", "c" -> "d": err has "text"  the command above, instead, after these changes of `system.toml`
 //! edit system.toml "a" -> "b"                  a change that stays; the new text may be one of a command, `whole.momentum`
 //! add 1e-9 to row 3[1] of run.csv              a number of a record is changed
-//! copy examples/rigid_body.toml to body.toml
-//! for {step} {end} = 0.1 | 2                   the case is run for each of these lines
+//! copy examples/rigid_body.toml to body.toml   also: save whole to report.json, the JSON of a command
+//! for {step} {end} = 0.1 | 2                   the case is run for each of these lines, with \n for the end of a line
 //! == system.toml
 //! group = "SO3"
 //! == spins.npy
@@ -71,6 +71,10 @@ impl Course {
                 }
                 Action::Copy(from, to) => {
                     course.folder.write(to, course.folder.bytes(from));
+                    Ok(())
+                }
+                Action::Save(name, to) => {
+                    course.folder.write(to, course.known[name].to_string());
                     Ok(())
                 }
                 Action::Edit(file, from, to) => outcome.right(to).and_then(|to| {
@@ -136,8 +140,8 @@ impl Course {
 
 /// The bytes of an array: of its shape and of a, for the numbers sin(a i).
 fn wave(text: &str) -> Vec<u8> {
-    let (shape, rate): (Vec<u64>, f64) = serde_json::from_str(text).unwrap();
-    let numbers = (0..shape.iter().product()).map(|i| (rate * i as f64).sin());
+    let (shape, rate): (Vec<u64>, Option<f64>) = serde_json::from_str(text).unwrap();
+    let numbers = (0..shape.iter().product()).map(|i| (rate.unwrap_or(f64::NAN) * i as f64).sin());
     [npy_header(&shape), numbers.flat_map(f64::to_le_bytes).collect()].concat()
 }
 

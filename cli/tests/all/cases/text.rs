@@ -18,6 +18,8 @@ pub(super) enum Action {
     /// Adds to a number of a record.
     Add(f64, Place),
     Copy(String, String),
+    /// Writes the JSON of a command into a file.
+    Save(String, String),
 }
 
 #[derive(Clone, Default)]
@@ -69,7 +71,7 @@ pub(super) fn runs(text: &str) -> Vec<String> {
     let (mut heads, mut rest) = (Vec::<(&str, Vec<&str>)>::new(), String::new());
     let files = text.find("\n== ").map_or(text.len(), |at| at + 1);
     for line in text[..files].lines() {
-        match line.strip_prefix("for ").and_then(|line| line.split_once(" = ")) {
+        match line.strip_prefix("for ").and_then(|line| line.split_once(" =")) {
             Some((names, values)) => {
                 match heads.iter_mut().find(|(known, _)| *known == names) {
                     Some((_, all)) => all.push(values),
@@ -84,7 +86,9 @@ pub(super) fn runs(text: &str) -> Vec<String> {
     heads.iter().fold(vec![rest], |texts, (names, all)| {
         let each = |text: &String, values: &str| {
             let pairs = names.split_whitespace().zip(values.split('|'));
-            pairs.fold(text.clone(), |text, (name, value)| text.replace(name, value.trim()))
+            pairs.fold(text.clone(), |text, (name, value)| {
+                text.replace(name, &value.trim().replace("\\n", "\n"))
+            })
         };
         texts.iter().flat_map(|text| all.iter().map(move |values| each(text, values))).collect()
     })
@@ -141,9 +145,10 @@ fn add(text: &str, line: usize, actions: &mut Vec<Placed<Action>>) -> Result<(),
             let (place, _) = record(&format!("{place} ")).ok_or(UNKNOWN)?;
             Action::Add(by.parse().map_err(|_| UNKNOWN)?, place)
         }
-        "copy" => {
+        "copy" | "save" => {
             let (from, to) = rest.split_once(" to ").ok_or(UNKNOWN)?;
-            Action::Copy(from.to_owned(), to.to_owned())
+            let action = if word == "copy" { Action::Copy } else { Action::Save };
+            action(from.to_owned(), to.to_owned())
         }
         _ => {
             let pattern = actions.iter_mut().rev().find_map(|(_, action)| match action {
@@ -272,7 +277,7 @@ fn right(text: &str) -> Option<Right> {
     if let Ok(value) = serde_json::from_str(text) {
         return Some(Right::Value(value));
     }
-    if text.starts_with("row") {
+    if text.contains(" of ") {
         return record(text).map(|(place, _)| Right::Record(place));
     }
     let (of, path) = text.trim().split_once(':').or_else(|| text.trim().split_once('.'))?;
