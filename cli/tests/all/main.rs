@@ -2,7 +2,6 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod cases;
-mod check;
 mod compilers;
 mod derive_and_emit;
 mod device;
@@ -22,9 +21,7 @@ mod refused;
 mod resume;
 mod simulate;
 mod simulate_records;
-mod size;
 mod smooth;
 mod support;
 mod tolerance;
 mod verify;
-mod warnings;

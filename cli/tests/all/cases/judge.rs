@@ -118,7 +118,8 @@ impl Outcome<'_> {
 
 /// A value by a path such as `runs[1].momentum`; a name in a list is that of each entry.
 fn at(json: &Value, path: &str) -> Result<Value, String> {
-    path.split(['.', '[']).try_fold(json.clone(), |value, key| {
+    let mut keys = path.split(['.', '[']).filter(|key| !key.is_empty());
+    keys.try_fold(json.clone(), |value, key| {
         let key = key.trim_end_matches(']');
         let found = match (&value, key.parse::<usize>()) {
             (Value::Array(entries), Err(_)) => entries

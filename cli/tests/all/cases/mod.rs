@@ -23,9 +23,10 @@
 //! ! simulate system.toml --time -1             bad input: the exit status is 2
 //! with "a" -> "b", "c" -> "d": err has "text"  the command above, instead, after these changes of `system.toml`
 //! edit system.toml "a" -> "b"                  a change that stays; the new text may be one of a command, `whole.momentum`
-//! add 1e-9 to row 3[1] of run.csv              a number of a record is changed
+//! add 1e-9 to row 3[1] of run.csv              a number of a record is changed; drop row 3 of run.csv
+//! cut run.csv after row 20: "# end"            the file ends after a record, with this text
 //! copy examples/rigid_body.toml to body.toml   also: save whole to report.json, the JSON of a command
-//! for {step} {end} = 0.1 | 2                   the case is run for each of these lines, with \n for the end of a line
+//! for {step} {end} = 0.1 | 2                   the case is run for each of these lines, in files with \n for the end of a line
 //! == system.toml
 //! group = "SO3"
 //! == spins.npy
@@ -83,7 +84,22 @@ impl Course {
                     course.folder.write(file, text);
                     Ok(())
                 }),
-                Action::Add(by, place) => added(&course.folder, *by, place),
+                Action::Add(by, place) => with_record(&course.folder, place, |line, entry| {
+                    let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+                    let cell = cells.get_mut(entry).ok_or("there is no such number")?;
+                    let value: f64 = cell.parse().map_err(|_| format!("{cell} is no number"))?;
+                    *cell = (value + by).to_string();
+                    Ok(cells.join(",") + "\n")
+                }),
+                Action::Drop(place) => with_record(&course.folder, place, |_, _| Ok(String::new())),
+                Action::Cut(file, count, text) => {
+                    let whole = course.folder.text(file);
+                    let mut lines = whole.lines().filter(|line| !line.starts_with('#'));
+                    let last = lines.nth(*count).map(|line| line.as_ptr() as usize + line.len());
+                    let end = last.map_or(whole.len(), |end| end - whole.as_ptr() as usize);
+                    course.folder.write(file, format!("{}\n{text}", &whole[..end]));
+                    Ok(())
+                }
             };
             course.failures.extend(done.err().map(|text| (*line, text)));
         }
@@ -152,18 +168,18 @@ fn changed(text: &str, from: &str, to: &str) -> Result<String, String> {
     }
 }
 
-fn added(folder: &Folder, by: f64, place: &Place) -> Result<(), String> {
+/// Replaces a record by the text that is made of it and of the entry that is named.
+fn with_record(
+    folder: &Folder,
+    place: &Place,
+    change: impl Fn(&str, usize) -> Result<String, String>,
+) -> Result<(), String> {
     let Place::Row(number, entries, file) = place else { return Err("no record".to_owned()) };
     let text = folder.text(file);
-    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
-    let records = lines.iter_mut().filter(|line| !line.starts_with('#'));
-    let line = records.skip(1).nth(*number as usize - 1).ok_or("there is no such record")?;
-    let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
-    let cell = cells.get_mut(entries.start).ok_or("there is no such number")?;
-    let value: f64 = cell.parse().map_err(|_| format!("{cell} is no number"))?;
-    *cell = (value + by).to_string();
-    *line = cells.join(",");
-    folder.write(file, lines.join("\n") + "\n");
+    let mut records = text.lines().filter(|line| !line.starts_with('#'));
+    let line = records.nth(*number as usize).ok_or("there is no such record")?;
+    let whole = format!("{line}\n");
+    folder.write(file, text.replacen(&whole, &change(line, entries.start)?, 1));
     Ok(())
 }
 

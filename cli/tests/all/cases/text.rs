@@ -17,6 +17,10 @@ pub(super) enum Action {
     Edit(String, String, Right),
     /// Adds to a number of a record.
     Add(f64, Place),
+    /// Leaves a record out.
+    Drop(Place),
+    /// Ends a table after this number of records, with a text.
+    Cut(String, usize, String),
     Copy(String, String),
     /// Writes the JSON of a command into a file.
     Save(String, String),
@@ -82,16 +86,23 @@ pub(super) fn runs(text: &str) -> Vec<String> {
             None => rest += &format!("{line}\n"),
         }
     }
-    rest += &text[files..];
-    heads.iter().fold(vec![rest], |texts, (names, all)| {
-        let each = |text: &String, values: &str| {
-            let pairs = names.split_whitespace().zip(values.split('|'));
-            pairs.fold(text.clone(), |text, (name, value)| {
-                text.replace(name, &value.trim().replace("\\n", "\n"))
-            })
-        };
-        texts.iter().flat_map(|text| all.iter().map(move |values| each(text, values))).collect()
-    })
+    heads
+        .iter()
+        .fold(vec![(rest, text[files..].to_owned())], |texts, (names, all)| {
+            let each = |(commands, files): &(String, String), values: &str| {
+                let pairs = names.split_whitespace().zip(values.split('|').map(str::trim));
+                pairs.fold((commands.clone(), files.clone()), |(commands, files), (name, value)| {
+                    (
+                        commands.replace(name, value),
+                        files.replace(name, &value.replace("\\n", "\n")),
+                    )
+                })
+            };
+            texts.iter().flat_map(|text| all.iter().map(move |values| each(text, values))).collect()
+        })
+        .into_iter()
+        .map(|(commands, files)| commands + &files)
+        .collect()
 }
 
 /// Reads a case, or says at which line it is not one.
@@ -144,6 +155,13 @@ fn add(text: &str, line: usize, actions: &mut Vec<Placed<Action>>) -> Result<(),
             let (by, place) = rest.split_once(" to ").ok_or(UNKNOWN)?;
             let (place, _) = record(&format!("{place} ")).ok_or(UNKNOWN)?;
             Action::Add(by.parse().map_err(|_| UNKNOWN)?, place)
+        }
+        "drop" => Action::Drop(record(&format!("{rest} ")).ok_or(UNKNOWN)?.0),
+        "cut" => {
+            let (file, rest) = rest.split_once(" after row ").ok_or(UNKNOWN)?;
+            let (count, text) = rest.split_once(':').ok_or(UNKNOWN)?;
+            let count = count.parse().map_err(|_| UNKNOWN)?;
+            Action::Cut(file.to_owned(), count, quoted(text).ok_or(UNKNOWN)?.0)
         }
         "copy" | "save" => {
             let (from, to) = rest.split_once(" to ").ok_or(UNKNOWN)?;
