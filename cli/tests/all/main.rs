@@ -23,5 +23,4 @@ mod simulate;
 mod simulate_records;
 mod smooth;
 mod support;
-mod tolerance;
 mod verify;

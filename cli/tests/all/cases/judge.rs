@@ -26,7 +26,8 @@ impl Outcome<'_> {
                     name => self.existing(name)?.text(name),
                 };
                 texts.iter().try_for_each(|text| {
-                    let count = content.matches(text).count();
+                    let text = &filled(text, self.known);
+                    let count = content.matches(text.as_str()).count();
                     let is = match word.as_str() {
                         "has" => count > 0,
                         "lacks" => count == 0,
@@ -114,6 +115,25 @@ impl Outcome<'_> {
         let rows = table(&folder.text(file)).into_iter().skip(1);
         Ok(rows.map(|row| row.iter().map(cell).collect()).collect())
     }
+}
+
+/// A text with the values of names between braces.
+pub(super) fn filled(text: &str, known: &BTreeMap<String, Value>) -> String {
+    let mut text = text.to_owned();
+    for (name, value) in known {
+        while let Some(start) = text.find(&format!("{{{name}")) {
+            let Some(length) = text[start..].find('}') else { break };
+            let path = text[start + 1 + name.len()..start + length].to_owned();
+            let found = match path.strip_prefix('.') {
+                Some(path) => at(value, path),
+                None => Ok(value.clone()),
+            };
+            let Ok(found) = found else { break };
+            let found = found.as_str().map_or_else(|| found.to_string(), str::to_owned);
+            text.replace_range(start..=start + length, &found);
+        }
+    }
+    text
 }
 
 /// A value by a path such as `runs[1].momentum`; a name in a list is that of each entry.

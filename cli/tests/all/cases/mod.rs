@@ -23,6 +23,8 @@
 //! ! simulate system.toml --time -1             bad input: the exit status is 2
 //! with "a" -> "b", "c" -> "d": err has "text"  the command above, instead, after these changes of `system.toml`
 //! edit system.toml "a" -> "b"                  a change that stays; the new text may be one of a command, `whole.momentum`
+//! take step between "a step of " " works"        names what the error stream of the last command has there
+//! > simulate system.toml --step {step}          texts and commands may have such a name, and `{whole.truncation}`
 //! add 1e-9 to row 3[1] of run.csv              a number of a record is changed; drop row 3 of run.csv
 //! cut run.csv after row 20: "# end"            the file ends after a record, with this text
 //! copy examples/rigid_body.toml to body.toml   also: save whole to report.json, the JSON of a command
@@ -50,6 +52,8 @@ use text::{Action, Case, Check, Command, Place, Placed, read, runs};
 struct Course {
     folder: Folder,
     known: BTreeMap<String, Value>,
+    /// The error stream of the last command.
+    said: String,
     /// Each thing that is not as it should be, with its line.
     failures: Vec<Placed<String>>,
 }
@@ -61,7 +65,8 @@ impl Course {
             true => folder.write(name, wave(text)),
             false => folder.write(name, text),
         });
-        let mut course = Self { folder, known: BTreeMap::new(), failures: Vec::new() };
+        let mut course =
+            Self { folder, known: BTreeMap::new(), said: String::new(), failures: Vec::new() };
         let nothing = Ran { code: 0, out: String::new(), error: String::new() };
         for (line, action) in &case.actions {
             let outcome = Outcome { folder: &course.folder, ran: &nothing, known: &course.known };
@@ -73,6 +78,14 @@ impl Course {
                 Action::Copy(from, to) => {
                     course.folder.write(to, course.folder.bytes(from));
                     Ok(())
+                }
+                Action::Take(name, [before, after]) => {
+                    let rest = course.said.split(before.as_str()).nth(1);
+                    let found = rest.and_then(|rest| rest.split(after.as_str()).next());
+                    let found = found.map(|text| Value::from(text.to_owned()));
+                    let missing = format!("{before:?} was not said");
+                    course.known.extend(found.clone().map(|text| (name.clone(), text)));
+                    found.map(drop).ok_or(missing)
                 }
                 Action::Save(name, to) => {
                     course.folder.write(to, course.known[name].to_string());
@@ -131,7 +144,8 @@ impl Course {
         let json = command.name.is_some() || command.checks.iter().any(json);
         let json = json && !command.arguments.contains("--format");
         let format = if json { " --format json" } else { "" };
-        let ran = self.folder.run(&format!("{}{format}", command.arguments));
+        let arguments = judge::filled(&command.arguments, &self.known);
+        let ran = self.folder.run(&format!("{arguments}{format}"));
         if let Some(name) = &command.name {
             let json = serde_json::from_str(&ran.out).unwrap_or_default();
             self.known.insert(name.clone(), json);
@@ -148,6 +162,7 @@ impl Course {
             let out: String = ran.out.chars().take(1000).collect();
             self.failures.push((line, format!("the command said:\n{}{out}", ran.error)));
         }
+        self.said = ran.error;
         if let Some(plain) = plain {
             self.folder.write("system.toml", plain);
         }

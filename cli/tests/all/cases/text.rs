@@ -22,6 +22,8 @@ pub(super) enum Action {
     /// Ends a table after this number of records, with a text.
     Cut(String, usize, String),
     Copy(String, String),
+    /// Gives a name to what the last command has said between two texts.
+    Take(String, [String; 2]),
     /// Writes the JSON of a command into a file.
     Save(String, String),
 }
@@ -162,6 +164,11 @@ fn add(text: &str, line: usize, actions: &mut Vec<Placed<Action>>) -> Result<(),
             let (count, text) = rest.split_once(':').ok_or(UNKNOWN)?;
             let count = count.parse().map_err(|_| UNKNOWN)?;
             Action::Cut(file.to_owned(), count, quoted(text).ok_or(UNKNOWN)?.0)
+        }
+        "take" => {
+            let (name, rest) = rest.split_once(" between ").ok_or(UNKNOWN)?;
+            let (before, rest) = quoted(rest).ok_or(UNKNOWN)?;
+            Action::Take(name.to_owned(), [before, quoted(rest).ok_or(UNKNOWN)?.0])
         }
         "copy" | "save" => {
             let (from, to) = rest.split_once(" to ").ok_or(UNKNOWN)?;
