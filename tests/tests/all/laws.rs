@@ -34,10 +34,10 @@ const MORE: [(&str, &str); 13] = [
     ("U3", "a^2/3 + c^2/5 + e^2/7 + g^2/9 + h^2/10"),
     ("SO5", "a^2/3 + e^2/7 + h^2/10 + j^2/12"),
     ("SU4", "a^2/3 + g^2/9 + k^2/13 + m^2/15"),
-    ("SO3*SE3", "sum(i, 0..9, mu[i]^2/(i + 3))"),
-    ("SO3^3", "sum(i, 0..9, mu[i]^2/(i + 3))"),
+    ("SO3*SE3", "sum(n, 0..9, mu[n]^2/(n + 3))"),
+    ("SO3^3", "sum(n, 0..9, mu[n]^2/(n + 3))"),
     ("SO3 |x R3", "a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8 + a*f/9 + a/4"),
-    ("SO3 |x Sym3", "sum(i, 0..9, mu[i]^2/(i + 3))"),
+    ("SO3 |x Sym3", "sum(n, 0..9, mu[n]^2/(n + 3))"),
     // so(2, 1) in a skewed basis: a boost, a rotation plus half that boost, another boost.
     (
         "[algebra]\nbasis = [[[0, 0, 1], [0, 0, 0], [1, 0, 0]], [[0, -1, 0.5], [1, 0, 0], [0.5, 0, 0]], \
@@ -49,7 +49,7 @@ const MORE: [(&str, &str); 13] = [
         "[algebra]\ngenerators = [\"r\", \"p\", \"q\", \"c\"]\nbrackets = [\"[r, p] = q\", \"[r, q] = -p\", \"[p, q] = c/2\"]",
         "r^2/3 + p^2/4 + q^2/5 + c^2/6 + r*c/9 + r/4",
     ),
-    ("SO3*SE2", "sum(i, 0..6, mu[i]^2/(i + 3))"),
+    ("SO3*SE2", "sum(n, 0..6, mu[n]^2/(n + 3))"),
 ];
 
 /// A system as a kernel, and as the runtime's group.
