@@ -4,8 +4,8 @@
 
 use coadjoint::collocation::Collocation;
 use coadjoint::groups::Power;
-use coadjoint::laws::check_derivatives;
 use coadjoint::lattice::{Boundary, Family, Graph, Lattice, LatticeError, Order};
+use coadjoint::laws::check_derivatives;
 use coadjoint::{LieGroup, Phase, SO3};
 use nalgebra::{Matrix3, SVector, Vector3};
 

@@ -65,10 +65,7 @@ pub struct Family {
 
 impl Family {
     /// A family whose steps are those of no generating function.
-    pub fn alone(
-        name: String,
-        instance: impl Fn(u64, &mut Tally) + Send + Sync + 'static,
-    ) -> Self {
+    pub fn alone(name: String, instance: impl Fn(u64, &mut Tally) + Send + Sync + 'static) -> Self {
         let (models, decades, promise) = (Vec::new(), 0.0, false);
         Self { name, models, decades, weight: 128, promise, instance: Some(Box::new(instance)) }
     }

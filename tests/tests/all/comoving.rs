@@ -83,4 +83,3 @@ fn several_spins_are_split_off() -> Result<(), StepError> {
     assert!([0, 1, 3, 4].iter().all(|&i| turn[i] == 0.0));
     Ok(())
 }
-

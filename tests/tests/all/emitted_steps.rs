@@ -185,7 +185,10 @@ fn has_the_bits_of_its_kernel<G, const N: usize>(
         // Programs have half the angle of a motion of the plane, of which the runtime's number does not tell the sign.
         if ["planar_body", "side_by_side"].contains(&name) {
             let [own, g] = [&own[..], &g].map(|g| kernel.programs.matrix.run(g, &[]));
-            assert!(own.iter().zip(&g).all(|(a, b)| (a - b).abs() < 1e-14), "{name}: {own:?} {g:?}");
+            assert!(
+                own.iter().zip(&g).all(|(a, b)| (a - b).abs() < 1e-14),
+                "{name}: {own:?} {g:?}"
+            );
         } else {
             assert_eq!(own, g[..G::COUNT], "{name}");
         }

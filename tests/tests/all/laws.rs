@@ -20,7 +20,6 @@ use coadjoint_tests::order;
 use coadjoint_tests::stress::Random;
 use nalgebra::DVector;
 
-const TRUNCATIONS: [usize; 4] = [1, 3, 5, 7];
 const STEP: f64 = 0.2;
 /// The time at which steps begin.
 const TIME: f64 = 0.1;
@@ -139,13 +138,15 @@ impl Subject {
 
 fn laws_hold(subject: &Subject, random: &mut Random) {
     let Subject { name, group, .. } = subject;
-    let [forward, backward] = [(STEP, TIME), (-STEP, TIME + STEP)].map(|(h, t)| subject.slots(h, t));
+    let [forward, backward] =
+        [(STEP, TIME), (-STEP, TIME + STEP)].map(|(h, t)| subject.slots(h, t));
     let points = [(); 2].map(|()| subject.draw(random, 0.7));
     let mut there = |state: &mut Phase<MatrixGroup>| subject.advance(&forward, state);
     let mut back = |state: &mut Phase<MatrixGroup>| subject.advance(&backward, state);
     let laws = check_map(group, &mut there, Some(&mut back), &points);
     let laws = laws.unwrap_or_else(|_| panic!("{name}: refused"));
-    assert_eq!(laws.len(), 7, "{name}: {laws:?}");
+    // Adjoint matrices that do not see the centre have no logarithm, by which `symplectic` is measured.
+    assert_eq!(laws.len(), if name.contains("c/2") { 6 } else { 7 }, "{name}: {laws:?}");
     for law in laws {
         assert!(law.pass(), "{name}: {law:?}");
     }
@@ -178,19 +179,33 @@ fn order_holds(subject: &Subject, random: &mut Random) {
     assert!((order - expected).abs() < 0.3, "{name}: order {order:.2}, not {expected}");
 }
 
-#[test]
-fn steps_of_kernels_obey_the_laws() {
+fn obey_the_laws(truncation: usize) {
     let mut random = Random::new(17);
-    let mut hold = |subject: &Subject| {
-        laws_hold(subject, &mut random);
-        order_holds(subject, &mut random);
-    };
-    for truncation in TRUNCATIONS {
-        Subject::all(truncation).iter().for_each(&mut hold);
-        for (group, hamiltonian) in MORE {
-            Subject::by_series(group, hamiltonian, truncation).iter().for_each(&mut hold);
-        }
+    let more = MORE.into_iter().flat_map(|(g, h)| Subject::by_series(g, h, truncation));
+    for subject in Subject::all(truncation).into_iter().chain(more) {
+        laws_hold(&subject, &mut random);
+        order_holds(&subject, &mut random);
     }
+}
+
+#[test]
+fn steps_of_kernels_obey_the_laws_at_order_2() {
+    obey_the_laws(1);
+}
+
+#[test]
+fn steps_of_kernels_obey_the_laws_at_order_4() {
+    obey_the_laws(3);
+}
+
+#[test]
+fn steps_of_kernels_obey_the_laws_at_order_6() {
+    obey_the_laws(5);
+}
+
+#[test]
+fn steps_of_kernels_obey_the_laws_at_order_8() {
+    obey_the_laws(7);
 }
 
 fn bits(list: &[f64]) -> Vec<u64> {
