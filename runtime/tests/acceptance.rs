@@ -585,151 +585,61 @@ fn waves_shorter_than_a_step_are_refused() {
     }
 }
 
-/// A step or a few, and whether they are to be accepted; found by a search among random ones near poles. Each is decided by one rule.
-struct Case {
-    rule: &'static str,
-    nodes: usize,
-    accepted: bool,
-    h: f64,
-    mu: [f64; 3],
-    energy: Bent,
-}
+/// Steps, and whether they are to be accepted, found by a search among random ones near poles; each is decided by one rule. The
+/// nodes and whether the energy tells how far its argument goes, h, μ, and the form, height, slope and offset of the energy.
+const CASES: &str = "\
+short parts         | 2 told    | accepted | 2.5 | 0.848 -0.732 -0.809 | 0.492 0.515 0.54 | -0.137 | 1.36 1.7 -1.42 | 3.25
+shortest parts      | 1 told    | refused  | -0.0182 | -0.41 -0.669 -1.84 | -0.468 1.35 0.936 | 1.05e-7 | 0.00783 -1.92 -0.691 | 2.55
+difference          | 2 told    | refused  | 0.485 | -1.38 -0.509 -1.56 | 1.32 0.232 0.835 | 0.00914 | 1.02 -1.78 1.65 | -4.15
+reach               | 1 told    | refused  | -0.124 | -1.33 1.83 0.0 | -1.15 0.828 0.989 | -0.00661 | -0.896 0.581 -0.137 | 2.13
+reach of the end    | 2 told    | refused  | -0.102 | -1.18 1.56 -1.8 | -0.544 -0.437 -1.49 | -0.00209 | 0.486 1.57 -1.02 | 3.21
+sweeps of a closure | 1 closure | refused  | 0.153 | 0.877 -1.61 -0.222 | 1.43 -1.36 1.14 | 0.00133 | -0.174 -0.197 -1.53 | -0.408
+sweeps              | 2 told    | refused  | 0.638 | 1.77 0.125 1.45 | 1.14 -0.118 0.668 | 0.0546 | -0.351 0.432 -1.05 | -1.21
+parts of a closure  | 2 closure | refused  | 0.175 | 0.665 0.731 0.352 | 0.368 1.17 0.771 | -9.38e-8 | 0.243 1.82 -0.187 | 1.42
+a cold start        | 1 closure | refused  | 0.0996 | 0.112 -0.0328 -0.337 | 0.697 0.311 -0.934 | -1.67e-7 | 1.46 0.861 -0.128 | 0.171
+a closure's end     | 1 closure | accepted | 0.46 | -0.215 0.351 -0.308 | 0.896 1.31 0.611 | 1e-3 | 0.979 -0.86 -1.71 | 4.0";
 
-fn cases() -> Vec<Case> {
-    let of = |rule,
-              (nodes, tells),
-              accepted,
-              h,
-              (mu, form): ([f64; 3], [f64; 3]),
-              height,
-              slope: [f64; 3],
-              offset| {
-        let (form, slope, shape) = (form.into(), slope.into(), Shape::Pole);
-        let energy = Bent { form, height, width: 1.0, slope, offset, shape, tells };
-        Case { rule, nodes, accepted, h, mu, energy }
+/// A line of [`CASES`]: rule, nodes, whether it is to be accepted, h, μ and energy.
+fn case(line: &str) -> (&str, bool, bool, f64, [f64; 3], Bent) {
+    let cells: Vec<&str> = line.split('|').map(str::trim).collect();
+    let [rule, nodes, accepted, h, mu, form, height, slope, offset] = cells[..] else {
+        panic!("{line}")
     };
-    vec![
-        of(
-            "short parts",
-            (2, true),
-            true,
-            2.5,
-            ([0.848, -0.732, -0.809], [0.492, 0.515, 0.54]),
-            -0.137,
-            [1.36, 1.7, -1.42],
-            3.25,
-        ),
-        of(
-            "shortest parts",
-            (1, true),
-            false,
-            -0.0182,
-            ([-0.41, -0.669, -1.84], [-0.468, 1.35, 0.936]),
-            1.05e-7,
-            [0.00783, -1.92, -0.691],
-            2.55,
-        ),
-        of(
-            "difference",
-            (2, true),
-            false,
-            0.485,
-            ([-1.38, -0.509, -1.56], [1.32, 0.232, 0.835]),
-            0.00914,
-            [1.02, -1.78, 1.65],
-            -4.15,
-        ),
-        of(
-            "reach",
-            (1, true),
-            false,
-            -0.124,
-            ([-1.33, 1.83, 0.0], [-1.15, 0.828, 0.989]),
-            -0.00661,
-            [-0.896, 0.581, -0.137],
-            2.13,
-        ),
-        of(
-            "reach of the end",
-            (2, true),
-            false,
-            -0.102,
-            ([-1.18, 1.56, -1.8], [-0.544, -0.437, -1.49]),
-            -0.00209,
-            [0.486, 1.57, -1.02],
-            3.21,
-        ),
-        of(
-            "sweeps of a closure",
-            (1, false),
-            false,
-            0.153,
-            ([0.877, -1.61, -0.222], [1.43, -1.36, 1.14]),
-            0.00133,
-            [-0.174, -0.197, -1.53],
-            -0.408,
-        ),
-        of(
-            "sweeps",
-            (2, true),
-            false,
-            0.638,
-            ([1.77, 0.125, 1.45], [1.14, -0.118, 0.668]),
-            0.0546,
-            [-0.351, 0.432, -1.05],
-            -1.21,
-        ),
-        of(
-            "parts of a closure",
-            (2, false),
-            false,
-            0.175,
-            ([0.665, 0.731, 0.352], [0.368, 1.17, 0.771]),
-            -9.38e-8,
-            [0.243, 1.82, -0.187],
-            1.42,
-        ),
-        of(
-            "a cold start",
-            (1, false),
-            false,
-            0.0996,
-            ([0.112, -0.0328, -0.337], [0.697, 0.311, -0.934]),
-            -1.67e-7,
-            [1.46, 0.861, -0.128],
-            0.171,
-        ),
-        of(
-            "a closure's end",
-            (1, false),
-            true,
-            0.46,
-            ([-0.215, 0.351, -0.308], [0.896, 1.31, 0.611]),
-            1e-3,
-            [0.979, -0.86, -1.71],
-            4.0,
-        ),
-    ]
+    let number = |cell: &str| cell.parse::<f64>().unwrap();
+    let three = |cell: &str| -> [f64; 3] {
+        let numbers: Vec<f64> = cell.split(' ').map(number).collect();
+        numbers.try_into().unwrap()
+    };
+    let energy = Bent {
+        form: three(form).into(),
+        height: number(height),
+        width: 1.0,
+        slope: three(slope).into(),
+        offset: number(offset),
+        shape: Shape::Pole,
+        tells: nodes.ends_with("told"),
+    };
+    (rule, nodes.starts_with('1'), accepted == "accepted", number(h), three(mu), energy)
 }
 
 /// Steps are accepted, and then lead to where short ones do, or refused, as they are to be: all those that are not are named.
 #[test]
 fn each_rule_decides_a_step() {
-    let judged = |case: &Case| {
-        let Case { nodes, accepted, h, mu, energy, .. } = case;
-        let made = match nodes {
-            1 => bent::<1>(energy, *h, *mu, 1),
-            _ => bent::<2>(energy, *h, *mu, 1),
+    let wrong = |line: &str| {
+        let (rule, one_node, accepted, h, mu, energy) = case(line);
+        let made = match one_node {
+            true => bent::<1>(&energy, h, mu, 1),
+            false => bent::<2>(&energy, h, mu, 1),
         };
         let right = |end: Vector3<f64>| {
             let told = Bent { tells: true, ..energy.clone() };
-            let exact = bent::<4>(&told, h / 500.0, *mu, 500);
-            (end - exact.unwrap()).amax() < 0.1 * Vector3::from(*mu).amax()
+            let exact = bent::<4>(&told, h / 500.0, mu, 500);
+            (end - exact.unwrap()).amax() < 0.1 * Vector3::from(mu).amax()
         };
-        made.is_ok() == *accepted && made.ok().is_none_or(right)
+        let as_expected = made.is_ok() == accepted && made.ok().is_none_or(right);
+        (!as_expected).then(|| rule.to_owned())
     };
-    let failed: Vec<_> =
-        cases().iter().filter(|case| !judged(case)).map(|case| case.rule).collect();
+    let failed: Vec<String> = CASES.lines().filter_map(wrong).collect();
     assert!(failed.is_empty(), "{failed:?}");
 }
 

@@ -9,8 +9,21 @@ use coadjoint_codegen::step::Origin;
 /// The arguments of an attribute and its function.
 pub type Source = (&'static str, &'static str);
 
-pub const SYSTEMS: [Source; 8] =
-    [RIGID_BODY, CAYLEY_BODY, HEAVY_TOP, COMOVING_BODY, THREE_WAVE, RELATIVISTIC, TABLES, TWIST];
+pub const SYSTEMS: [Source; 13] = [
+    RIGID_BODY,
+    CAYLEY_BODY,
+    HEAVY_TOP,
+    COMOVING_BODY,
+    THREE_WAVE,
+    RELATIVISTIC,
+    TABLES,
+    TWIST,
+    PLANAR_BODY,
+    SPIN,
+    SPINS,
+    CHARGE,
+    SIDE_BY_SIDE,
+];
 
 /// The system that the attribute with `arguments` makes steps of, from the source of a function.
 pub fn origin((arguments, function): Source) -> syn::Result<Origin> {
@@ -86,5 +99,45 @@ pub const TWIST: Source = (
     "group = SO3, truncation = 5, time = s",
     "fn twist(mu: [f64; 3], s: f64, rate: f64) -> f64 {
         0.5 * mu[2] * mu[2] * (rate * s).exp() + 0.1 * mu[0] * mu[1]
+    }",
+);
+
+/// A planar body in an ideal fluid.
+pub const PLANAR_BODY: Source = (
+    "group = SE2, truncation = 7",
+    "fn planar_body(mu: [f64; 3], inertia: f64, mass: [f64; 2]) -> f64 {
+        0.5 * (mu[0] * mu[0] / inertia + mu[1] * mu[1] / mass[0] + mu[2] * mu[2] / mass[1])
+    }",
+);
+
+/// A spin with a quartic anisotropy.
+pub const SPIN: Source = (
+    "group = SU2, truncation = 5",
+    "fn spin(mu: [f64; 3], field: f64) -> f64 {
+        mu[0].powi(2) / 3.0 + mu[1].powi(4) / 8.0 + field * mu[2]
+    }",
+);
+
+pub const SPINS: Source = (
+    "group = SO3^2, truncation = 3",
+    "fn spins(mu: [f64; 6], coupling: f64) -> f64 {
+        coupling * (mu[0] * mu[3] + mu[1] * mu[4] + mu[2] * mu[5]) + mu[2] * mu[2] / 3.0
+    }",
+);
+
+/// A charge in a homogeneous magnetic field of strength μ₃.
+pub const CHARGE: Source = (
+    "group = Heisenberg, truncation = 7, chart = cayley",
+    "fn charge(mu: [f64; 3]) -> f64 {
+        0.5 * (mu[0] * mu[0] + mu[1] * mu[1])
+    }",
+);
+
+/// A body in space and one in the plane.
+pub const SIDE_BY_SIDE: Source = (
+    "group = SO3 * SE2, truncation = 5",
+    "fn side_by_side(mu: [f64; 6]) -> f64 {
+        let [a, b, c, x, y, z] = mu;
+        a * a / 2.0 + b * b / 3.0 + c * c / 4.0 + x * x / 2.0 + y * y / 2.0 + z * z / 4.0
     }",
 );

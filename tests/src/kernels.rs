@@ -50,8 +50,11 @@ pub fn limited(step: &Step, h: f64, radius: f64) -> Vec<f64> {
     coefficients
 }
 
-/// A system file on coordinates a, b, c, …, its integrator with these settings.
+/// A system file on coordinates a, b, c, …, or of an algebra given by a table, its integrator with these settings.
 fn system(group: &str, hamiltonian: &str, settings: &str) -> String {
+    if group.starts_with('[') {
+        return format!("hamiltonian = {hamiltonian:?}\n[integrator]\n{settings}{group}\n");
+    }
     let dim = lie::catalogue::lookup(group).unwrap().dim();
     let names: Vec<String> = ('a'..).take(dim).map(|name| format!("\"{name}\"")).collect();
     let names = names.join(", ");

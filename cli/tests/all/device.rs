@@ -1,11 +1,11 @@
-//! `emit --language opencl|cuda` and `ensemble --device`: texts, results, and what is said where there is no device.
+//! `ensemble --device`: results; cases `emit` and `device_refused` show the texts, and what is said where there is no device.
 //!
 //! Runs need OpenCL (pocl will do) and a command built for it; where there is none they say so, and fail with
 //! `COADJOINT_REQUIRE_TOOLS=1`.
 
 use std::time::Duration;
 
-use crate::support::{BODY, Folder, run};
+use crate::support::{BODY, Folder};
 use serde_json::Value;
 
 const TOP: &str = "examples/heavy_top.toml";
@@ -94,44 +94,4 @@ fn single_precision_is_as_good_as_its_rounding() {
     let by = journal["made_by"][0].as_str().unwrap();
     assert!(by.starts_with("opencl:0 (") && by.ends_with("in single precision"), "{by}");
     folder.refused(&[(&run, "another precision: single, by opencl:0")]);
-}
-
-#[test]
-fn a_device_that_cannot_be_had_ends_the_run_with_a_line() {
-    let folder = Folder::new();
-    states(&folder, 3, 5);
-    for (more, expected) in [
-        ("--device opencl:99", "--device: "),
-        ("--device cuda:99", "--device: "),
-        ("--device vulkan", "write opencl or cuda"),
-        ("--device cuda:x", "number of a device"),
-        ("--precision single", "--device"),
-    ] {
-        let run = format!("ensemble {BODY} --initial states.csv --out out.csv {more}");
-        folder.refused(&[(&run, expected)]);
-        assert!(!folder.has("out.csv"));
-    }
-}
-
-#[test]
-fn kernels_are_emitted() {
-    for (language, kernel) in [("opencl", "__kernel"), ("cuda", "extern \"C\" __global__")] {
-        let text = |more: &str| run(&format!("emit {BODY} --language {language} {more}")).ok();
-        text("").prints(&[
-            kernel,
-            "coadjoint_steps",
-            "rigid-body on SO3",
-            "K = 7, step 0.1.",
-            "#define NUMBER double",
-        ]);
-        let single = text("--precision single --step 0.2 --truncation 5");
-        let single = single.prints(&["K = 5, step 0.2", "#define NUMBER float"]);
-        assert!(!single.out.contains("double "), "{single:?}");
-    }
-    for (more, expected) in [
-        ("--language cuda --keep-parameters", "--keep-parameters"),
-        ("--step 0.1", "--step is for --language opencl and cuda"),
-    ] {
-        run(&format!("emit {BODY} {more}")).fails(2, &[expected]);
-    }
 }

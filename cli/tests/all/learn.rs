@@ -1,4 +1,4 @@
-//! `learn`, `simulate --model`, `emit --model`, and where `reproduce` has gone.
+//! `learn`, `simulate --model` and `emit --model`; the case `learn_refused` shows what is refused.
 
 use crate::support::Folder;
 use serde_json::Value;
@@ -34,21 +34,6 @@ fn learn_simulate_and_emit() {
     place.run("emit --model model.json").ok().prints(&["pub struct Learned"]);
 }
 
-#[test]
-fn bad_data_and_models_exit_with_two() {
-    let place = Folder::new();
-    place.write("model.json", "{}");
-    // The verb of earlier versions names the program that has its place.
-    let paper = "cargo run --release -p coadjoint-paper -- all --quick --html report.html";
-    place.refused(&[
-        (&format!("{RUN} --start 2,0.5,1 --time 10"), "is not `coadjoint-model`"),
-        ("learn missing.csv --dt 0.1", "missing.csv"),
-        ("learn missing.csv --dt 0.1 --model network --activation relu", "--activation"),
-        ("reproduce", paper),
-        ("reproduce all --quick --html report.html", paper),
-    ]);
-}
-
 /// Steps of forward Euler are no Poisson map, and refused as one. With the tolerance `inf` the nearest Poisson map is found: the
 /// Casimir stays, and the model says it is one of momenta.
 #[test]
@@ -73,48 +58,6 @@ fn the_poisson_map_nearest_to_a_method_is_found() {
     assert!((1e-8..1e-2).contains(&left), "{summary}");
     let model = coadjoint_learn::ModelFile::load(&place.at("model.json")).unwrap();
     assert!(!model.attitude && model.group.name() == "SO3");
-}
-
-/// Numbers that make no sense, and sizes that no memory holds, are refused as arguments.
-#[test]
-fn arguments_without_sense_are_refused_before_anything_is_allocated() {
-    let place = Folder::new();
-    let mut text = "mu_1,mu_2,mu_3,mu_next_1,mu_next_2,mu_next_3\n".to_owned();
-    for i in 0..40 {
-        let x = f64::from(i) / 40.0;
-        text += &format!("{},{},1,{},{},1.01\n", x, 1.0 - x, x + 0.01, 0.99 - x);
-    }
-    place.write("pairs.csv", text);
-    for (option, word) in [
-        ("--start nan,1,1", "start is NaN"),
-        ("--start 1,inf,1", "start is inf"),
-        ("--ridge nan", "ridge is NaN"),
-        ("--degree 50", "23425 coefficients"),
-        ("--degree 1000", "167668500 coefficients"),
-        ("--degree 0", "degree is 0"),
-    ] {
-        place.refused(&[(&format!("learn pairs.csv --dt 0.1 {option}"), word)]);
-    }
-}
-
-/// Data that do not support a model are refused in words.
-#[test]
-fn data_that_support_no_model_are_refused() {
-    let place = Folder::new();
-    let head = "mu_1,mu_2,mu_3,mu_next_1,mu_next_2,mu_next_3\n";
-    let three = format!("{head}1,0,0,1,0,0\n0,1,0,0,1,0\n0,0,1,0,0,1\n");
-    let wide = "mu_1,mu_2,mu_3,mu_4,mu_next_1,mu_next_2,mu_next_3\n1,0,0,0,1,0,0\n";
-    for (text, options, expected) in [
-        (three.clone(), "--degree 4", "3 samples do not determine"),
-        (three, "", "3 samples do not determine"),
-        (head.to_owned(), "", "no usable sample"),
-        (format!("{head}1,0,0,1.1,0,0\n"), "", "a Casimir of the group differs by 2.1e-1"),
-        (wide.to_owned(), "", "a momentum of this group has 4 entries where 3 are needed"),
-    ] {
-        place.write("data.csv", &text);
-        let ran = place.run(&format!("learn data.csv --dt 0.1 {options}")).says(&[expected]);
-        assert!(ran.code != 0, "{text}{ran:?}");
-    }
 }
 
 #[test]

@@ -2,14 +2,12 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod cases;
-mod check;
 mod compilers;
 mod derive_and_emit;
 mod device;
 mod docs;
 mod drive;
 mod ensemble;
-mod events;
 mod file_format;
 mod groups;
 mod lattice;
@@ -23,11 +21,6 @@ mod refused;
 mod resume;
 mod simulate;
 mod simulate_records;
-mod size;
 mod smooth;
-mod smooth_examples;
 mod support;
-mod time;
-mod tolerance;
 mod verify;
-mod warnings;

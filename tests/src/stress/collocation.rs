@@ -1,29 +1,23 @@
 //! Families of steps by collocation: Hamiltonians with a root, a quadratic form and a linear one, drawn at random, in steps
-//! h|Ω| up to 3, whose results are compared with the flow by another method in short steps. They are made by the runtime, and by the
-//! programs of a kernel.
+//! h|Ω| up to 3. They are made by the runtime, and by the programs of a kernel.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, LazyLock, Mutex};
 
 use coadjoint::collocation::{Collocation, Energy};
 use coadjoint::groups::{Coordinates, Power, SE2, SL2, SU2};
-use coadjoint::{LieGroup, Phase, SE3, SO3};
+use coadjoint::{LieGroup, SE3, SO3};
 use coadjoint_codegen::smooth::Hamiltonian;
 use coadjoint_codegen::step::{Observation, Origin, Step};
 use coadjoint_codegen::system::{Options, Parameters, read_either};
 use coadjoint_program::{Precision, Stepper};
 
 use super::family::{Family, algebra};
+use super::flow::{DRAWS, Generic, Mover, Trial};
 use super::random::Random;
-use super::verdict::{Tally, Wrong};
+use super::verdict::Tally;
 use crate::backends::entries_of;
 
-/// Systems and momenta drawn of one seed.
-const DRAWS: usize = 32;
-/// Steps made from each, the later ones from guesses by the earlier ones.
-const STEPS: usize = 4;
-/// Steps of the other method for one of ours.
-const FINE: usize = 128;
 /// How far, relatively, a step with 1, 2, 3 or more nodes may be from the flow. Another branch is farther away than any.
 const FARTHEST: [f64; 4] = [0.2, 0.2, 2e-2, 5e-3];
 
@@ -36,7 +30,7 @@ pub struct Drawn {
 }
 
 impl Drawn {
-    fn new(dim: usize, random: &mut Random) -> Self {
+    pub(super) fn new(dim: usize, random: &mut Random) -> Self {
         let mut form = vec![vec![0.0; dim]; dim];
         for i in 0..dim {
             for j in 0..i {
@@ -68,53 +62,6 @@ impl<V: Coordinates<f64>> Energy<V> for Drawn {
         let root = self.root(m);
         let entry = |i: usize| self.root[i] * m[i] / root + self.half(m, i) + self.linear[i];
         V::from_entries(m.dim(), entry)
-    }
-}
-
-/// The momentum after the time h, by the classical Runge–Kutta method.
-fn flow<G: LieGroup<Scalar = f64>>(group: &G, energy: &Drawn, h: f64, mu: &G::Vector) -> G::Vector {
-    let n = group.dim();
-    let slope = |m: &G::Vector| group.ad_star(&energy.gradient(0.0, m), m);
-    let ahead =
-        |m: &G::Vector, s: f64, k: &G::Vector| G::Vector::from_entries(n, |i| m[i] + s * k[i]);
-    let (mut m, h) = (mu.clone(), h / FINE as f64);
-    for _ in 0..FINE {
-        let a = slope(&m);
-        let b = slope(&ahead(&m, 0.5 * h, &a));
-        let c = slope(&ahead(&m, 0.5 * h, &b));
-        let d = slope(&ahead(&m, h, &c));
-        let mean = G::Vector::from_entries(n, |i| (a[i] + 2.0 * (b[i] + c[i]) + d[i]) / 6.0);
-        m = ahead(&m, h, &mean);
-    }
-    m
-}
-
-/// Makes the steps of a trajectory, whose group element it keeps.
-trait Mover<V> {
-    /// Whether the step from this momentum is accepted.
-    fn advance(&mut self, mu: &mut V) -> bool;
-
-    /// Ad\*_g μ
-    fn spatial(&self, mu: &V) -> V;
-}
-
-/// The runtime's steps.
-struct Generic<G: LieGroup<Scalar = f64>, const M: usize> {
-    group: G,
-    step: Collocation<G, Drawn, M>,
-    element: G::Element,
-}
-
-impl<G: LieGroup<Scalar = f64>, const M: usize> Mover<G::Vector> for Generic<G, M> {
-    fn advance(&mut self, mu: &mut G::Vector) -> bool {
-        let mut state = Phase::<G>::new(self.element.clone(), mu.clone());
-        let made = self.step.advance(&mut state, 0.0).is_ok();
-        (self.element, *mu) = (state.group_element, state.momentum);
-        made
-    }
-
-    fn spatial(&self, mu: &G::Vector) -> G::Vector {
-        self.group.coadjoint(&self.element, mu)
     }
 }
 
@@ -176,19 +123,6 @@ impl<V: Coordinates<f64>> Mover<V> for Interpreted {
     }
 }
 
-/// The largest sum of magnitudes in a coordinate of Ad\*_g μ, in which they may cancel.
-fn summands<V: Coordinates<f64>>(mover: &dyn Mover<V>, mu: &V) -> f64 {
-    let n = mu.dim();
-    let mut sums = vec![0.0; n];
-    for j in 0..n {
-        let column = mover.spatial(&V::unit(n, j));
-        for i in 0..n {
-            sums[i] += (column[i] * mu[j]).abs();
-        }
-    }
-    sums.into_iter().fold(0.0, f64::max)
-}
-
 /// Steps of one system with `M` nodes; by programs where the group has this name in the catalogue.
 fn steps<G, const M: usize>(
     group: &G,
@@ -200,10 +134,9 @@ fn steps<G, const M: usize>(
 {
     let n = group.dim();
     let energy = Drawn::new(n, random);
-    let far = |a: &G::Vector, b: &G::Vector| a.clone().minus(b).largest_entry();
     let size = random.between(0.2, 3.0);
     let direction = random.direction(n);
-    let mut mu = G::Vector::from_entries(n, |i| size * direction[i]);
+    let mu = G::Vector::from_entries(n, |i| size * direction[i]);
     let velocity = energy.gradient(0.0, &mu);
     let longest = if random.one_in(2) { 3.0 } else { 0.8 };
     let h = random.between(0.05, longest) / velocity.pairing(&velocity).sqrt();
@@ -226,32 +159,10 @@ fn steps<G, const M: usize>(
             Box::new(Interpreted { programs, slots, element })
         }
     };
-    let spatial = mover.spatial(&mu);
-    for _ in 0..STEPS {
-        let before = mu.clone();
-        let example = || format!("M = {M}, h = {h}, μ = {before:?}, {energy:?}");
-        if !mover.advance(&mut mu) {
-            tally.refused += 1;
-            if far(&mu, &before) != 0.0 {
-                tally.note(Wrong::Changed, example);
-            }
-            break;
-        }
-        tally.accepted += 1;
-        let kept = far(&mover.spatial(&mu), &spatial) / summands(mover.as_ref(), &mu);
-        tally.deviation = tally.deviation.max(kept / 1e-12);
-        if kept.is_nan() || kept > 1e-12 {
-            tally.note(Wrong::State, example);
-        }
-        let exact = flow(group, &energy, h, &before);
-        let error = far(&mu, &exact) / before.largest_entry();
-        let share = error / FARTHEST[M.min(FARTHEST.len()) - 1];
-        if share.is_nan() || share > 1.0 {
-            tally.note(Wrong::Branch, || format!("{error:.1e} from the flow: {}", example()));
-        } else if share > tally.residual {
-            (tally.residual, tally.worst) = (share, example());
-        }
-    }
+    let farthest = FARTHEST[M.min(FARTHEST.len()) - 1];
+    let about = format!("M = {M}, {energy:?}");
+    let trial = Trial { group, energy: &energy, h, farthest, sides: &|_| Vec::new(), about };
+    trial.follow(mover.as_mut(), mu, |_| false, tally);
 }
 
 /// Steps of the systems of a seed, with any number of nodes.
@@ -274,37 +185,30 @@ fn instance<G: LieGroup<Scalar = f64> + 'static>(
     }
 }
 
-type Instances = fn(u64, &mut Tally);
-
 pub(super) fn families(only: &str) -> Vec<Family> {
-    let all: [(&str, Instances); 12] = [
-        ("collocation-so3", |seed, tally| instance(&SO3::<f64>::new(), None, seed, tally)),
-        ("collocation-su2", |seed, tally| instance(&SU2::<f64>::new(), None, seed, tally)),
-        ("collocation-se2", |seed, tally| instance(&SE2::<f64>::new(), None, seed, tally)),
-        ("collocation-se3", |seed, tally| instance(&SE3::<f64>::new(), None, seed, tally)),
-        ("collocation-sl2", |seed, tally| instance(&SL2::<f64>::new(), None, seed, tally)),
-        ("collocation-power", |seed, tally| {
-            instance(&Power::<SO3, 2, 6>::new(), None, seed, tally)
-        }),
-        ("collocation-so3-kernel", |seed, tally| {
-            instance(&SO3::<f64>::new(), Some("SO3"), seed, tally)
-        }),
-        ("collocation-su2-kernel", |seed, tally| {
-            instance(&SU2::<f64>::new(), Some("SU2"), seed, tally)
-        }),
-        ("collocation-se2-kernel", |seed, tally| {
-            instance(&SE2::<f64>::new(), Some("SE2"), seed, tally)
-        }),
-        ("collocation-se3-kernel", |seed, tally| {
-            instance(&SE3::<f64>::new(), Some("SE3"), seed, tally)
-        }),
-        ("collocation-sl2-kernel", |seed, tally| {
-            instance(&SL2::<f64>::new(), Some("SL2"), seed, tally)
-        }),
-        ("collocation-power-kernel", |seed, tally| {
-            instance(&Power::<SO3, 2, 6>::new(), Some("SO3^2"), seed, tally)
-        }),
-    ];
-    let chosen = all.into_iter().filter(|(name, _)| name.contains(only));
-    chosen.map(|(name, instance)| Family::alone(name, instance)).collect()
+    let mut all = Vec::new();
+    for (place, name, known) in [
+        (0, "so3", "SO3"),
+        (1, "su2", "SU2"),
+        (2, "se2", "SE2"),
+        (3, "se3", "SE3"),
+        (4, "sl2", "SL2"),
+        (5, "power", "SO3^2"),
+    ] {
+        for by in [None, Some(known)] {
+            let name = format!("collocation-{name}{}", if by.is_some() { "-kernel" } else { "" });
+            let steps = move |seed: u64, tally: &mut Tally| match place {
+                0 => instance(&SO3::<f64>::new(), by, seed, tally),
+                1 => instance(&SU2::<f64>::new(), by, seed, tally),
+                2 => instance(&SE2::<f64>::new(), by, seed, tally),
+                3 => instance(&SE3::<f64>::new(), by, seed, tally),
+                4 => instance(&SL2::<f64>::new(), by, seed, tally),
+                _ => instance(&Power::<SO3, 2, 6>::new(), by, seed, tally),
+            };
+            if name.contains(only) {
+                all.push(Family::alone(name, steps));
+            }
+        }
+    }
+    all
 }

@@ -60,15 +60,14 @@ pub struct Family {
     /// Whether all momenta are of those whose steps must be accepted.
     pub promise: bool,
     /// Makes and judges the steps of a seed, where they are those of no generating function.
-    pub instance: Option<fn(u64, &mut Tally)>,
+    pub instance: Option<Box<dyn Fn(u64, &mut Tally) + Send + Sync>>,
 }
 
 impl Family {
     /// A family whose steps are those of no generating function.
-    pub fn alone(name: &str, instance: fn(u64, &mut Tally)) -> Self {
+    pub fn alone(name: String, instance: impl Fn(u64, &mut Tally) + Send + Sync + 'static) -> Self {
         let (models, decades, promise) = (Vec::new(), 0.0, false);
-        let (name, instance) = (name.to_owned(), Some(instance));
-        Self { name, models, decades, weight: 128, promise, instance }
+        Self { name, models, decades, weight: 128, promise, instance: Some(Box::new(instance)) }
     }
 }
 

@@ -28,7 +28,7 @@ struct Case<'a> {
 
 /// Draws one system of the family and [`DRAWS`] momenta, and judges the steps.
 pub fn run(family: &Family, seed: u64, tally: &mut Tally) {
-    if let Some(instance) = family.instance {
+    if let Some(instance) = &family.instance {
         return instance(seed, tally);
     }
     let mut random = Random::new(seed);

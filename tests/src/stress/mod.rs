@@ -4,6 +4,7 @@
 mod collocation;
 mod families;
 mod family;
+mod flow;
 mod generated;
 mod instance;
 mod kernels;

@@ -1,19 +1,15 @@
 //! Families of steps by collocation that a Hamiltonian makes hard: with a pole, a tangent or the edge of a root that the motion comes to
-//! within three steps; and smooth ones with steep flanks and short waves. Accepted steps are compared with the flow by
-//! another method whose steps follow its error.
+//! within three steps; and smooth ones with steep flanks and short waves.
 
 use coadjoint::collocation::{Collocation, Energy};
 use coadjoint::groups::{Coordinates, MatrixGroup, SL2};
-use coadjoint::{LieGroup, Phase, SE3, SO3};
+use coadjoint::{LieGroup, SE3, SO3};
 
 use super::family::Family;
+use super::flow::{DRAWS, Generic, Trial};
 use super::random::Random;
-use super::verdict::{Tally, Wrong};
+use super::verdict::Tally;
 
-/// Systems and momenta drawn of one seed.
-const DRAWS: usize = 32;
-/// Steps made from each, the later ones from guesses by the earlier ones.
-const STEPS: usize = 4;
 /// The largest relative distance of an accepted step from the flow.
 const FARTHEST: f64 = 0.2;
 
@@ -122,67 +118,6 @@ impl<V: Coordinates<f64>> Energy<V> for Steep {
         let squares = self.terms.iter().map(|t| t.square(t.argument(from.1), t.argument(to.1)));
         Some(squares.fold(0.0, f64::max))
     }
-}
-
-/// The momentum after the time h, by the pair of orders 5 and 4 of Dormand and Prince; none where its steps become too short.
-fn flow<G: LieGroup<Scalar = f64>>(
-    group: &G,
-    energy: &Steep,
-    h: f64,
-    start: &G::Vector,
-) -> Option<G::Vector> {
-    const A: [&[f64]; 7] = [
-        &[],
-        &[1.0 / 5.0],
-        &[3.0 / 40.0, 9.0 / 40.0],
-        &[44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0],
-        &[19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0],
-        &[9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0],
-        &[35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0],
-    ];
-    const E: [f64; 7] = [
-        71.0 / 57600.0,
-        0.0,
-        -71.0 / 16695.0,
-        71.0 / 1920.0,
-        -17253.0 / 339200.0,
-        22.0 / 525.0,
-        -1.0 / 40.0,
-    ];
-    let n = group.dim();
-    let slope = |m: &G::Vector| group.ad_star(&energy.gradient(0.0, m), m);
-    let size = start.largest_entry();
-    let sides = |m: &G::Vector| energy.terms.iter().map(|t| t.side(m)).collect::<Vec<_>>();
-    let side = sides(start);
-    let (mut m, mut done, mut part) = (start.clone(), 0.0, 1e-3);
-    for _ in 0..60_000 {
-        let part_now = f64::min(part, 1.0 - done);
-        let mut k: Vec<G::Vector> = vec![slope(&m)];
-        let mut next = m.clone();
-        for row in &A[1..] {
-            next = G::Vector::from_entries(n, |i| {
-                m[i] + h * part_now * row.iter().zip(&k).map(|(a, k)| a * k[i]).sum::<f64>()
-            });
-            k.push(slope(&next));
-        }
-        let error = (0..n)
-            .map(|i| h * part_now * E.iter().zip(&k).map(|(e, k)| e * k[i]).sum::<f64>())
-            .fold(0.0, |worst: f64, e| if e.is_nan() { f64::INFINITY } else { worst.max(e.abs()) });
-        let error = error / (1e-8 * size.max(next.largest_entry()));
-        let fits = error <= 1.0 && sides(&next) == side;
-        if fits {
-            (m, done) = (next, done + part_now);
-            if done >= 1.0 - 1e-14 {
-                return Some(m);
-            }
-        }
-        let factor = if error > 0.0 { 0.9 * error.powf(-0.2) } else { 5.0 };
-        part = part_now * factor.clamp(0.2, if fits { 5.0 } else { 0.5 });
-        if part < 1e-11 {
-            return None;
-        }
-    }
-    None
 }
 
 /// A random system of a kind, a momentum and a step of it.
@@ -299,48 +234,17 @@ fn steps<G, const M: usize>(
 ) where
     G: LieGroup<Scalar = f64> + 'static,
 {
-    let (energy, h, mut mu) = draw(group, edges, random);
-    let Ok(mut step) = Collocation::<_, _, M>::new(group.clone(), energy.clone(), h) else {
-        return;
-    };
-    let far = |a: &G::Vector, b: &G::Vector| a.clone().minus(b).largest_entry();
+    let (energy, h, mu) = draw(group, edges, random);
+    let Ok(step) = Collocation::<_, _, M>::new(group.clone(), energy.clone(), h) else { return };
     let sides = |m: &G::Vector| energy.terms.iter().map(|t| t.side(m)).collect::<Vec<_>>();
-    // How far from the flow, as a share of what is allowed.
-    let share = |from: &G::Vector, to: &G::Vector, exact: &G::Vector| {
-        let share = far(to, exact) / from.largest_entry() / FARTHEST;
-        if sides(to) == sides(exact) { share } else { f64::INFINITY }
+    let about = format!("seed {seed}, M = {M}, {energy:?}");
+    let trial = Trial { group, energy: &energy, h, farthest: FARTHEST, sides: &sides, about };
+    let mut mover = Generic { group: group.clone(), step, element: group.identity() };
+    let right = |from: &G::Vector| {
+        let end = unfollowed::<G, M>(group, &energy, h, from);
+        end.and_then(|end| trial.share(from, &end)).is_some_and(|share| share <= 1.0)
     };
-    for _ in 0..STEPS {
-        let before = mu.clone();
-        let example = || format!("seed {seed}, M = {M}, h = {h}, μ = {before:?}, {energy:?}");
-        let mut state = Phase::<G>::new(group.identity(), mu.clone());
-        let made = step.advance(&mut state, 0.0);
-        mu = state.momentum;
-        if made.is_err() {
-            tally.refused += 1;
-            if far(&mu, &before) != 0.0 {
-                tally.note(Wrong::Changed, example);
-            }
-            let end = unfollowed::<G, M>(group, &energy, h, &before);
-            let right = end.zip(flow(group, &energy, h, &before));
-            let right = right.is_some_and(|(end, exact)| share(&before, &end, &exact) <= 1.0);
-            tally.right += u64::from(right);
-            break;
-        }
-        tally.accepted += 1;
-        let Some(exact) = flow(group, &energy, h, &before) else {
-            tally.unsure += 1;
-            continue;
-        };
-        let share = share(&before, &mu, &exact);
-        if share.is_nan() || share > 1.0 {
-            tally.note(Wrong::Branch, || {
-                format!("{:.1e} from the flow: {}", share * FARTHEST, example())
-            });
-        } else if share > tally.residual {
-            (tally.residual, tally.worst) = (share, example());
-        }
-    }
+    trial.follow(&mut mover, mu, right, tally);
 }
 
 /// Steps of the systems of a seed, on all groups.
@@ -398,21 +302,22 @@ fn skew(signs: Signs, random: &mut Random) -> MatrixGroup {
     MatrixGroup::from_structure_constants(n, &structure).expect("a Lie algebra")
 }
 
-type Instances = fn(u64, &mut Tally);
-
 pub(super) fn families(only: &str) -> Vec<Family> {
-    let all: [(&str, Instances); 10] = [
-        ("edge-1", |seed, tally| instance::<1>(true, seed, tally)),
-        ("edge-2", |seed, tally| instance::<2>(true, seed, tally)),
-        ("edge-3", |seed, tally| instance::<3>(true, seed, tally)),
-        ("edge-4", |seed, tally| instance::<4>(true, seed, tally)),
-        ("edge-5", |seed, tally| instance::<5>(true, seed, tally)),
-        ("steep-1", |seed, tally| instance::<1>(false, seed, tally)),
-        ("steep-2", |seed, tally| instance::<2>(false, seed, tally)),
-        ("steep-3", |seed, tally| instance::<3>(false, seed, tally)),
-        ("steep-4", |seed, tally| instance::<4>(false, seed, tally)),
-        ("steep-5", |seed, tally| instance::<5>(false, seed, tally)),
-    ];
-    let chosen = all.into_iter().filter(|(name, _)| name.contains(only));
-    chosen.map(|(name, instance)| Family::alone(name, instance)).collect()
+    let mut all = Vec::new();
+    for (kind, edges) in [("edge", true), ("steep", false)] {
+        for nodes in 1..=5 {
+            let name = format!("{kind}-{nodes}");
+            let steps = move |seed: u64, tally: &mut Tally| match nodes {
+                1 => instance::<1>(edges, seed, tally),
+                2 => instance::<2>(edges, seed, tally),
+                3 => instance::<3>(edges, seed, tally),
+                4 => instance::<4>(edges, seed, tally),
+                _ => instance::<5>(edges, seed, tally),
+            };
+            if name.contains(only) {
+                all.push(Family::alone(name, steps));
+            }
+        }
+    }
+    all
 }

@@ -2,12 +2,10 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use coadjoint::collocation::{Collocation, Energy, Undefined};
-use coadjoint::groups::{Aff1, Coordinates, Heisenberg, Power, Product, SE2, SL2, SO4, SU2, SU3};
-use coadjoint::laws::{Law, check_map};
+use coadjoint::groups::{Coordinates, SE2, SL2, SU2};
 use coadjoint::{LieGroup, Phase, SE3, SO3, StepError};
-use coadjoint_tests::bridge::named;
 use coadjoint_tests::energies::{Any, Driven, Root, SIX, Six, Spin, THREE, Top};
-use coadjoint_tests::stress::{Drawn, Random};
+use coadjoint_tests::stress::Drawn;
 use nalgebra::{Vector3, Vector6};
 
 /// The momentum after steps from the time 0.1.
@@ -116,71 +114,6 @@ fn sweeps_of_a_body_with_a_root_are_few() {
         let mean = f64::from(sweeps) / 3000.0;
         assert!(mean <= bound, "h = {h}: {mean:.2} sweeps a step");
     }
-}
-
-/// The defects of steps with h = 0.2 from a point.
-fn laws<G, E, const M: usize>(group: &G, energy: E, point: &Phase<G>) -> Vec<Law>
-where
-    G: LieGroup<Scalar = f64>,
-    E: Energy<G::Vector> + Copy,
-{
-    let step = |h: f64, time: f64| {
-        move |state: &mut Phase<G>| {
-            let mut step = Collocation::<_, _, M>::new(group.clone(), energy, h)?;
-            step.advance(state, time).map(|_| ())
-        }
-    };
-    let (mut there, mut back) = (step(0.2, 0.1), step(-0.2, 0.3));
-    check_map(group, &mut there, Some(&mut back), std::slice::from_ref(point)).unwrap()
-}
-
-/// Tries the laws with 1 to 5 nodes at a random point.
-fn laws_hold<G, E>(name: &str, group: &G, energy: E)
-where
-    G: LieGroup<Scalar = f64>,
-    E: Energy<G::Vector> + Copy,
-{
-    let mut random = Random::new(17);
-    let mut vector =
-        |size: f64| G::Vector::from_entries(group.dim(), |_| random.between(-size, size));
-    let x = vector(0.4);
-    let point = Phase::<G>::new(group.exp(&x), vector(0.7));
-    let all = [
-        laws::<_, _, 1>(group, energy, &point),
-        laws::<_, _, 2>(group, energy, &point),
-        laws::<_, _, 3>(group, energy, &point),
-        laws::<_, _, 4>(group, energy, &point),
-        laws::<_, _, 5>(group, energy, &point),
-    ];
-    for (nodes, laws) in (1..).zip(all) {
-        assert_eq!(laws.len(), 7, "{name}: {laws:?}");
-        for law in laws {
-            assert!(law.value <= 1e-13, "{name}, {nodes} nodes: {} {:.1e}", law.name, law.value);
-        }
-    }
-}
-
-#[test]
-fn laws_hold_in_charts_in_closed_form() {
-    laws_hold("SO3", &SO3::new(), Any);
-    laws_hold("SO3, driven", &SO3::new(), Driven);
-    laws_hold("SU2", &SU2::new(), Any);
-    laws_hold("SE2", &SE2::new(), Any);
-    laws_hold("SE3", &SE3::new(), Any);
-    laws_hold("SE3, six", &SE3::new(), Six);
-    laws_hold("SO3 × SE2", &Product::<SO3, SE2, 6>::new(), Any);
-    laws_hold("SO3²", &Power::<SO3, 2, 6>::new(), Any);
-}
-
-#[test]
-fn laws_hold_in_charts_by_series() {
-    laws_hold("SE3 by tables", &named("SE3"), Any);
-    laws_hold("Heisenberg", &Heisenberg::new(), Any);
-    laws_hold("Aff1", &Aff1::new(), Any);
-    laws_hold("SL2", &SL2::new(), Any);
-    laws_hold("SO4", &SO4::new(), Any);
-    laws_hold("SU3", &SU3::new(), Any);
-    laws_hold("U2", &named("U2"), Any);
 }
 
 /// √(1 − μ₂²): undefined beyond |μ₂| = 1.

@@ -4,10 +4,8 @@
 
 mod allocation;
 mod attribute;
-mod backend_laws;
 mod catalogue;
 mod circles;
-mod closed_form_groups;
 mod collocation;
 mod collocation_kernels;
 mod comoving;

@@ -1,7 +1,7 @@
 //! The attribute `lie_poisson` on Hamiltonians that are no polynomials: steps by collocation.
 #![allow(clippy::unwrap_used)]
 
-use coadjoint::collocation::Collocation;
+use coadjoint::collocation::{Collocation, Energy};
 use coadjoint::lanes::{F64x4, ensemble::advance_all};
 use coadjoint::nalgebra::{SimdValue, Vector3, Vector6};
 use coadjoint::{Phase, SE3, SO3, StepError, lie_poisson};
@@ -62,22 +62,27 @@ fn the_time_is_an_argument_of_steps() {
     assert!((energy - twist(expected.into(), 3.1, rate)).abs() < 1e-14);
 }
 
-#[test]
-fn steps_are_those_of_closures() {
-    let inertia = [1.5, 2.0, 2.5];
-    let omega = Vector3::from(inertia).map(|inertia| 1.0 / inertia);
+/// The steps of `relativistic` by closures.
+fn by_closures(h: f64) -> Collocation<SO3, impl Energy<Vector3<f64>>, 4> {
+    let omega = Vector3::new(1.0 / 1.5, 0.5, 0.4);
     let root = move |mu: &Vector3<f64>| (1.0 + mu.dot(&mu.component_mul(&omega))).sqrt();
     let energy = (
         move |_: f64, mu: &Vector3<f64>| root(mu),
         move |_: f64, mu: &Vector3<f64>| mu.component_mul(&omega) / root(mu),
     );
-    let mut expected = Collocation::<_, _, 4>::new(SO3::new(), energy, 0.2).unwrap();
+    Collocation::new(SO3::new(), energy, h).unwrap()
+}
+
+#[test]
+fn steps_are_those_of_closures() {
+    let inertia = [1.5, 2.0, 2.5];
+    let mut expected = by_closures(0.2);
     let steps = Relativistic::new(0.2, inertia).unwrap();
     assert_eq!((Relativistic::<f64>::ORDER, Relativistic::<f64>::TRUNCATION), (8, 7));
     let start = Phase::<SO3>::at_identity([2.0, 0.5, 1.0]);
     let (mut phase, mut other) = (start.clone(), start.clone());
     let before = steps.energy(&phase.momentum);
-    assert!((before - root(&phase.momentum)).abs() < 1e-15);
+    assert!((before - relativistic(phase.momentum.into(), inertia)).abs() < 1e-15);
     steps.advance_by(&mut phase, 500).unwrap();
     expected.advance_by(&mut other, 0.0, 500).unwrap();
     assert!((phase.momentum - other.momentum).norm() < 1e-12);
@@ -127,16 +132,10 @@ fn refusals_name_the_expression_and_leave_the_state() {
 #[test]
 fn refused_steps_are_those_of_the_runtime() {
     let inertia = [1.5, 2.0, 2.5];
-    let omega = Vector3::from(inertia).map(|inertia| 1.0 / inertia);
-    let root = move |mu: &Vector3<f64>| (1.0 + mu.dot(&mu.component_mul(&omega))).sqrt();
-    let energy = (
-        move |_: f64, mu: &Vector3<f64>| root(mu),
-        move |_: f64, mu: &Vector3<f64>| mu.component_mul(&omega) / root(mu),
-    );
     let start = Phase::<SO3>::at_identity([2.0, 0.5, 1.0]);
     let (mut phase, mut other) = (start.clone(), start.clone());
     Relativistic::new(2.6, inertia).unwrap().advance(&mut phase).unwrap();
-    let mut expected = Collocation::<_, _, 4>::new(SO3::new(), energy, 2.6).unwrap();
+    let mut expected = by_closures(2.6);
     expected.advance(&mut other, 0.0).unwrap();
     assert!((phase.momentum - other.momentum).norm() < 1e-13);
 

@@ -45,11 +45,6 @@ pub(crate) fn json(arguments: &str) -> Value {
     run(&format!("{arguments} --format json")).json()
 }
 
-/// Commands at the root of the workspace that are bad input, each with the word that says so.
-pub(crate) fn refused(cases: &[(&str, &str)]) {
-    cases.iter().for_each(|(arguments, word)| drop(run(arguments).fails(2, &[word])));
-}
-
 /// The outcome of a command: exit code, standard output, standard error.
 #[derive(Debug)]
 pub(crate) struct Ran {
