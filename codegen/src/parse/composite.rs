@@ -55,7 +55,7 @@ impl Composite {
         arguments: &[ExprId],
         place: Span,
     ) -> Option<ExprId> {
-        let mut write = Writer { arena, place };
+        let mut write = Inserter { arena, place };
         Some(match (self, arguments) {
             (Self::Sinh | Self::Cosh, &[a]) => {
                 let minus = write.push(Node::Neg(a));
@@ -104,12 +104,12 @@ impl Composite {
 }
 
 /// Writes nodes in one place.
-struct Writer<'a> {
+struct Inserter<'a> {
     arena: &'a mut Arena,
     place: Span,
 }
 
-impl Writer<'_> {
+impl Inserter<'_> {
     fn push(&mut self, node: Node) -> ExprId {
         self.arena.push(node, self.place)
     }

@@ -99,17 +99,17 @@ enum Operator {
 struct Callee {
     name: String,
     /// `None` if it was unknown, which has been reported.
-    function: Option<Known>,
+    function: Option<Callable>,
 }
 
 /// A function that a text may call.
 #[derive(Clone, Copy, Debug)]
-enum Known {
+enum Callable {
     Elementary(Function),
     Composite(Composite),
 }
 
-impl Known {
+impl Callable {
     fn lookup(name: &str) -> Option<Self> {
         let elementary = Function::lookup(name).map(Self::Elementary);
         elementary.or_else(|| Composite::lookup(name).map(Self::Composite))
@@ -235,7 +235,7 @@ impl Parser<'_> {
             Ok(Name::Time) => Node::Time,
             Ok(Name::Signal(i)) => Node::Signal(i),
             Ok(Name::Part { text, offset }) => return self.part(name, &text, offset, span),
-            Err(_) if Known::lookup(name).is_some() => {
+            Err(_) if Callable::lookup(name).is_some() => {
                 return self.wrong(span, Mistake::FunctionWithoutArgument(name.to_owned()));
             }
             Err(_) if self.scope.names.excuses(name) => Node::Wrong,
@@ -266,7 +266,7 @@ impl Parser<'_> {
     }
 
     fn callee(&mut self, name: String, span: Span) {
-        let function = Known::lookup(&name);
+        let function = Callable::lookup(&name);
         if function.is_none() {
             if self.scope.get(&name).is_ok() {
                 // `x (y + 1)`: a product without its operator.
@@ -332,7 +332,7 @@ impl Parser<'_> {
         };
         let known = self.scope.get(&form.index);
         let taken = known.is_ok_and(|meaning| meaning != Name::Time)
-            || Known::lookup(&form.index).is_some();
+            || Callable::lookup(&form.index).is_some();
         let reason = match &bounds {
             _ if !is_word(&form.index) => "its index is no name",
             _ if self.scope.indices.len() >= sum::MOST_NESTED => "more than 64 sums are nested",
@@ -412,10 +412,10 @@ impl Parser<'_> {
                         let mistake = Mistake::ArgumentCount(callee.name, wanted, arguments);
                         self.wrong(whole, mistake);
                     }
-                    (Some(Known::Elementary(function)), &[argument]) => {
+                    (Some(Callable::Elementary(function)), &[argument]) => {
                         self.operand(Node::Call(function, argument), whole);
                     }
-                    (Some(Known::Composite(function)), found) => {
+                    (Some(Callable::Composite(function)), found) => {
                         if let Some(made) = function.build(self.arena, found, whole) {
                             self.operands.push((made, whole));
                         }

@@ -1,9 +1,9 @@
 //! The keys `velocity`, `torque` and `damping`: motion beside that of the Hamiltonian.
 
+use super::definitions::Definitions;
 use super::energies::attitude;
 use super::initial::coordinates;
 use super::parameters::Parameters;
-use super::parts::Parts;
 use super::table::{Table, span};
 use crate::diagnostic::Span;
 use crate::expr::{Arena, ExprId};
@@ -62,7 +62,7 @@ pub(super) fn read(
     }
     names.known("t", Name::Time);
     attitude(algebra?, &mut names);
-    Parts::read(root).add_to(root, &mut names);
+    Definitions::read(root).add_to(root, &mut names);
     let lists = [("velocity", VELOCITY), ("torque", TORQUE)].map(|(key, example)| {
         let vector = root.get(key).and_then(|value| Some((value.get_ref().as_str()?, span(value))));
         let found = vector.and_then(|(text, place)| {

@@ -1,8 +1,8 @@
 //! Coordinates, the Hamiltonian and the potential of a system file.
 
+use super::definitions::Definitions;
 use super::initial::copies;
 use super::parameters::Parameters;
-use super::parts::Parts;
 use super::table::Table;
 use crate::diagnostic::Span;
 use crate::expr::{Arena, Node};
@@ -43,7 +43,7 @@ pub(super) fn hamiltonian(
     }
     // Anything else called t comes first.
     names.known("t", Name::Time);
-    Parts::read(root).add_to(root, &mut names);
+    Definitions::read(root).add_to(root, &mut names);
     if !root.has("hamiltonian") && root.has("velocity") {
         // A velocity may be all that moves.
         let (mut arena, place) = (Arena::new(), Span::Whole);
@@ -132,6 +132,6 @@ pub(super) fn potential(
     let mut names = Names::of_coordinates(&entries, root.diagnostics);
     let kept = parameters.add_to(&mut names, root.diagnostics);
     attitude(algebra?, &mut names);
-    Parts::read(root).add_to(root, &mut names);
+    Definitions::read(root).add_to(root, &mut names);
     root.energy("potential", POTENTIAL, &names, kept)
 }

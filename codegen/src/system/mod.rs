@@ -47,6 +47,7 @@
 //! finds where it changes its sign, in the `direction` up, down or both, and ends there with `stop = true`.
 
 mod algebra;
+mod definitions;
 mod drive;
 mod energies;
 mod event;
@@ -55,7 +56,7 @@ mod inputs;
 pub mod lattice;
 mod options;
 mod parameters;
-mod parts;
+
 mod project;
 mod run;
 mod splitting;

@@ -67,7 +67,7 @@ pub(super) struct Differential<'a> {
 }
 
 /// A state on its way through a step, and its derivative in all columns: those of (ξ, ν) at the start, of parameters, of inputs.
-struct Moving {
+struct Carried {
     state: Numbers,
     /// True if programs refuse a flow.
     refused: bool,
@@ -94,13 +94,13 @@ pub(super) fn slopes(
 }
 
 /// A flow of a kernel from a state: its programs with these coefficients.
-struct Flow<'a> {
+struct Solving<'a> {
     kernel: &'a Kernel,
     slots: &'a [f64],
     state: &'a Numbers,
 }
 
-impl Flow<'_> {
+impl Solving<'_> {
     /// The first guess of z, and the constants of the solve.
     fn guess(&self) -> [Vec<f64>; 2] {
         let Self { kernel, slots, state: Numbers { g, mu } } = self;
@@ -226,7 +226,7 @@ impl<'a> Differential<'a> {
         let (n, q) = (kernel.dim, self.slopes.len());
         let columns = 2 * n + q + sampled.len();
         let (xi, nu) = (DMatrix::identity(n, columns), DMatrix::zeros(n, columns));
-        let mut moving = Moving { state: state.clone(), refused: false, xi, nu };
+        let mut moving = Carried { state: state.clone(), refused: false, xi, nu };
         moving.nu.columns_mut(n, n).fill_with_identity();
         let each = kernel.slots_of_flow();
         // The changes of the coefficients of a flow in each parameter and input.
@@ -261,7 +261,7 @@ impl<'a> Differential<'a> {
     }
 
     /// A kick, where there are kicks.
-    fn kick(&self, moving: &mut Moving, slots: &[f64], changes: &[Vec<f64>]) {
+    fn kick(&self, moving: &mut Carried, slots: &[f64], changes: &[Vec<f64>]) {
         let Some(kick) = &self.tangent.kick else { return };
         let (n, Numbers { g, mu }) = (self.step.kernel().dim, &moving.state);
         let at = [&g[..], &vec![0.0; n], mu].concat();
@@ -276,12 +276,12 @@ impl<'a> Differential<'a> {
     /// A flow with the motion of a frame after it; false where its equations are not solved.
     fn flow(
         &self,
-        moving: &mut Moving,
+        moving: &mut Carried,
         slots: &[f64],
         changes: &[Vec<f64>],
     ) -> Result<bool, StepError> {
         let (kernel, Tangent { equation, reads, .. }) = (self.step.kernel(), self.tangent);
-        let own = Flow { kernel, slots, state: &moving.state };
+        let own = Solving { kernel, slots, state: &moving.state };
         let by_programs = own.solution();
         let refused = by_programs.is_none();
         let Some([z, found]) = by_programs.or_else(|| own.by_newton(equation)) else {
@@ -347,7 +347,7 @@ impl<'a> Differential<'a> {
     fn moved(
         &self,
         motion: &Program,
-        moving: &mut Moving,
+        moving: &mut Carried,
         (x, mu): (&[f64], &DVector<f64>),
         mut change: DMatrix<f64>,
         halvings: i32,

@@ -8,11 +8,11 @@ const EXAMPLE: &str = "B = [\"cos(t)\", \"sin(t)\", \"0\"]";
 
 /// The parts of a file.
 #[derive(Debug, Default)]
-pub(super) struct Parts(Vec<Named>);
+pub(super) struct Definitions(Vec<Definition>);
 
 /// A part with its name and its place.
 #[derive(Debug)]
-struct Named {
+struct Definition {
     name: String,
     place: Span,
     /// The text of a number or a vector, or those of a list, each with its place.
@@ -20,7 +20,7 @@ struct Named {
     list: bool,
 }
 
-impl Parts {
+impl Definitions {
     /// Reads the table; a text that is a vector, such as cross(a, b), is a list of three.
     pub(super) fn read(root: &Table<'_>) -> Self {
         let Some(table) = root.table("let") else { return Self::default() };
@@ -32,7 +32,7 @@ impl Parts {
                     (vec![(text.to_owned(), span(value))], false)
                 }
             };
-            Some(Named { name: name.to_owned(), place, texts, list })
+            Some(Definition { name: name.to_owned(), place, texts, list })
         };
         Self(table.entries().into_iter().filter_map(part).collect())
     }
@@ -47,7 +47,7 @@ impl Parts {
             names.add(name, meaning, place, root.diagnostics);
         };
         let (lists, mut texts): (Vec<_>, Vec<_>) = self.0.iter().partition(|own| own.list);
-        for Named { name, place, texts, .. } in lists {
+        for Definition { name, place, texts, .. } in lists {
             for (i, own) in texts.iter().enumerate() {
                 add(names, &format!("{name}[{i}]"), part(&own.0, own), *place);
             }
@@ -55,7 +55,7 @@ impl Parts {
         // Vectors may be made of vectors that are named later.
         loop {
             let before = texts.len();
-            texts.retain(|Named { name, place, texts, .. }| {
+            texts.retain(|Definition { name, place, texts, .. }| {
                 let vector = texts.first().and_then(|own| Some((components(&own.0, names)?, own)));
                 let Some((entries, own)) = vector else { return true };
                 for (i, text) in entries.iter().enumerate() {
@@ -67,7 +67,7 @@ impl Parts {
                 break;
             }
         }
-        for Named { name, place, texts, .. } in texts {
+        for Definition { name, place, texts, .. } in texts {
             texts.iter().for_each(|own| add(names, name, part(&own.0, own), *place));
         }
     }
