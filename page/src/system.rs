@@ -94,6 +94,10 @@ impl System {
         let origin = Origin::derive(read.problem.settled().0, LIMIT).map_err(large)?;
         let gradient = origin.energy(&[]).slope();
         let refused = |error: &dyn std::fmt::Display| vec![Mistake::of_all(error, None)];
+        if !origin.breaks().is_empty() {
+            let what = "steps end at the times of held inputs and at breaks in the command and in Python, not on this page";
+            return Err(refused(&what));
+        }
         let step = origin.step(Precision::Double).map_err(|error| refused(&error))?;
         let programs = &step.kernel().programs;
         let operations = programs.correct.nodes().len() + programs.transport.nodes().len();

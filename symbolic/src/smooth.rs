@@ -121,6 +121,12 @@ impl Problem {
 }
 
 impl Smooth {
+    /// The times at which steps end: those at which inputs jump or bend, and those that are named besides.
+    pub fn breaks(&self) -> Vec<f64> {
+        let of_inputs = self.signals.iter().flat_map(Signal::breaks);
+        of_inputs.chain(&self.breaks).copied().collect()
+    }
+
     /// The facts of the system.
     pub fn facts(&self) -> Facts<'_> {
         let Self { name, algebra, coordinates, parameters, truncation, .. } = self;

@@ -127,8 +127,14 @@ impl System<Hamiltonian> {
     /// Checks that it can be written as code.
     ///
     /// # Errors
-    /// Refuses inputs; the text says so.
+    /// Refuses inputs and breaks; the text says so.
     pub fn writable(&self) -> Result<(), String> {
+        if self.problem.smooth().is_some_and(|smooth| !smooth.breaks.is_empty()) {
+            return Err(
+                "no code is written of a system with `breaks`: its steps would pass over them"
+                    .to_owned(),
+            );
+        }
         self.signals().first().map_or(Ok(()), |signal| {
             Err(format!(
                 "no code is written of a system with the input `{}`, whose values it would not have: `simulate`, \

@@ -17,6 +17,9 @@ fn programs(
     option: &str,
 ) -> Result<(Step, Vec<f64>), RunError> {
     let failed = |why: &dyn std::fmt::Display| RunError::Option(format!("{option}: {why}"));
+    if !origin.breaks().is_empty() {
+        return Err(failed(&"steps that end at breaks are not made on devices"));
+    }
     let step = origin.step(precision).map_err(|error| failed(&error))?;
     if step.moves() && step.kernel().clock().is_none() {
         return Err(failed(

@@ -22,5 +22,7 @@ pub const KICKED: &str =
 pub fn unjudged(system: &System<Hamiltonian>) -> Option<&'static str> {
     let driven = "a system with a velocity, a torque or damping is not judged";
     let acts = || system.drive().is_some().then_some(driven);
-    system.potential.as_ref().map(|_| KICKED).or_else(acts)
+    let breaks = || system.problem.smooth().is_some_and(|smooth| !smooth.breaks().is_empty());
+    let divided = || breaks().then_some("a system whose steps end at breaks is not judged");
+    system.potential.as_ref().map(|_| KICKED).or_else(acts).or_else(divided)
 }

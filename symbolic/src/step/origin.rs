@@ -141,11 +141,7 @@ impl Origin {
 
     /// The times at which steps end, since the equations jump or bend there.
     pub fn breaks(&self) -> Vec<f64> {
-        let of_inputs = self.signals().iter().flat_map(Signal::breaks);
-        of_inputs
-            .copied()
-            .chain(self.smooth().into_iter().flat_map(|own| own.breaks.clone()))
-            .collect()
+        self.smooth().map(Smooth::breaks).unwrap_or_default()
     }
 
     /// True if the equations depend on the time other than through the state.
