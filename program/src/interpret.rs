@@ -357,10 +357,8 @@ impl Program {
 
     /// The results of the program on `inputs` with these folded coefficients. Missing inputs and slots read as NaN.
     pub fn run(&self, inputs: &[f64], slots: &[f64]) -> Vec<f64> {
-        let read = |list: &[f64], i: usize| Lanes([list.get(i).copied().unwrap_or(f64::NAN)]);
-        let mut nodes = Vec::new();
-        evaluate(self, |i| read(inputs, i), |i| read(slots, i), &mut nodes);
-        self.outputs().iter().map(|id| nodes[id.index()].0[0]).collect()
+        let input = |i: usize| [inputs.get(i).copied().unwrap_or(f64::NAN)];
+        Evaluation::new(self, slots).run(input).results().map(|[result]| result).collect()
     }
 
     /// The results of [`Program::run`] for each of these lists of inputs, which are evaluated [`WIDTH`] side by side.
@@ -392,18 +390,46 @@ impl Program {
         input: impl Fn(usize, usize) -> f64,
         slots: &[f64],
     ) -> Vec<f64> {
-        let slot = |i: usize| Lanes::of(slots.get(i).copied().unwrap_or(f64::NAN));
-        let (mut nodes, mut results) =
-            (Vec::new(), Vec::with_capacity(rows * self.outputs().len()));
+        let (width, mut evaluation) = (self.outputs().len(), Evaluation::<L>::new(self, slots));
+        let mut results = vec![0.0; rows * width];
         for first in (0..rows).step_by(L) {
             // Lanes without a row have the numbers of the last one.
             let number = |lane: usize, i| input((first + lane).min(rows - 1), i);
-            let of = |i| Lanes::<L>(from_fn(|lane| number(lane, i)));
-            evaluate(self, of, slot, &mut nodes);
-            for lane in 0..L.min(rows - first) {
-                results.extend(self.outputs().iter().map(|id| nodes[id.index()].0[lane]));
+            let found = evaluation.run(|i| from_fn(|lane| number(lane, i)));
+            for (at, own) in found.results().enumerate() {
+                for (row, result) in (first..rows).zip(own) {
+                    results[row * width + at] = result;
+                }
             }
         }
         results
+    }
+}
+
+/// Evaluates a program for many rows, L side by side, in memory that is used again.
+#[derive(Debug)]
+pub struct Evaluation<'p, const L: usize> {
+    program: &'p Program,
+    slots: &'p [f64],
+    nodes: Vec<Lanes<L>>,
+}
+
+impl<'p, const L: usize> Evaluation<'p, L> {
+    /// With these folded coefficients; missing ones read as NaN.
+    pub fn new(program: &'p Program, slots: &'p [f64]) -> Self {
+        Self { program, slots, nodes: Vec::new() }
+    }
+
+    /// Evaluates it for rows of which `input` gives number i.
+    pub fn run(&mut self, input: impl Fn(usize) -> [f64; L]) -> &Self {
+        let Self { program, slots, nodes } = self;
+        let slot = |i: usize| Lanes::of(slots.get(i).copied().unwrap_or(f64::NAN));
+        evaluate(program, |i| Lanes(input(i)), slot, nodes);
+        self
+    }
+
+    /// The results of the rows that it was evaluated for last.
+    pub fn results(&self) -> impl Iterator<Item = [f64; L]> {
+        self.program.outputs().iter().map(|id| self.nodes[id.index()].0)
     }
 }

@@ -52,7 +52,7 @@ pub use derivative::Argument;
 #[cfg(feature = "programs")]
 pub use graph::{Cost, Function, Graph, Id, Node, Program, Rows};
 #[cfg(feature = "programs")]
-pub use interpret::Attempt;
+pub use interpret::{Attempt, Evaluation};
 #[cfg(feature = "programs")]
 pub use kernel::{
     Clock, Kernel, KernelParts, Outcome, Precision, ProgramError, Programs, Stepper, Trajectories,

@@ -15,10 +15,10 @@ pub struct States {
 }
 
 impl States {
-    /// This many states of `element` numbers of g and `dim` of μ, which are not known yet: their numbers are NaN.
+    /// Room for this many states of `element` numbers of g and `dim` of μ; until they are put there, all numbers are 0.
     pub fn new(element: usize, dim: usize, rows: usize) -> Self {
         let length = (element + dim) * WIDTH;
-        Self { numbers: vec![f64::NAN; rows.div_ceil(WIDTH) * length], length }
+        Self { numbers: vec![0.0; rows.div_ceil(WIDTH) * length], length }
     }
 
     /// The number of numbers of a block.
@@ -37,13 +37,20 @@ impl States {
     }
 }
 
+/// Number i of the states of a block; NaN where there is none.
+pub fn abreast(block: &[f64], i: usize) -> [f64; WIDTH] {
+    block.as_chunks().0.get(i).copied().unwrap_or([f64::NAN; WIDTH])
+}
+
 /// The numbers of the state in a lane of a block.
-pub fn of_lane(block: &[f64], lane: usize) -> impl Iterator<Item = f64> + '_ {
-    block.iter().skip(lane).step_by(WIDTH).copied()
+pub fn of_lane(block: &[f64], lane: usize) -> impl Iterator<Item = f64> {
+    block.as_chunks::<WIDTH>().0.iter().map(move |numbers| numbers[lane])
 }
 
 /// Puts the numbers of a state, those of g and then those of μ, into a lane of a block.
-pub fn into_lane(block: &mut [f64], lane: usize, numbers: impl IntoIterator<Item = f64>) {
-    let places = block.iter_mut().skip(lane).step_by(WIDTH);
-    places.zip(numbers).for_each(|(place, number)| *place = number);
+pub fn into_lane(block: &mut [f64], lane: usize, state: [&[f64]; 2]) {
+    let mut places = block.as_chunks_mut::<WIDTH>().0.iter_mut();
+    for part in state {
+        part.iter().zip(&mut places).for_each(|(number, place)| place[lane] = *number);
+    }
 }

@@ -1,9 +1,11 @@
 /*
  * rigid_body, K = 3, h = 0.1
  *
- * coadjoint_steps(g, mu, done, status, rows, target): a thread a trajectory, numbers of single precision.
- * Number i of trajectory r is at i * rows + r of g (4 numbers each) and mu (3 each). Trajectory r goes from
- * step done[r] on to step target, or as far as steps are accepted: done[r] says how far, status[r] why no farther:
+ * coadjoint_steps(states, done, status, rows, target): a thread a trajectory, numbers of single precision.
+ * A state has 4 numbers of g, then 3 of mu. Number i of trajectory r is at
+ * r / 8 * 56 + i * 8 + r % 8 of states: blocks of 8 trajectories side by side, the last of them whole.
+ * Trajectory r goes from step done[r] on to step target, or as far as steps are accepted: done[r] says how far, status[r] why
+ * no farther:
  * 0 it is at the target, 1 the equation of a step is not solved, 2 its solution is far from the first guess,
  * 3 the step is outside the domain where it is accepted at once, 4 the state is not finite or not on the group.
  * Let targets be multiples of 256, or one.
@@ -24,6 +26,7 @@
 #define ONE 1.0f
 #define DIM 3
 #define ELEMENT 4
+#define WIDTH 8
 #define DIM_ARRAY 3
 #define ELEMENT_ARRAY 4
 #define TOLERANCE 0x1p-21f
@@ -564,23 +567,27 @@ INLINE void coadjoint_sound(const float *RESTRICT g, const float *RESTRICT mu, f
     *right = t23;
 }
 
-KERNEL void coadjoint_steps(GLOBAL NUMBER *RESTRICT g_state, GLOBAL NUMBER *RESTRICT mu_state,
-    GLOBAL COUNT *RESTRICT done_state, GLOBAL unsigned int *RESTRICT status, const COUNT rows,
-    const COUNT target)
+KERNEL void coadjoint_steps(GLOBAL NUMBER *RESTRICT states, GLOBAL COUNT *RESTRICT done_state,
+    GLOBAL unsigned int *RESTRICT status, const COUNT rows, const COUNT target)
 {
     const COUNT row = ROW;
+    GLOBAL NUMBER *const own = states + row / WIDTH * (WIDTH * (ELEMENT + DIM)) + row % WIDTH;
     NUMBER g[ELEMENT_ARRAY], mu[DIM_ARRAY];
     COUNT steps;
     unsigned int why = 0u;
-    if (row >= rows || done_state[row] >= target) {
+    if (row >= rows) {
+        return;
+    }
+    if (done_state[row] >= target) {
+        status[row] = why;
         return;
     }
     steps = target - done_state[row];
     for (int i = 0; i < ELEMENT; i++) {
-        g[i] = g_state[i * rows + row];
+        g[i] = own[i * WIDTH];
     }
     for (int i = 0; i < DIM; i++) {
-        mu[i] = mu_state[i * rows + row];
+        mu[i] = own[(ELEMENT + i) * WIDTH];
     }
     float x[DIM] = {0};
     COUNT done = 0u;
@@ -632,10 +639,10 @@ KERNEL void coadjoint_steps(GLOBAL NUMBER *RESTRICT g_state, GLOBAL NUMBER *REST
         }
     }
     for (int i = 0; i < ELEMENT; i++) {
-        g_state[i * rows + row] = g[i];
+        own[i * WIDTH] = g[i];
     }
     for (int i = 0; i < DIM; i++) {
-        mu_state[i * rows + row] = mu[i];
+        own[(ELEMENT + i) * WIDTH] = mu[i];
     }
     done_state[row] += done;
     status[row] = why;

@@ -81,6 +81,7 @@ pub(crate) fn report(
                 "name": by.name,
                 "precision": by.precision.to_string(),
                 "redone": redone,
+                "seconds": by.running.as_secs_f64(),
             })),
             "drift": known.map(|(name, drift)| (name, json!(drift))).collect::<Value>(),
             "drift_not_measured": drift.unmeasured,
@@ -124,6 +125,7 @@ pub(crate) fn report(
     if let Some(by) = engine.device() {
         let backend = engine.backend();
         lines.push(format!("    rows with steps it refused, made by {backend}: {redone}"));
+        lines.push(format!("    it ran for {:.1} s", by.running.as_secs_f64()));
         if by.precision == Precision::Single {
             lines.push("    in single precision drifts are at 1e-7 and above".to_owned());
         }

@@ -148,9 +148,8 @@ impl Run<'_, '_> {
         Ok(())
     }
 
-    /// Adds bytes to the output and to the list.
-    fn append(&mut self, rows: &[u8], list: &[u8]) -> Result<(), CliError> {
-        self.output.append(rows).map_err(unwritten(&passing(&self.files.out)))?;
+    /// Adds bytes to the list.
+    fn append(&mut self, list: &[u8]) -> Result<(), CliError> {
         self.list.append(list).map_err(unwritten(&passing(&self.files.list)))
     }
 
@@ -163,8 +162,11 @@ impl Run<'_, '_> {
 
     /// Advances the rows that are left of `count`. What is done is the same whatever the size of the pieces.
     fn advance(&mut self, count: u64) -> Result<(), CliError> {
+        let passing = passing(&self.files.out);
+        let unwritten = unwritten(&passing);
         if self.journal.rows == 0 {
-            self.append(&self.job.states.header(count), LIST)?;
+            self.output.append(&self.job.states.header(count)).map_err(&unwritten)?;
+            self.append(LIST)?;
         }
         let position = (self.journal.rows > 0).then_some(self.journal.position);
         self.job.states.seek(self.job.range.start + self.journal.rows, position)?;
@@ -198,7 +200,10 @@ impl Run<'_, '_> {
             let line =
                 |r: &Rejected| format!("{},{},\"{}\"\n", r.row, r.step, r.reason.replace('"', "'"));
             let list: String = rejected.iter().map(line).collect();
-            self.append(&self.job.states.encode(&piece), list.as_bytes())?;
+            let output = &mut self.output;
+            let write = |bytes: &[u8]| output.append(bytes).map_err(&unwritten);
+            self.job.states.encode(&piece, write)?;
+            self.append(list.as_bytes())?;
             self.first.extend(rejected.iter().take(TOLD - self.first.len()).cloned());
             let journal = &mut self.journal;
             journal.raise(drift, engine);

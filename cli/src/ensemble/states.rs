@@ -13,6 +13,9 @@ use crate::form::Form;
 /// Rows turned into text at a time.
 const PIECE: usize = 256;
 
+/// Numbers turned into bytes at a time, which stay near the processor.
+const NEAR: usize = 1 << 14;
+
 /// A piece of an ensemble.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Piece {
@@ -87,32 +90,47 @@ impl States {
     /// Reads the next `count` rows in place of those of a piece.
     pub(crate) fn read(&mut self, count: u64, piece: &mut Piece) -> Result<(), CliError> {
         let (width, layout) = (self.table.width(), &self.found.layout);
-        piece.rows.clear(self.table.number() + 1);
-        piece.cells.clear();
-        let carries = self.written.iter().any(|(_, own)| own.is_none());
-        let mut row = Row::default();
-        for _ in 0..count {
-            if !self.table.read(&mut row)? {
-                let path = self.table.path().display();
-                let what = format!("{path}: it has become shorter while it was read");
-                return Err(CliError::Option(what));
+        let Piece { rows, cells } = piece;
+        rows.clear(self.table.number() + 1);
+        cells.clear();
+        let places = &self.found.places;
+        let read = if self.table.is_text() {
+            let carries = self.written.iter().any(|(_, own)| own.is_none());
+            let (mut row, mut read) = (Row::default(), 0);
+            while read < count && self.table.read(&mut row)? {
+                read += 1;
+                let mut bad =
+                    (row.len() != width).then(|| format!("{} cells instead of {width}", row.len()));
+                for (column, place) in places.iter().enumerate() {
+                    let number = place.map_or(Ok(0.0), |place| row.number(place));
+                    rows.values.push(number.unwrap_or_else(|text| {
+                        let name = || layout.names().swap_remove(column);
+                        bad.get_or_insert_with(|| format!("{}: {text:?} is no number", name()));
+                        f64::NAN
+                    }));
+                }
+                if let Some(reason) = bad {
+                    rows.rejected.push(Rejected { row: self.table.number(), step: 0, reason });
+                }
+                if carries {
+                    cells.push(row.clone());
+                }
             }
-            let mut bad =
-                (row.len() != width).then(|| format!("{} cells instead of {width}", row.len()));
-            for (column, place) in self.found.places.iter().enumerate() {
-                let number = place.map_or(Ok(0.0), |place| row.number(place));
-                piece.rows.values.push(number.unwrap_or_else(|text| {
-                    let name = || layout.names().swap_remove(column);
-                    bad.get_or_insert_with(|| format!("{}: {text:?} is no number", name()));
-                    f64::NAN
-                }));
+            read
+        } else if places.iter().copied().eq((0..width).map(Some)) {
+            self.table.take(count, &mut rows.values)?
+        } else {
+            let mut numbers = Vec::new();
+            let read = self.table.take(count, &mut numbers)?;
+            for row in numbers.chunks(width) {
+                rows.values.extend(places.iter().map(|place| place.map_or(0.0, |at| row[at])));
             }
-            if let Some(reason) = bad {
-                piece.rows.rejected.push(Rejected { row: self.table.number(), step: 0, reason });
-            }
-            if carries {
-                piece.cells.push(row.clone());
-            }
+            read
+        };
+        if read < count {
+            let path = self.table.path().display();
+            let what = format!("{path}: it has become shorter while it was read");
+            return Err(CliError::Option(what));
         }
         Ok(())
     }
@@ -132,8 +150,15 @@ impl States {
         places.chain(self.found.layout.names()).collect()
     }
 
-    /// The bytes of rows.
-    pub(crate) fn encode(&self, piece: &Piece) -> Vec<u8> {
+    /// Gives the bytes of rows to `write`, some at a time.
+    ///
+    /// # Errors
+    /// Passes on those of `write`.
+    pub(crate) fn encode(
+        &self,
+        piece: &Piece,
+        mut write: impl FnMut(&[u8]) -> Result<(), CliError>,
+    ) -> Result<(), CliError> {
         let (form, width, values) = (self.form, self.found.layout.width(), &piece.rows.values);
         // Tables are not shared between threads.
         let written = &self.written;
@@ -146,8 +171,13 @@ impl States {
                     [row, times[place % times.len()]].into_iter().chain(state.iter().copied())
                 });
                 form.append(&numbers.collect::<Vec<_>>(), width + 2, &mut bytes);
+                write(&bytes)
             }
-            _ if form != Form::Csv => form.append(values, width, &mut bytes),
+            _ if form != Form::Csv => values.chunks(NEAR).try_for_each(|values| {
+                bytes.clear();
+                form.append(values, width, &mut bytes);
+                write(&bytes)
+            }),
             // Pieces of fixed size, joined in order: the same bytes whatever the threads.
             _ => {
                 let pieces = values.par_chunks(PIECE * width).enumerate();
@@ -155,10 +185,9 @@ impl States {
                     let cells = piece.cells.get(number * PIECE..).unwrap_or(&[]);
                     lines(written, values.chunks(width), cells)
                 });
-                bytes = pieces.collect::<Vec<_>>().concat();
+                write(&pieces.collect::<Vec<_>>().concat())
             }
         }
-        bytes
     }
 }
 

@@ -332,9 +332,8 @@ impl Table {
             Source::Npy(reader, header) => {
                 let more = (*next as usize) < header.shape[0];
                 if more {
-                    let mut bytes = vec![0; *width * header.width];
-                    reader.read_exact(&mut bytes).map_err(LearnError::file(path))?;
-                    header.decode(&bytes, &mut row.numbers);
+                    let taken = header.take(reader, *width, &mut row.numbers);
+                    taken.map_err(LearnError::file(path))?;
                 }
                 more
             }
@@ -351,6 +350,26 @@ impl Table {
         };
         *next += u64::from(more);
         Ok(more)
+    }
+
+    /// Adds the numbers of up to `count` next rows, NaN for cells that are none; returns the number of rows.
+    ///
+    /// # Errors
+    /// As [`Table::read`].
+    pub fn take(&mut self, count: u64, numbers: &mut Vec<f64>) -> Result<u64, LearnError> {
+        if let Source::Npy(reader, header) = &mut self.source {
+            let rows = count.min((header.shape[0] as u64).saturating_sub(self.next));
+            let taken = header.take(reader, rows as usize * self.width, numbers);
+            taken.map_err(LearnError::file(&self.path))?;
+            self.next += rows;
+            return Ok(rows);
+        }
+        let (mut row, mut rows) = (Row::default(), 0);
+        while rows < count && self.read(&mut row)? {
+            numbers.extend((0..self.width).map(|column| row.number(column).unwrap_or(f64::NAN)));
+            rows += 1;
+        }
+        Ok(rows)
     }
 
     /// The number of the row read last, from 1.
@@ -375,10 +394,8 @@ pub fn array(path: &Path) -> Result<(Vec<usize>, Vec<f64>), LearnError> {
         let numbers = if turned { row_major(&header.shape, &numbers) } else { numbers };
         return Ok((header.shape, numbers));
     }
-    let (mut table, mut row, mut numbers) = (Table::open(path)?, Row::default(), Vec::new());
-    while table.read(&mut row)? {
-        numbers.extend((0..table.width()).map(|column| row.number(column).unwrap_or(f64::NAN)));
-    }
+    let (mut table, mut numbers) = (Table::open(path)?, Vec::new());
+    table.take(u64::MAX, &mut numbers)?;
     let width = table.width();
     Ok((vec![numbers.len() / width.max(1), width], numbers))
 }

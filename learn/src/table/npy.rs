@@ -107,6 +107,24 @@ impl NpyHeader {
         Ok(Self { shape, fortran, length, width, big_endian, integers, count })
     }
 
+    /// Adds the next `count` numbers. Memory grows with the bytes that are present, not with those that are claimed.
+    pub(crate) fn take(
+        &self,
+        reader: &mut impl Read,
+        count: usize,
+        values: &mut Vec<f64>,
+    ) -> std::io::Result<()> {
+        let mut missing = count * self.width;
+        let mut piece = vec![0; PIECE.min(missing)];
+        while missing > 0 {
+            let take = piece.len().min(missing);
+            reader.read_exact(&mut piece[..take])?;
+            self.decode(&piece[..take], values);
+            missing -= take;
+        }
+        Ok(())
+    }
+
     /// Adds the numbers of `bytes`; an incomplete one at the end is left.
     pub(crate) fn decode(&self, bytes: &[u8], values: &mut Vec<f64>) {
         let wide = |b: &[u8; 8]| {
@@ -196,19 +214,11 @@ pub(super) fn npz_columns(path: &Path, file: File) -> Result<Vec<(String, Vec<f6
 /// Bytes read at a time.
 const PIECE: usize = 1 << 16;
 
-/// The shape and the numbers, row-major, of an array that has `total` bytes with its header. Memory grows with the bytes
-/// that are present, not with those that are claimed.
+/// The shape and the numbers, row-major, of an array that has `total` bytes with its header.
 fn read_array(mut reader: impl Read, total: u64) -> Result<(Vec<usize>, Vec<f64>), NpyError> {
     let header = NpyHeader::read(&mut reader, total)?;
-    let mut missing = header.count * header.width;
     let mut values = Vec::new();
-    let mut piece = vec![0; PIECE.min(missing)];
-    while missing > 0 {
-        let take = piece.len().min(missing);
-        reader.read_exact(&mut piece[..take])?;
-        header.decode(&piece[..take], &mut values);
-        missing -= take;
-    }
+    header.take(&mut reader, header.count, &mut values)?;
     let values = if header.fortran { row_major(&header.shape, &values) } else { values };
     Ok((header.shape, values))
 }

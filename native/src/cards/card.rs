@@ -1,6 +1,6 @@
 //! A kernel on a device.
 
-use coadjoint_program::{Kernel, Precision};
+use coadjoint_program::{Kernel, Precision, WIDTH};
 
 use super::machine::{Machine, Opened};
 use crate::cards::{Api, Device, DeviceError};
@@ -18,8 +18,10 @@ pub struct Card {
     pub precision: Precision,
     pub(crate) element: usize,
     pub(crate) dim: usize,
-    /// Rows that are tried at once.
+    /// Rows that are tried at once: whole blocks.
     pub(crate) fits: usize,
+    /// Numbers of single precision on their way.
+    pub(crate) short: Vec<f32>,
 }
 
 impl std::fmt::Debug for Card {
@@ -60,16 +62,18 @@ impl Card {
     pub(crate) fn of(opened: Opened, device: Device, kernel: &Kernel) -> Self {
         let Opened { machine, name, processor: is_processor, memory: (all, one) } = opened;
         let (precision, element, dim) = (kernel.precision(), kernel.element, kernel.dim);
-        let bytes = precision.bytes() as u64;
-        let longest = bytes * element.max(dim).max(1) as u64;
-        let row = bytes * (element + dim) as u64 + 12;
-        let fits = (all / row).min(one / longest.max(8)).max(1);
+        let state = (precision.bytes() * (element + dim)) as u64;
+        let fits = (all / (state + 12)).min(one / state.max(8));
         let fits = usize::try_from(fits).unwrap_or(usize::MAX);
-        Self { machine, device, name, is_processor, precision, element, dim, fits }
+        let short = Vec::new();
+        let mut card =
+            Self { machine, device, name, is_processor, precision, element, dim, fits, short };
+        card.limit(fits);
+        card
     }
 
     /// Limits the rows taken at once.
     pub fn limit(&mut self, rows: usize) {
-        self.fits = self.fits.min(rows.max(1));
+        self.fits = (self.fits.min(rows) / WIDTH).max(1) * WIDTH;
     }
 }

@@ -83,30 +83,29 @@ struct Cuda {
 }
 
 impl Machine for Cuda {
-    fn reserve(&mut self, bytes: [usize; 4]) -> Result<(), Room> {
+    fn reserve(&mut self, bytes: [usize; 3]) -> Result<(), Room> {
         let (call, stream) = (self.call, &self.stream);
         self.arrays
             .reserve(bytes, |bytes| call.room("made room", stream.alloc_zeros::<u8>(bytes)))?;
         self.call.room("made room", self.stream.synchronize())
     }
 
-    fn write(&mut self, array: Array, bytes: &[u8]) -> Result<(), Room> {
-        let Some((to, length)) = self.arrays.get(array) else { return Err(Room::Short) };
-        let written = self.stream.memcpy_htod(&bytes[..bytes.len().min(length)], to);
-        self.call.room("took numbers", written)?;
+    fn write(&mut self, array: Array, first: usize, bytes: &[u8]) -> Result<(), Room> {
+        let to = self.arrays.get(array, first, bytes.len()).ok_or(Room::Short)?;
+        let mut to = to.slice_mut(first..first + bytes.len());
+        self.call.room("took numbers", self.stream.memcpy_htod(bytes, &mut to))?;
         self.call.room("took numbers", self.stream.synchronize())
     }
 
-    fn read(&mut self, array: Array, bytes: &mut [u8]) -> Result<(), DeviceError> {
-        let Some((from, length)) = self.arrays.get(array) else { return Ok(()) };
-        let length = bytes.len().min(length);
-        let read = self.stream.memcpy_dtoh(&from.slice(..length), &mut bytes[..length]);
-        self.call.done("gave numbers", read)?;
-        self.call.done("gave numbers", self.stream.synchronize())
+    fn read(&mut self, array: Array, first: usize, bytes: &mut [u8]) -> Result<(), Room> {
+        let from = self.arrays.get(array, first, bytes.len()).ok_or(Room::Short)?;
+        let from = from.slice(first..first + bytes.len());
+        self.call.room("gave numbers", self.stream.memcpy_dtoh(&from, bytes))?;
+        self.call.room("gave numbers", self.stream.synchronize())
     }
 
     fn launch(&mut self, rows: u64, target: u64) -> Result<(), Room> {
-        let [element, momentum, done, status] = self.arrays.all()?;
+        let [states, done, status] = self.arrays.all()?;
         let blocks = u32::try_from(rows.div_ceil(u64::from(BLOCK))).unwrap_or(u32::MAX);
         let shape = LaunchConfig {
             grid_dim: (blocks, 1, 1),
@@ -114,8 +113,8 @@ impl Machine for Cuda {
             shared_mem_bytes: 0,
         };
         let mut start = self.stream.launch_builder(&self.function);
-        start.arg(element).arg(momentum).arg(done).arg(status).arg(&rows).arg(&target);
-        // SAFETY: the kernel takes four arrays and two numbers of 64 bits; the arrays are made for this number of rows, and
+        start.arg(states).arg(done).arg(status).arg(&rows).arg(&target);
+        // SAFETY: the kernel takes three arrays and two numbers of 64 bits; the arrays are made for this number of rows, and
         // threads beyond do nothing.
         let started = unsafe { start.launch(shape) };
         self.call.room("started the kernel", started)?;

@@ -7,18 +7,12 @@ pub(crate) use calls::{Arrays, Call, Fault};
 /// The arrays of a piece of rows on a device, in the order of the kernel's arguments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Array {
-    /// g, numbers.
-    Element,
-    /// μ, numbers.
-    Momentum,
+    /// The numbers of g and μ, in blocks as [`States`](coadjoint_program::states::States) has them.
+    States,
     /// Steps made, 64 bits each.
     Done,
     /// Status, 32 bits each.
     Status,
-}
-
-impl Array {
-    pub(crate) const ALL: [Self; 4] = [Self::Element, Self::Momentum, Self::Done, Self::Status];
 }
 
 /// Reasons for not moving a piece of rows; the rows are unchanged.
@@ -49,7 +43,7 @@ mod calls {
     }
 
     /// The arrays in a device's memory, and their lengths in bytes.
-    pub(crate) struct Arrays<B>(Option<([B; 4], [usize; 4])>);
+    pub(crate) struct Arrays<B>(Option<([B; 3], [usize; 3])>);
 
     impl<B> Default for Arrays<B> {
         fn default() -> Self {
@@ -61,25 +55,26 @@ mod calls {
         /// Replaces the arrays, unless they have these lengths already.
         pub(crate) fn reserve(
             &mut self,
-            bytes: [usize; 4],
+            bytes: [usize; 3],
             make: impl Fn(usize) -> Result<B, Room>,
         ) -> Result<(), Room> {
             if self.0.as_ref().is_none_or(|(_, now)| *now != bytes) {
                 self.0 = None;
-                let [a, b, c, d] = bytes;
-                self.0 = Some(([make(a)?, make(b)?, make(c)?, make(d)?], bytes));
+                let [a, b, c] = bytes;
+                self.0 = Some(([make(a)?, make(b)?, make(c)?], bytes));
             }
             Ok(())
         }
 
-        /// An array, and its length.
-        pub(crate) fn get(&mut self, array: Array) -> Option<(&mut B, usize)> {
+        /// An array, where it has bytes `first` to `first + count`.
+        pub(crate) fn get(&mut self, array: Array, first: usize, count: usize) -> Option<&mut B> {
             let (arrays, lengths) = self.0.as_mut()?;
-            Some((&mut arrays[array as usize], lengths[array as usize]))
+            let inside = first.checked_add(count)? <= lengths[array as usize];
+            inside.then_some(&mut arrays[array as usize])
         }
 
         /// All of them, in the order of the kernel's arguments.
-        pub(crate) fn all(&mut self) -> Result<&mut [B; 4], Room> {
+        pub(crate) fn all(&mut self) -> Result<&mut [B; 3], Room> {
             self.0.as_mut().map(|(arrays, _)| arrays).ok_or(Room::Short)
         }
     }
@@ -120,13 +115,13 @@ mod calls {
 /// A device with a compiled kernel, and arrays in its memory. Bytes are in the order of this machine.
 pub(crate) trait Machine: Send {
     /// Replaces the arrays by new ones of these sizes in bytes, none of them zero.
-    fn reserve(&mut self, bytes: [usize; 4]) -> Result<(), Room>;
+    fn reserve(&mut self, bytes: [usize; 3]) -> Result<(), Room>;
 
-    /// Writes an array from its beginning.
-    fn write(&mut self, array: Array, bytes: &[u8]) -> Result<(), Room>;
+    /// Writes bytes of an array, the first of which has number `first`.
+    fn write(&mut self, array: Array, first: usize, bytes: &[u8]) -> Result<(), Room>;
 
-    /// Reads an array from its beginning.
-    fn read(&mut self, array: Array, bytes: &mut [u8]) -> Result<(), DeviceError>;
+    /// Reads bytes of an array, the first of which has number `first`.
+    fn read(&mut self, array: Array, first: usize, bytes: &mut [u8]) -> Result<(), Room>;
 
     /// Moves all rows that the arrays were made for to step `target`, and waits until they are there.
     fn launch(&mut self, rows: u64, target: u64) -> Result<(), Room>;

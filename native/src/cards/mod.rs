@@ -22,7 +22,7 @@ use std::str::FromStr;
 pub use card::Card;
 #[cfg(feature = "cuda")]
 pub use nvrtc::{Compiled, compile};
-pub use piece::{Advanced, Refused, Row, Status};
+pub use piece::{Advanced, ENDED, Refused, Status};
 
 /// The interface through which a device is reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -155,11 +155,9 @@ pub enum DeviceError {
         /// The row, from 0.
         row: usize,
     },
-    /// A state has not as many numbers as the kernel's.
-    #[error("trajectory {row} has not the {element} + {dim} numbers of a state")]
+    /// States have not as many numbers as the kernel's, or there is not one for each count.
+    #[error("a trajectory has not the {element} + {dim} numbers of a state")]
     Shape {
-        /// The row, from 0.
-        row: usize,
         /// m, the numbers of a group element.
         element: usize,
         /// n, the coordinates of μ.

@@ -1,9 +1,9 @@
 //! Devices of OpenCL.
 //!
 //! The type system cannot check the calls that pass memory to the device. They are sound for these reasons:
-//! reads and writes wait until they are done and never pass the end of an array, since arrays are made for the very
-//! bytes they are read and written with; the kernel is printed from the [`Kernel`](coadjoint_program::Kernel) whose sizes
-//! the arrays have, gets its arguments with the types of its text, and is waited for.
+//! reads and writes wait until they are done and never pass the end of an array, which is asked for its bytes before; the
+//! kernel is printed from the [`Kernel`](coadjoint_program::Kernel) whose sizes the arrays have, gets its arguments with the
+//! types of its text, and is waited for.
 #![allow(unsafe_code)]
 
 use std::ptr;
@@ -31,7 +31,8 @@ use super::machine::{Array, Arrays, Call, Fault, Machine, Opened, Room};
 use crate::cards::{Device, DeviceError};
 use crate::error::first_errors;
 
-/// The number of threads is a multiple of this, the number that cards run together.
+/// Threads of a group, where the device takes as many: the number that cards run together. Left to itself, pocl takes thousands,
+/// whose numbers are more than a stack holds.
 const GROUP: usize = 64;
 
 /// Opens a device and builds the kernel there.
@@ -62,7 +63,8 @@ pub(crate) fn open(device: Device, kernel: &Kernel, slots: &[f64]) -> Result<Ope
     let memory = [memory.0, memory.1].map(|bytes| if bytes == 0 { u64::MAX } else { bytes });
     let processor = found.dev_type().is_ok_and(|it| it & CL_DEVICE_TYPE_GPU == 0);
     let arrays = Arrays::default();
-    let machine = OpenCl { call, queue, compiled, arrays, context, _program: program };
+    let group = compiled.get_work_group_size(found.id()).map_or(GROUP, |most| most.clamp(1, GROUP));
+    let machine = OpenCl { call, queue, compiled, group, arrays, context, _program: program };
     // Not all of the memory is ours.
     let memory = (memory[0] / 4 * 3, memory[1]);
     Ok(Opened { machine: Box::new(machine), name, processor, memory })
@@ -136,13 +138,15 @@ struct OpenCl {
     call: Call,
     queue: CommandQueue,
     compiled: Compiled,
+    /// Threads of a group.
+    group: usize,
     arrays: Arrays<Buffer<u8>>,
     context: Context,
     _program: Program,
 }
 
 impl Machine for OpenCl {
-    fn reserve(&mut self, bytes: [usize; 4]) -> Result<(), Room> {
+    fn reserve(&mut self, bytes: [usize; 3]) -> Result<(), Room> {
         let (call, context) = (self.call, &self.context);
         self.arrays.reserve(bytes, |bytes| {
             // SAFETY: no memory of ours is handed over.
@@ -152,21 +156,19 @@ impl Machine for OpenCl {
         })
     }
 
-    fn write(&mut self, array: Array, bytes: &[u8]) -> Result<(), Room> {
-        let Some((to, length)) = self.arrays.get(array) else { return Err(Room::Short) };
-        let bytes = &bytes[..bytes.len().min(length)];
-        // SAFETY: the array is as long as the bytes, and the call waits until they are read.
-        let written = unsafe { self.queue.enqueue_write_buffer(to, CL_BLOCKING, 0, bytes, &[]) };
+    fn write(&mut self, array: Array, first: usize, bytes: &[u8]) -> Result<(), Room> {
+        let to = self.arrays.get(array, first, bytes.len()).ok_or(Room::Short)?;
+        // SAFETY: the array has these bytes, and the call waits until they are read.
+        let written =
+            unsafe { self.queue.enqueue_write_buffer(to, CL_BLOCKING, first, bytes, &[]) };
         self.call.room("took numbers", written).map(|_| ())
     }
 
-    fn read(&mut self, array: Array, bytes: &mut [u8]) -> Result<(), DeviceError> {
-        let Some((from, length)) = self.arrays.get(array) else { return Ok(()) };
-        let length = bytes.len().min(length);
-        let bytes = &mut bytes[..length];
-        // SAFETY: the array is as long as the bytes, and the call waits until they are written.
-        let read = unsafe { self.queue.enqueue_read_buffer(from, CL_BLOCKING, 0, bytes, &[]) };
-        self.call.done("gave numbers", read).map(|_| ())
+    fn read(&mut self, array: Array, first: usize, bytes: &mut [u8]) -> Result<(), Room> {
+        let from = self.arrays.get(array, first, bytes.len()).ok_or(Room::Short)?;
+        // SAFETY: the array has these bytes, and the call waits until they are written.
+        let read = unsafe { self.queue.enqueue_read_buffer(from, CL_BLOCKING, first, bytes, &[]) };
+        self.call.room("gave numbers", read).map(|_| ())
     }
 
     fn launch(&mut self, rows: u64, target: u64) -> Result<(), Room> {
@@ -175,17 +177,17 @@ impl Machine for OpenCl {
         let set = || -> Result<(), ClError> {
             for (place, buffer) in (0_u32..).zip(arrays.iter()) {
                 let memory: cl_mem = buffer.get();
-                // SAFETY: the kernel's first four arguments are arrays.
+                // SAFETY: the kernel's first three arguments are arrays.
                 unsafe { kernel.set_arg(place, &memory) }?;
             }
-            for (place, number) in [(4, rows), (5, target)] {
+            for (place, number) in [(3, rows), (4, target)] {
                 // SAFETY: the kernel's last two arguments are numbers of 64 bits.
                 unsafe { kernel.set_arg(place, &number) }?;
             }
             Ok(())
         };
         self.call.room("took arguments", set())?;
-        let threads = (rows as usize).next_multiple_of(GROUP);
+        let threads = (rows as usize).next_multiple_of(self.group);
         // SAFETY: the arrays are made for this number of rows; threads beyond do nothing; the call below waits.
         let started = unsafe {
             self.queue.enqueue_nd_range_kernel(
@@ -193,7 +195,7 @@ impl Machine for OpenCl {
                 1,
                 ptr::null(),
                 [threads].as_ptr(),
-                ptr::null(),
+                [self.group].as_ptr(),
                 &[],
             )
         };

@@ -9,7 +9,7 @@ use super::c::{C, Dialect};
 use super::function::function;
 use super::template::{Value, fill};
 use crate::graph::{Id, Node, Program};
-use crate::kernel::{Clock, Kernel, Precision};
+use crate::kernel::{Clock, Kernel, Precision, WIDTH};
 use crate::print::c::signatures;
 use crate::print::steps::{LoopStyle, steps};
 use crate::quoting::c_comment;
@@ -48,10 +48,10 @@ const LONGEST: usize = 1000;
 /// [`Stepper::advance`](crate::Stepper::advance), a thread each:
 ///
 /// ```text
-/// coadjoint_steps(g, mu, done, status, rows, target)
+/// coadjoint_steps(states, done, status, rows, target)
 /// ```
 ///
-/// Number i of trajectory r is at `i * rows + r` of `g` and `mu`. Trajectory r is moved from step `done[r]` to step
+/// `states` has the order of [`States`](crate::states::States). Trajectory r is moved from step `done[r]` to step
 /// `target`, or to the step before the one that is refused; `done[r]` is then how far it came, and `status[r]` is 0, or
 /// 1 (the equation is not solved), 2 (its solution is far from the first guess), 3 (the step is not in the domain where
 /// it is accepted at once) or 4 (the state is not finite or not on the group). Blocks are counted from `done[r]`: where
@@ -103,6 +103,8 @@ pub fn device_unit(
         ("ONE", literal(1.0)),
         ("DIM", kernel.dim.to_string()),
         ("ELEMENT", kernel.element.to_string()),
+        ("WIDTH", WIDTH.to_string()),
+        ("LENGTH", (WIDTH * (kernel.element + kernel.dim)).to_string()),
         ("DIM_ARRAY", array(kernel.dim)),
         ("ELEMENT_ARRAY", array(kernel.element)),
         ("TOLERANCE", literal(kernel.tolerance)),

@@ -253,8 +253,8 @@ fn laws_of_steps(
         }
     }
     laws.retain(|law| law.name != "order" || unmeasured(system).is_none());
-    let momenta: Vec<&[f64]> = points.iter().map(|point| point.momentum.as_slice()).collect();
-    let ratio = forward.ratios(&momenta).into_iter().fold(0.0, maximum);
+    let ratios = points.iter().map(|point| forward.ratio(point.momentum.as_slice()));
+    let ratio = ratios.fold(0.0, maximum);
     Ok((laws, Some(ratio).filter(|ratio| *ratio > STEEP)))
 }
 

@@ -6,9 +6,11 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use coadjoint::StepError;
 use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::step::{self, Convergence, Observation, Origin, Step, Tangent};
+use coadjoint_codegen::step::{
+    self, Convergence, DriftPrograms, Invariants, Observation, Origin, Step, Tangent,
+};
 use coadjoint_program::fold::FoldError;
-use coadjoint_program::{Kernel, Precision, Trajectories, WIDTH};
+use coadjoint_program::{Kernel, Precision, Program, Trajectories, WIDTH};
 
 use super::linear::{Differential, Linear, slopes};
 use crate::backend::{Backend, Code};
@@ -310,9 +312,11 @@ impl Compiled {
         }
     }
 
-    /// True if the ratio of the last two terms of the series is known to be at most [`STEEP`] at this momentum.
-    pub(super) fn is_quiet(&self, mu: &[f64]) -> bool {
-        mu.iter().map(|mu| mu * mu).sum::<f64>().sqrt() <= self.folded.quiet
+    /// True if the ratio of the last two terms of the series is known to be at most [`STEEP`] at these momenta, side by side.
+    pub(super) fn is_quiet(&self, momenta: &[f64], lanes: usize) -> bool {
+        let square =
+            |lane: usize| momenta[lane..].iter().step_by(lanes).map(|mu| mu * mu).sum::<f64>();
+        (0..lanes).all(|lane| square(lane).sqrt() <= self.folded.quiet)
     }
 
     fn coefficients(&self) -> &[f64] {
@@ -434,6 +438,16 @@ impl Compiled {
     /// The matrix of an element, row by row.
     pub(crate) fn matrix_of(&self, g: &[f64]) -> Vec<f64> {
         self.kernel().programs.matrix.run(g, &[])
+    }
+
+    /// The numbers of an element, rounded in single precision, ↦ those of it put onto the group.
+    pub(crate) fn settled(&self) -> Program {
+        self.programs.step.settled()
+    }
+
+    /// The drifts of what is conserved, between states side by side.
+    pub(super) fn drifts(&self, invariants: &Invariants) -> DriftPrograms {
+        DriftPrograms::new(invariants, Some(&self.programs.step), self.kernel().element)
     }
 
     /// Makes steps, after the first ones, which began at the time `start`, of [`WIDTH`] trajectories side by side, as

@@ -27,16 +27,16 @@ pub(super) trait Method<'a>: Send + Sync {
         false
     }
 
-    /// The ratio of the last two terms of a series at each momentum, where it may be worth a warning, for steps whose longest flow has
-    /// this length; else 0.
-    fn ratios(
+    /// The largest ratio of the last two terms of a series at momenta that lie side by side in this many lanes, 1 or
+    /// [`WIDTH`](coadjoint_program::WIDTH), where it may be worth a warning, for steps whose longest flow has this length; else 0.
+    fn ratio(
         &self,
         _: Option<&Compiled>,
         _longest: f64,
         _parameters: &[f64],
-        momenta: &[&[f64]],
-    ) -> Vec<f64> {
-        vec![0.0; momenta.len()]
+        _momenta: (&[f64], usize),
+    ) -> f64 {
+        0.0
     }
 
     /// This method in the comoving frame, where there is one and the choice is left.

@@ -308,21 +308,19 @@ impl<'a> Motion<'a> {
         Ok(())
     }
 
-    /// The ratio of the last two terms of the series at each momentum, where it may be worth a warning; else 0.
-    pub(crate) fn ratios(&self, momenta: &[&[f64]]) -> Vec<f64> {
+    /// The ratio of the last two terms of the series at a momentum, where it may be worth a warning; else 0.
+    pub(crate) fn ratio(&self, mu: &[f64]) -> f64 {
+        self.largest_ratio((mu, 1))
+    }
+
+    /// The largest ratio at momenta that lie side by side in this many lanes.
+    pub(crate) fn largest_ratio(&self, momenta: (&[f64], usize)) -> f64 {
         let longer = |longest: f64, own: f64| if own.abs() > longest.abs() { own } else { longest };
         let flows = self.kicks().map(|kicks| kicks.splitting.flows().fold(0.0, longer));
         let longest = self.grid.step * flows.unwrap_or(1.0);
         let compiled = self.space.compiled.as_deref();
-        self.method().map_or_else(
-            |_| vec![0.0; momenta.len()],
-            |method| method.ratios(compiled, longest, &self.parameters, momenta),
-        )
-    }
-
-    /// The ratio at one momentum.
-    pub(crate) fn ratio(&self, mu: &[f64]) -> f64 {
-        self.ratios(&[mu]).into_iter().fold(0.0, f64::max)
+        let method = self.method();
+        method.map_or(0.0, |own| own.ratio(compiled, longest, &self.parameters, momenta))
     }
 
     /// Advice beside that of an error, for a step from this time that this state refused.

@@ -15,6 +15,7 @@ use coadjoint_codegen::integrator::{FoldTable, Integrator, Predictor};
 use coadjoint_codegen::problem;
 use coadjoint_codegen::step::{Convergence, Converging};
 use coadjoint_codegen::{cancel, in_other_frame};
+use coadjoint_program::WIDTH;
 use nalgebra::{DMatrix, DVector};
 
 use super::compiled::{Compiled, STEEP, Solved, refusal};
@@ -60,25 +61,27 @@ where
         true
     }
 
-    fn ratios(
+    fn ratio(
         &self,
         compiled: Option<&Compiled>,
         longest: f64,
         parameters: &[f64],
-        momenta: &[&[f64]],
-    ) -> Vec<f64> {
+        (momenta, lanes): (&[f64], usize),
+    ) -> f64 {
         let integrator = self.integrator;
-        let quiet = |compiled: &Compiled| momenta.iter().all(|mu| compiled.is_quiet(mu));
+        let quiet = |compiled: &Compiled| compiled.is_quiet(momenta, lanes);
         if integrator.largest_rate.is_none() && compiled.is_some_and(quiet) {
-            return vec![0.0; momenta.len()];
+            return 0.0;
         }
         let fold = || Convergence::fold(integrator, longest, parameters, STEEP).ok();
         let convergence = match compiled {
             Some(compiled) => compiled.convergence(integrator),
             None => self.convergence.get_or_init(|| Convergence::new(integrator)),
         };
-        let folded = self.converging.get_or_init(fold).as_ref();
-        folded.map_or_else(|| vec![0.0; momenta.len()], |own| convergence.ratios(own, momenta))
+        self.converging.get_or_init(fold).as_ref().map_or(0.0, |own| match lanes {
+            WIDTH => convergence.ratio::<WIDTH>(own, momenta.as_chunks().0),
+            _ => convergence.ratio::<1>(own, momenta.as_chunks().0),
+        })
     }
 
     fn comoving(&self) -> Option<Box<dyn Method<'_> + '_>> {

@@ -6,8 +6,10 @@ use std::sync::Arc;
 use coadjoint::groups::{DirectProduct, ElementError, MatrixGroup};
 use coadjoint::{LieGroup, Phase, StepError};
 use coadjoint_codegen::lie::LieAlgebra;
-use coadjoint_codegen::step::{Invariants, Seen, nudge};
+use coadjoint_codegen::step::{DriftPrograms, Invariants, Seen, nudge};
 use coadjoint_learn::catalogue;
+use coadjoint_program::WIDTH;
+use coadjoint_program::states::{into_lane, of_lane};
 use nalgebra::{DMatrix, DVector};
 
 use super::compiled::{Compiled, Numbers};
@@ -173,16 +175,6 @@ impl Space {
         self.compiled.as_ref().map_or_else(|| g.to_vec(), |programs| programs.matrix_of(g))
     }
 
-    /// The element with these numbers, rounded in single precision, put onto the group as the group's own products do.
-    pub(crate) fn settled(&self, g: &[f64]) -> Vec<f64> {
-        let group = &*self.group;
-        let mut phase = self.phase(&Numbers { g: g.to_vec(), mu: vec![0.0; group.dim()] });
-        for _ in 0..2 {
-            phase.group_element = group.compose(&phase.group_element, &group.identity());
-        }
-        self.state(&phase).g
-    }
-
     /// These states (g, μ), of one group, as laws are stated for them.
     pub(crate) fn observe(&self, states: &[[&[f64]; 2]]) -> Observed {
         let of = |[g, mu]: &[&[f64]; 2]| {
@@ -224,6 +216,23 @@ impl Space {
         let seen = all.iter().enumerate().map(|(at, [_, mu])| observed.seen(at, mu));
         let numbers = invariants.conserved(time, &seen.collect::<Vec<_>>());
         (observed, Conserved { numbers, count: invariants.count(), states: states.len() })
+    }
+
+    /// The programs of the drifts of these quantities, between states side by side.
+    pub(crate) fn drifts(&self, invariants: &Invariants) -> DriftPrograms {
+        match &self.compiled {
+            Some(compiled) => compiled.drifts(invariants),
+            None => DriftPrograms::new(invariants, None, self.size().pow(2)),
+        }
+    }
+
+    /// Puts Ad\*_g μ of the states of a block into another.
+    pub(crate) fn spatial_momenta(&self, block: &[f64], spatial: &mut [f64]) {
+        for lane in 0..WIDTH {
+            let numbers: Vec<f64> = of_lane(block, lane).collect();
+            let state = numbers.split_at(numbers.len() - self.group.dim());
+            into_lane(spatial, lane, [self.observe(&[state.into()]).spatial(0), &[]]);
+        }
     }
 
     /// Ad\*_g μ.

@@ -3,17 +3,18 @@
 use std::borrow::Cow;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 
 use coadjoint_codegen::problem::{Parameter, Solver};
-use coadjoint_codegen::step::{self, Invariants};
+use coadjoint_codegen::step::{self, DriftPrograms};
 use coadjoint_native::cards::{Card, Device};
-use coadjoint_program::states::{States, into_lane, of_lane};
+use coadjoint_program::states::{States, into_lane};
 use coadjoint_program::{Precision, Trajectories, WIDTH};
 use rayon::prelude::*;
 
 use super::course::Course;
 use super::layout::{Attitude, Layout, Shape};
-use super::march::{March, Way};
+use super::march::{March, Overall, Way, Ways, stop};
 use crate::backend::Backend;
 use crate::engine::{Compiled, Motion, Numbers, STEEP, card, identity};
 use crate::error::RunError;
@@ -120,6 +121,8 @@ pub struct Use {
     pub processor: bool,
     /// Rows of which it has refused steps.
     pub redone: u64,
+    /// The time for which it has run.
+    pub running: Duration,
 }
 
 impl std::fmt::Display for Use {
@@ -151,7 +154,9 @@ pub struct Engine<'a> {
     card: Option<Mutex<Card>>,
     /// Rows of which the device has refused a step.
     redone: AtomicU64,
-    invariants: Invariants,
+    /// The nanoseconds for which the device has run.
+    running: AtomicU64,
+    drifts: DriftPrograms,
     /// The numbers of the identity, where rows that give no attitude start.
     identity: Vec<f64>,
 }
@@ -181,11 +186,21 @@ impl<'a> Engine<'a> {
         let card = card.transpose()?.map(Mutex::new);
         let motion = system.steps(grid, compiled.as_ref()).map_err(RunError::unmade)?;
         let identity = motion.space().numbers(&identity(motion.space().size()));
-        // Energies are not measured.
-        let invariants = system.invariants.clone().without_energy();
-        let redone = AtomicU64::new(0);
+        let drifts = motion.space().drifts(&system.invariants);
+        let (redone, running) = Default::default();
         let parameters = system.facts().defaults();
-        Ok(Self { system, parameters, grid, motion, compiled, card, redone, invariants, identity })
+        Ok(Self {
+            system,
+            parameters,
+            grid,
+            motion,
+            compiled,
+            card,
+            redone,
+            running,
+            drifts,
+            identity,
+        })
     }
 
     /// The shape of a row.
@@ -196,7 +211,7 @@ impl<'a> Engine<'a> {
 
     /// The number of Casimirs watched.
     pub fn casimirs(&self) -> usize {
-        self.invariants.casimirs
+        self.system.invariants.casimirs
     }
 
     /// The device that makes the steps, and what it has left to others; `None` where this processor makes them.
@@ -208,6 +223,7 @@ impl<'a> Engine<'a> {
             precision: card.precision,
             processor: card.is_processor,
             redone: self.redone.load(Ordering::Relaxed),
+            running: Duration::from_nanos(self.running.load(Ordering::Relaxed)),
         })
     }
 
@@ -250,56 +266,62 @@ impl<'a> Engine<'a> {
         }
         let count = rows.values.len() / width;
         let mut states = States::new(self.identity.len(), layout.shape.dim, count);
-        let mut ways = vec![Way::default(); count];
+        let mut ways = vec![None; count];
         let length = states.length();
         let given = || rows.values.par_chunks(WIDTH * width);
         let blocks = states.blocks_mut().par_chunks_mut(length).zip(ways.par_chunks_mut(WIDTH));
         blocks.zip(given()).for_each(|((block, ways), rows)| {
-            for (lane, (way, row)) in ways.iter_mut().zip(rows.chunks(width)).enumerate() {
-                match self.read(layout, row) {
-                    Ok((g, mu)) => into_lane(block, lane, g.iter().chain(mu).copied()),
-                    Err(reason) => way.stopped = Some((0, reason)),
-                }
-            }
+            self.read_block(layout, rows, block, |lane, why| stop(&mut ways[lane], Some((0, why))));
         });
         let known: Vec<usize> =
             rows.rejected.iter().map(|r| (r.row - rows.first) as usize).collect();
         for &place in &known {
-            ways[place].stopped = Some((0, String::new()));
+            stop(&mut ways[place], Some((0, String::new())));
         }
-        let before = states.clone();
+        let overall = Overall::default();
         if layout.parameters.is_empty() && self.system.alike() {
-            self.march(&mut ways, &mut states, course, watch)?;
+            self.march(&mut ways, &mut states, &overall, course, watch)?;
         } else {
-            self.march_varied(layout, (&mut ways, &mut states), &rows.values, course, watch);
+            let all = (&mut ways[..], &mut states, &overall);
+            self.march_varied(layout, all, &rows.values, course, watch);
         }
         if watch.stop.load(Ordering::Relaxed) {
             return Err(RunError::Halted { time: self.grid.start, step: 0 });
         }
         let long = course.kept() * width;
-        let mut values = vec![f64::NAN; count * long];
-        let blocks = before.blocks().par_chunks(length).zip(states.blocks().par_chunks(length));
-        let ends = values.par_chunks_mut(WIDTH * long).zip(given());
-        let found = blocks.zip(ways.par_chunks_mut(WIDTH)).zip(ends);
-        let largest = found.map(|((blocks, ways), (values, given))| {
+        let mut values = vec![0.0; count * long];
+        let known_momenta =
+            self.system.invariants.directions.as_ref().is_none_or(|known| !known.is_empty());
+        let blocks = states.blocks().par_chunks(length).zip(ways.par_chunks_mut(WIDTH));
+        let found = blocks.zip(values.par_chunks_mut(WIDTH * long).zip(given()));
+        let gauge = || (self.drifts.gauge(), vec![f64::NAN; length]);
+        let largest = found.map_init(gauge, |(gauge, before), ((after, ways), (values, given))| {
+            self.read_block(layout, given, before, |_, _| {});
+            let space = self.motion.space();
+            let drifts = gauge
+                .drifts([before, after], |block, spatial| space.spatial_momenta(block, spatial));
+            let rows = ways.iter_mut().zip(values.chunks_mut(long)).zip(given.chunks(width));
             let mut largest = Drift::default();
-            let rows = values.chunks_mut(long).zip(given.chunks(width)).enumerate();
-            for ((lane, (kept, given)), drift) in rows.zip(self.drifts(blocks, ways.len())) {
-                let way = &mut ways[lane];
-                match self.write(layout, course, (way, of_lane(blocks.1, lane)), given, kept) {
-                    Ok(()) => largest = largest.max(drift),
-                    Err(stopped) => way.stopped = Some(stopped),
+            for ((lane, ((way, kept), given)), conserved) in rows.enumerate().zip(drifts) {
+                match self.write(layout, course, (way, after, lane), given, kept) {
+                    Ok(()) => {
+                        let hidden = known_momenta && conserved.spatial_momentum.is_none()
+                            || self.casimirs() > 0 && conserved.casimirs.is_none();
+                        let unmeasured = hidden.into();
+                        largest = largest.max(Drift { conserved, unmeasured, ..Drift::default() });
+                    }
+                    Err(stopped) => way.get_or_insert_default().stopped = Some(stopped),
                 }
             }
             largest
         });
         let mut largest = largest.reduce(Drift::default, Drift::max);
         rows.values = values;
-        let ratio = ways.iter().map(|way| way.ratio).fold(0.0, maximum);
+        let ratio = overall.ratio();
         largest.ratio = if ratio <= STEEP { 0.0 } else { ratio };
-        largest.rescued = ways.iter().map(|way| way.rescued).sum();
+        largest.rescued = overall.rescued();
         for (place, way) in ways.into_iter().enumerate() {
-            if let Some((step, reason)) = way.stopped
+            if let Some((step, reason)) = way.and_then(|way| way.stopped)
                 && known.binary_search(&place).is_err()
             {
                 rows.rejected.push(Rejected { row: rows.first + place as u64, step, reason });
@@ -307,6 +329,23 @@ impl<'a> Engine<'a> {
         }
         rows.rejected.sort_by_key(|r| r.row);
         Ok(largest)
+    }
+
+    /// Reads rows into a block. Those that are no states are NaN there; `refuse` is told their lanes, and what is wrong.
+    fn read_block(
+        &self,
+        layout: &Layout,
+        rows: &[f64],
+        block: &mut [f64],
+        mut refuse: impl FnMut(usize, String),
+    ) {
+        block.fill(f64::NAN);
+        for (lane, row) in rows.chunks(layout.width()).enumerate() {
+            match self.read(layout, row) {
+                Ok((g, mu)) => into_lane(block, lane, [&g, mu]),
+                Err(reason) => refuse(lane, reason),
+            }
+        }
     }
 
     /// Writes the states kept of a row, each with the row's parameters; NaN for those that were not reached.
@@ -317,21 +356,26 @@ impl<'a> Engine<'a> {
         &self,
         layout: &Layout,
         course: &Course,
-        (way, end): (&mut Way, impl Iterator<Item = f64>),
+        (way, after, lane): (&mut Option<Box<Way>>, &[f64], usize),
         given: &[f64],
         values: &mut [f64],
     ) -> Result<(), (u64, String)> {
         let (width, state) = (layout.width(), layout.state());
-        values.chunks_mut(width).for_each(|one| one[state..].copy_from_slice(&given[state..]));
+        for one in values.chunks_mut(width) {
+            one[..state].fill(f64::NAN);
+            one[state..].copy_from_slice(&given[state..]);
+        }
+        let end = |i: usize| after[i * WIDTH + lane];
         let mut bad = None;
-        for ((kept, stop), one) in way.kept.iter().zip(&course.stops).zip(values.chunks_mut(width))
-        {
-            let numbers = kept.g.iter().chain(&kept.mu).copied();
-            if let Err(what) = self.row(layout, numbers, &mut one[..state]) {
+        let kept = way.iter().flat_map(|way| &way.kept);
+        for ((kept, stop), one) in kept.zip(&course.stops).zip(values.chunks_mut(width)) {
+            let [g, mu] = kept.parts();
+            let number = |i: usize| if i < g.len() { g[i] } else { mu[i - g.len()] };
+            if let Err(what) = self.row(layout, number, &mut one[..state]) {
                 bad.get_or_insert((stop.step, format!("{what} on the way")));
             }
         }
-        if let Some(stopped) = bad.or_else(|| way.stopped.take()) {
+        if let Some(stopped) = bad.or_else(|| way.as_mut()?.stopped.take()) {
             return Err(stopped);
         }
         let mut last = vec![0.0; if course.stops.is_empty() { 0 } else { state }];
@@ -371,27 +415,25 @@ impl<'a> Engine<'a> {
         Ok((kept, rejected, drift))
     }
 
-    /// Writes the numbers of a state into the columns of a row without parameters; leaves them NaN where one is not finite.
+    /// Writes the numbers of a state, given by their places, into the columns of a row without parameters; leaves them NaN where one is not finite.
     ///
     /// # Errors
     /// The name of a number that is not finite.
     fn row(
         &self,
         layout: &Layout,
-        mut numbers: impl Iterator<Item = f64>,
+        number: impl Fn(usize) -> f64,
         row: &mut [f64],
     ) -> Result<(), String> {
         let (mu, attitude) = row.split_at_mut(layout.shape.dim);
         let element = self.identity.len();
         if layout.attitude == Attitude::Quaternion && element == attitude.len() {
-            attitude.iter_mut().zip(&mut numbers).for_each(|(place, own)| *place = own);
-        } else if attitude.is_empty() {
-            numbers.by_ref().take(element).for_each(drop);
-        } else {
-            let g: Vec<f64> = numbers.by_ref().take(element).collect();
+            attitude.iter_mut().enumerate().for_each(|(i, place)| *place = number(i));
+        } else if !attitude.is_empty() {
+            let g: Vec<f64> = (0..element).map(&number).collect();
             layout.write_attitude(&self.motion.space().matrix(&g), attitude);
         }
-        mu.iter_mut().zip(numbers).for_each(|(place, own)| *place = own);
+        mu.iter_mut().enumerate().for_each(|(i, place)| *place = number(element + i));
         let checked = check(layout, row);
         if checked.is_err() {
             row.fill(f64::NAN);
@@ -460,42 +502,17 @@ impl<'a> Engine<'a> {
         Ok((Cow::Owned(g), mu))
     }
 
-    /// The drifts of the first rows of a block, from their states before and after.
-    fn drifts(&self, (before, after): (&[f64], &[f64]), rows: usize) -> Vec<Drift> {
-        let (invariants, space) = (&self.invariants, self.motion.space());
-        // Energies alone depend on the time, and are not measured.
-        let (time, element) = (self.grid.start, self.identity.len());
-        let lanes = |block: &[f64]| -> Vec<f64> {
-            (0..rows).flat_map(|lane| of_lane(block, lane)).collect()
-        };
-        let (before, after) = (lanes(before), lanes(after));
-        let before = parts(&before, element, rows);
-        let (_, conserved) = space.conserved(invariants, time, &parts(&after, element, rows));
-        let seen = space.observe(&before);
-        let seen: Vec<_> =
-            before.iter().enumerate().map(|(row, [_, mu])| seen.seen(row, mu)).collect();
-        let known = invariants.directions.as_ref().is_none_or(|known| !known.is_empty());
-        let drift = |(start, [now, beside]): (step::Start, [&[f64]; 2])| {
-            let conserved = start.measured(now, beside);
-            let hidden = known && conserved.spatial_momentum.is_none()
-                || invariants.casimirs > 0 && conserved.casimirs.is_none();
-            Drift { conserved, unmeasured: hidden.into(), ..Drift::default() }
-        };
-        invariants.starts(time, &seen).zip(conserved.each()).map(drift).collect()
-    }
-
     /// Makes the steps of all states.
     fn march(
         &self,
-        ways: &mut [Way],
+        ways: &mut Ways,
         states: &mut States,
+        overall: &Overall,
         course: &Course,
         watch: &Watch<'_>,
     ) -> Result<(), RunError> {
-        let march = March { motion: &self.motion, stop: watch.stop };
-        let length = states.length();
-        let blocks = states.blocks().par_chunks(length).zip(ways.par_chunks_mut(WIDTH));
-        blocks.for_each(|(block, ways)| march.look(ways, block));
+        let march = March { motion: &self.motion, stop: watch.stop, overall };
+        states.blocks().par_chunks(states.length()).for_each(|block| march.look(block));
         match &self.card {
             None => {
                 for (first, end, stop) in course.legs() {
@@ -507,8 +524,11 @@ impl<'a> Engine<'a> {
             Some(card) => {
                 // A thread that panicked has left a whole card: its rows are its own.
                 let mut card = card.lock().unwrap_or_else(PoisonError::into_inner);
-                let redone = march.march_on(&mut card, ways, states, course.steps, watch.made);
-                self.redone.fetch_add(redone.map_err(RunError::Device)?, Ordering::Relaxed);
+                let moved = march.march_on(&mut card, ways, states, course.steps, watch.made);
+                let (redone, running) = moved.map_err(RunError::Device)?;
+                let running = u64::try_from(running.as_nanos()).unwrap_or(u64::MAX);
+                self.redone.fetch_add(redone, Ordering::Relaxed);
+                self.running.fetch_add(running, Ordering::Relaxed);
             }
         }
         if self.motion.may_be_undefined() {
@@ -521,13 +541,13 @@ impl<'a> Engine<'a> {
     fn march_varied(
         &self,
         layout: &Layout,
-        (ways, states): (&mut [Way], &mut States),
+        (ways, states, overall): (&mut Ways, &mut States, &Overall),
         values: &[f64],
         course: &Course,
         watch: &Watch<'_>,
     ) {
         let places = self.places(layout);
-        let (compiled, stop) = (self.compiled.as_ref(), watch.stop);
+        let compiled = self.compiled.as_ref();
         let motion = || self.system.steps(self.grid, compiled).ok();
         let (width, state, length) = (layout.width(), layout.state(), states.length());
         let advance = |motion: &mut Option<Motion<'_>>, ((ways, block), rows): Piece<'_>| {
@@ -540,23 +560,23 @@ impl<'a> Engine<'a> {
             let lanes = ways.iter_mut().zip(own()).zip(&parameters).enumerate();
             for (lane, ((way, own), parameters)) in lanes {
                 let folded = folded.next().transpose();
-                if way.stopped.is_some() {
+                if way.is_some() {
                     continue;
                 }
                 match folded {
                     Ok(folded) => {
                         motion.vary(parameters, folded);
-                        let march = March { motion, stop };
+                        let march = March { motion, stop: watch.stop, overall };
                         let mut state = march.state(block, lane);
                         march.follow(way, &mut state, course);
-                        March::put(block, lane, &state);
+                        into_lane(block, lane, state.parts());
                     }
                     Err(error) => {
                         let values = layout.parameters.iter().zip(own);
                         let values: Vec<String> =
                             values.map(|(name, x)| format!("{name} = {}", shortest(*x))).collect();
                         let why = format!("with {}: {error}", values.join(", "));
-                        way.stopped = Some((0, why));
+                        stop(way, Some((0, why)));
                     }
                 }
             }
@@ -577,12 +597,7 @@ impl<'a> Engine<'a> {
 }
 
 /// Some rows: what is known of each, their states, and their values.
-type Piece<'a> = ((&'a mut [Way], &'a mut [f64]), &'a [f64]);
-
-/// Each g and μ of this many states, one after the other.
-fn parts(states: &[f64], element: usize, rows: usize) -> Vec<[&[f64]; 2]> {
-    states.chunks_exact(states.len() / rows).map(|state| state.split_at(element).into()).collect()
-}
+type Piece<'a> = ((&'a mut Ways, &'a mut [f64]), &'a [f64]);
 
 /// Rows with parameters of their own that are followed to their ends before the next.
 const ROWS: usize = 4096;

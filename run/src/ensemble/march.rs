@@ -2,29 +2,58 @@
 
 use std::array::from_fn;
 use std::collections::BTreeSet;
-use std::mem::take;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::Duration;
 
 use coadjoint::LieGroup;
-use coadjoint_native::cards::{Card, DeviceError, Refused, Row};
-use coadjoint_program::states::{States, into_lane, of_lane};
-use coadjoint_program::{Precision, WIDTH};
+use coadjoint_native::cards::{Card, DeviceError, ENDED, Refused};
+use coadjoint_program::states::{States, abreast, into_lane, of_lane};
+use coadjoint_program::{Evaluation, Precision, WIDTH};
 use rayon::prelude::*;
 
 use super::course::Course;
-use crate::engine::{Motion, Numbers};
-use crate::number::maximum;
+use crate::engine::{Compiled, Motion, Numbers};
 use crate::simulate::Stop;
 
 /// Steps that all trajectories make before the next: each is then about as far, and what is told of it is true.
 pub(super) const STRETCH: u64 = 256;
 
-/// The motion of a row, and its limits.
+/// The motion of rows, and its limits.
 pub(super) struct March<'a, 's> {
     /// Makes them, and is asked for the ratio of the series after each stretch.
     pub motion: &'a Motion<'s>,
     /// Stops all rows once it is set.
     pub stop: &'a AtomicBool,
+    /// Is told of all rows.
+    pub overall: &'a Overall,
+}
+
+/// Findings about all trajectories together.
+#[derive(Debug, Default)]
+pub(super) struct Overall {
+    /// The largest ratio, as bits, which are ordered as numbers that are not negative, with NaN above all.
+    ratio: AtomicU64,
+    /// The steps that the generic solver made.
+    rescued: AtomicU64,
+}
+
+impl Overall {
+    /// The largest ratio.
+    pub(super) fn ratio(&self) -> f64 {
+        f64::from_bits(self.ratio.load(Ordering::Relaxed))
+    }
+
+    /// The steps that the generic solver made.
+    pub(super) fn rescued(&self) -> u64 {
+        self.rescued.load(Ordering::Relaxed)
+    }
+
+    fn raise(&self, ratio: f64) {
+        // Most are not larger, and need not be written.
+        if self.ratio.load(Ordering::Relaxed) < ratio.to_bits() {
+            self.ratio.fetch_max(ratio.to_bits(), Ordering::Relaxed);
+        }
+    }
 }
 
 /// A trajectory on its way: what is known of it beside its state.
@@ -33,19 +62,30 @@ pub(super) struct Way {
     /// The number of the step that could not be made, from 1, and why: the state is the one before it; 0 where the row itself
     /// is at fault, and there is no state.
     pub stopped: Option<(u64, String)>,
-    /// The largest ratio seen.
-    pub ratio: f64,
-    /// The steps that the generic solver made.
-    pub rescued: u64,
     /// The states kept on the way.
     pub kept: Vec<Numbers>,
 }
 
-impl Way {
-    /// True if there is a state.
-    fn has_state(&self) -> bool {
-        self.stopped.as_ref().is_none_or(|(step, _)| *step > 0)
+/// Trajectories on their ways; most have nothing to say.
+pub(super) type Ways = [Option<Box<Way>>];
+
+/// True if a trajectory moves no further.
+fn is_stopped(way: &Option<Box<Way>>) -> bool {
+    way.as_ref().is_some_and(|way| way.stopped.is_some())
+}
+
+/// Stops a trajectory, unless it has stopped before.
+pub(super) fn stop(way: &mut Option<Box<Way>>, stopped: Option<(u64, String)>) {
+    if let Some(stopped) = stopped {
+        way.get_or_insert_default().stopped.get_or_insert(stopped);
     }
+}
+
+/// Puts the elements of a block onto the group.
+fn settle(settled: &mut Evaluation<'_, WIDTH>, block: &mut [f64]) {
+    settled.run(|i| abreast(block, i));
+    let places = block.as_chunks_mut().0.iter_mut();
+    places.zip(settled.results()).for_each(|(place, numbers)| *place = numbers);
 }
 
 impl March<'_, '_> {
@@ -61,39 +101,29 @@ impl March<'_, '_> {
         Numbers { g, mu: numbers.collect() }
     }
 
-    /// Puts a state into a lane of a block.
-    pub(super) fn put(block: &mut [f64], lane: usize, state: &Numbers) {
-        into_lane(block, lane, state.g.iter().chain(&state.mu).copied());
-    }
-
-    /// Takes the ratios of where the trajectories of a block are into account.
-    pub(super) fn look(&self, ways: &mut [Way], block: &[f64]) {
-        let own = &block[self.element(block) * WIDTH..];
-        let dim = own.len() / WIDTH;
-        let lanes: Vec<usize> = (0..ways.len()).filter(|&lane| ways[lane].has_state()).collect();
-        let momenta: Vec<f64> = lanes.iter().flat_map(|&lane| of_lane(own, lane)).collect();
-        let momenta: Vec<&[f64]> = momenta.chunks_exact(dim).collect();
-        let ratios = self.motion.ratios(&momenta);
-        for (lane, ratio) in lanes.into_iter().zip(ratios) {
-            ways[lane].ratio = maximum(ways[lane].ratio, ratio);
-        }
+    /// Takes the ratios of where the trajectories of a block are into account. There are none without a state.
+    pub(super) fn look(&self, block: &[f64]) {
+        let momenta = &block[self.element(block) * WIDTH..];
+        self.overall.raise(self.motion.largest_ratio((momenta, WIDTH)));
     }
 
     /// Takes the ratio of where a trajectory is into account.
-    fn look_at(&self, way: &mut Way, state: &Numbers) {
-        way.ratio = maximum(way.ratio, self.motion.ratio(&state.mu));
+    fn look_at(&self, state: &Numbers) {
+        self.overall.raise(self.motion.ratio(&state.mu));
     }
 
     /// Makes steps `first` to `end` of a trajectory by itself.
-    fn alone(&self, way: &mut Way, state: &mut Numbers, first: u64, end: u64) {
+    fn alone(&self, way: &mut Option<Box<Way>>, state: &mut Numbers, first: u64, end: u64) {
         let made = self.motion.advance(state, first, end - first);
-        way.rescued += made.as_ref().ok().and_then(|solves| *solves).map_or(0, |own| own.rescued);
-        way.stopped = made.err().map(|(done, error)| (first + done + 1, error.to_string()));
+        if let Some(solves) = made.as_ref().ok().and_then(|solves| *solves) {
+            self.overall.rescued.fetch_add(solves.rescued, Ordering::Relaxed);
+        }
+        stop(way, made.err().map(|(done, error)| (first + done + 1, error.to_string())));
     }
 
     /// Makes steps `first` to `end` of the trajectories of a block side by side. A trajectory goes alone from the step on
     /// that it cannot make with the others, so that none depends on its neighbours.
-    fn abreast(&self, ways: &mut [Way], block: &mut [f64], first: u64, end: u64) {
+    fn abreast(&self, ways: &mut Ways, block: &mut [f64], first: u64, end: u64) {
         if self.stop.load(Ordering::Relaxed) {
             return;
         }
@@ -102,24 +132,24 @@ impl March<'_, '_> {
         let whole = self.motion.divided(first) != Some(first);
         if let Some(compiled) = self.motion.lanes().filter(|_| whole) {
             let (g, mu) = block.split_at_mut(self.element(block) * WIDTH);
-            let live = from_fn(|lane| ways.get(lane).is_some_and(|w| w.stopped.is_none()));
+            let live = from_fn(|lane| ways.get(lane).is_some_and(|way| !is_stopped(way)));
             let (start, steps) = (self.motion.grid().start, [first, end - first]);
             made = compiled.advance_lanes(g, mu, start, steps, live);
         }
         for (lane, (way, made)) in ways.iter_mut().zip(made).enumerate() {
-            if way.stopped.is_none() && first + made < end {
+            if first + made < end && !is_stopped(way) {
                 let mut state = self.state(block, lane);
                 self.alone(way, &mut state, first + made, end);
-                Self::put(block, lane, &state);
+                into_lane(block, lane, state.parts());
             }
         }
-        self.look(ways, block);
+        self.look(block);
     }
 
     /// Makes steps `first` to `end` of all trajectories, a stretch of each before the next, which is then told to `told`.
     pub(super) fn march(
         &self,
-        ways: &mut [Way],
+        ways: &mut Ways,
         states: &mut States,
         first: u64,
         end: u64,
@@ -144,9 +174,9 @@ impl March<'_, '_> {
     /// Does something with each trajectory and its state.
     pub(super) fn each(
         &self,
-        ways: &mut [Way],
+        ways: &mut Ways,
         states: &States,
-        act: impl Fn(&mut Way, &dyn Fn() -> Numbers) + Sync,
+        act: impl Fn(&mut Option<Box<Way>>, &dyn Fn() -> Numbers) + Sync,
     ) {
         let length = states.length();
         let blocks = states.blocks().par_chunks(length).zip(ways.par_chunks_mut(WIDTH));
@@ -158,15 +188,15 @@ impl March<'_, '_> {
     }
 
     /// Makes the steps of a row alone, from its start on.
-    pub(super) fn follow(&self, way: &mut Way, state: &mut Numbers, course: &Course) {
+    pub(super) fn follow(&self, way: &mut Option<Box<Way>>, state: &mut Numbers, course: &Course) {
         let stopped = || self.stop.load(Ordering::Relaxed);
-        self.look_at(way, state);
+        self.look_at(state);
         for (first, end, at) in course.legs() {
             let mut done = first;
-            while done < end && way.stopped.is_none() && !stopped() {
+            while done < end && !is_stopped(way) && !stopped() {
                 let next = end.min(done + STRETCH);
                 self.alone(way, state, done, next);
-                self.look_at(way, state);
+                self.look_at(state);
                 done = next;
             }
             if let Some(at) = at {
@@ -179,8 +209,13 @@ impl March<'_, '_> {
     }
 
     /// Keeps the state of a trajectory at this stop, which its whole steps have reached.
-    pub(super) fn keep(&self, way: &mut Way, state: &Numbers, Stop { step, part }: Stop) {
-        if way.stopped.is_some() {
+    pub(super) fn keep(
+        &self,
+        way: &mut Option<Box<Way>>,
+        state: &Numbers,
+        Stop { step, part }: Stop,
+    ) {
+        if is_stopped(way) {
             return;
         }
         let time = self.motion.grid().time(step);
@@ -190,37 +225,39 @@ impl March<'_, '_> {
         };
         let defined = |state: Numbers| self.motion.defined(&state, time + part).map(|()| state);
         match made.and_then(defined) {
-            Ok(state) => way.kept.push(state),
-            Err(error) => way.stopped = Some((step + u64::from(part != 0.0), error.to_string())),
+            Ok(state) => way.get_or_insert_default().kept.push(state),
+            Err(error) => stop(way, Some((step + u64::from(part != 0.0), error.to_string()))),
         }
     }
 
     /// Stops a trajectory whose end, after `steps` steps, is no state in which everything is defined, as runs do.
-    pub(super) fn end(&self, way: &mut Way, state: &Numbers, steps: u64) {
+    pub(super) fn end(&self, way: &mut Option<Box<Way>>, state: &Numbers, steps: u64) {
         let time = self.motion.grid().time(steps);
-        if let (None, Err(error)) = (&way.stopped, self.motion.defined(state, time)) {
-            way.stopped = Some((steps, error.to_string()));
+        if let (false, Err(error)) = (is_stopped(way), self.motion.defined(state, time)) {
+            stop(way, Some((steps, error.to_string())));
         }
     }
 
     /// Moves a trajectory, whose next step was refused elsewhere, from step `made` to step `end`, with the bits that
     /// [`march`](Self::march) gives it: to the end of its stretch alone, then in lanes.
-    fn redo(&self, way: &mut Way, state: &mut Numbers, made: u64, end: u64) {
-        let mut done = end.min(made - made % STRETCH + STRETCH);
-        self.look_at(way, state);
-        self.alone(way, state, made, done);
-        self.look_at(way, state);
+    fn redo(&self, state: &mut Numbers, made: u64, end: u64) -> Option<Box<Way>> {
+        let (mut way, mut done) = (None, end.min(made - made % STRETCH + STRETCH));
+        self.look_at(state);
+        self.alone(&mut way, state, made, done);
+        self.look_at(state);
         let mut block = vec![f64::NAN; (state.g.len() + state.mu.len()) * WIDTH];
-        Self::put(&mut block, 0, state);
-        while done < end && way.stopped.is_none() {
+        into_lane(&mut block, 0, state.parts());
+        while done < end && !is_stopped(&way) {
             let next = end.min(done + STRETCH);
-            self.abreast(std::slice::from_mut(way), &mut block, done, next);
+            self.abreast(std::slice::from_mut(&mut way), &mut block, done, next);
             done = next;
         }
         *state = self.state(&block, 0);
+        way
     }
 
-    /// Makes `steps` steps of all trajectories on a device; how many of them had steps that it refused, which are made here.
+    /// Makes `steps` steps of all trajectories on a device; how many of them had steps that it refused, which are made here, and
+    /// for how long it ran.
     ///
     /// In double precision the states have the bits of [`march`](Self::march). States of single precision are put onto the
     /// group before steps are made here, and at the end.
@@ -230,56 +267,42 @@ impl March<'_, '_> {
     pub(super) fn march_on(
         &self,
         card: &mut Card,
-        ways: &mut [Way],
+        ways: &mut Ways,
         states: &mut States,
         steps: u64,
         told: &dyn Fn(u64),
-    ) -> Result<u64, DeviceError> {
-        let single = card.precision == Precision::Single;
-        let settle = |g: &mut Vec<f64>| {
-            if single {
-                *g = self.motion.space().settled(g);
-            }
+    ) -> Result<(u64, Duration), DeviceError> {
+        let settled = match card.precision {
+            Precision::Double => None,
+            Precision::Single => self.motion.lanes().map(Compiled::settled),
         };
+        let settled = || settled.as_ref().map(|program| Evaluation::new(program, &[]));
         let length = states.length();
-        let ended = |way: &Way| way.stopped.is_some();
-        let row = |(place, way): (usize, &Way)| {
-            let block = &states.blocks()[place / WIDTH * length..][..length];
-            let Numbers { g, mu } = self.state(block, place % WIDTH);
-            Row { g, mu, made: 0, ended: ended(way) }
-        };
-        let mut rows: Vec<Row> =
-            ways.par_iter().enumerate().map(|(i, way)| row((i, way))).collect();
+        let count = |way: &Option<Box<Way>>| if is_stopped(way) { ENDED } else { 0 };
+        let mut made: Vec<u64> = ways.iter().map(count).collect();
         let mut redone = BTreeSet::new();
-        let mut others = |refused: &mut [Refused<'_>], target: u64| {
-            let redo = |Refused { place, row, .. }: &mut Refused<'_>| {
-                let mut way = Way::default();
-                let mut state = Numbers { g: take(&mut row.g), mu: take(&mut row.mu) };
-                settle(&mut state.g);
-                self.redo(&mut way, &mut state, row.made, target);
-                (row.g, row.mu) = (state.g, state.mu);
-                row.ended = ended(&way);
-                row.made = if row.ended { row.made } else { target };
-                (*place, way)
+        let mut others = |states: &mut States, made: &mut [u64], refused: &[Refused], end: u64| {
+            let block = |place: usize| place / WIDTH * length..(place / WIDTH + 1) * length;
+            let redo = |&Refused { place, .. }: &Refused| {
+                let mut own = states.blocks()[block(place)].to_vec();
+                settled().iter_mut().for_each(|settled| settle(settled, &mut own));
+                let mut state = self.state(&own, place % WIDTH);
+                let way = self.redo(&mut state, made[place], end);
+                (place, way, state)
             };
-            let ends: Vec<_> = refused.par_iter_mut().map(redo).collect();
-            for (place, Way { stopped, ratio, rescued, .. }) in ends {
+            let ends: Vec<_> = refused.par_iter().map(redo).collect();
+            for (place, way, state) in ends {
+                into_lane(&mut states.blocks_mut()[block(place)], place % WIDTH, state.parts());
+                made[place] = if is_stopped(&way) { ENDED } else { end };
                 redone.insert(place);
-                ways[place].stopped = stopped;
-                ways[place].ratio = maximum(ways[place].ratio, ratio);
-                ways[place].rescued += rescued;
+                ways[place] = way;
             }
         };
-        card.advance(&mut rows, steps, &mut others, told)?;
-        let blocks = states.blocks_mut().par_chunks_mut(length);
-        let blocks = blocks.zip(rows.par_chunks_mut(WIDTH)).zip(ways.par_chunks_mut(WIDTH));
-        blocks.for_each(|((block, rows), ways)| {
-            for (lane, row) in rows.iter_mut().enumerate() {
-                settle(&mut row.g);
-                into_lane(block, lane, row.g.iter().chain(&row.mu).copied());
-            }
-            self.look(ways, block);
+        let advanced = card.advance(states, &mut made, steps, &mut others, told)?;
+        states.blocks_mut().par_chunks_mut(length).for_each_init(settled, |settled, block| {
+            settled.iter_mut().for_each(|settled| settle(settled, block));
+            self.look(block);
         });
-        Ok(redone.len() as u64)
+        Ok((redone.len() as u64, advanced.running))
     }
 }

@@ -1,7 +1,9 @@
 //! How well the series of a step converges at a momentum.
 
+use std::array::from_fn;
 use std::collections::BTreeMap;
 
+use coadjoint_program::Evaluation;
 use coadjoint_program::fold::FoldError;
 use coadjoint_program::limits::{LARGEST_RATIO, NEGLIGIBLE, RATE_OF_HALF_TURN};
 
@@ -54,24 +56,24 @@ impl Convergence {
         Ok(Converging { slots, quiet })
     }
 
-    /// The larger ratio at each of these μ; 0 where the terms are known to be small, or are no finite numbers: there is no
-    /// step then.
-    pub fn ratios(&self, folded: &Converging, momenta: &[&[f64]]) -> Vec<f64> {
-        let size = |mu: &[f64]| mu.iter().map(|mu| mu * mu).sum::<f64>().sqrt();
-        let mut largest = vec![0.0; momenta.len()];
-        let loud: Vec<usize> =
-            (0..momenta.len()).filter(|&row| size(momenta[row]) > folded.quiet).collect();
-        let mut raise = |program: &Program, rows: &[usize]| {
-            let own: Vec<&[f64]> = rows.iter().map(|&row| momenta[row]).collect();
-            for (&row, ratios) in rows.iter().zip(program.run_rows(&own, &folded.slots)) {
-                let ratios = ratios.into_iter().filter(|ratio| ratio.is_finite());
-                largest[row] = ratios.fold(largest[row], f64::max);
+    /// The largest ratio at L momenta side by side; 0 where the terms are known to be small, or are no finite numbers: there is
+    /// no step then.
+    pub fn ratio<const L: usize>(&self, folded: &Converging, momenta: &[[f64; L]]) -> f64 {
+        let size = |lane: usize| momenta.iter().map(|mu| mu[lane] * mu[lane]).sum::<f64>().sqrt();
+        let loud: [bool; L] = from_fn(|lane| size(lane) > folded.quiet);
+        let mut largest = 0.0;
+        let mut raise = |program: &Program, lanes: [bool; L]| {
+            let mut evaluation = Evaluation::<L>::new(program, &folded.slots);
+            for ratios in evaluation.run(|i| momenta[i]).results() {
+                let own =
+                    ratios.into_iter().zip(lanes).filter(|(ratio, own)| *own && ratio.is_finite());
+                largest = own.fold(largest, |largest, (ratio, _)| f64::max(largest, ratio));
             }
         };
-        raise(&self.terms, &loud);
-        if let Some(rate) = &self.rate {
-            raise(rate, &(0..momenta.len()).collect::<Vec<_>>());
+        if loud.contains(&true) {
+            raise(&self.terms, loud);
         }
+        self.rate.iter().for_each(|rate| raise(rate, [true; L]));
         largest
     }
 }

@@ -67,9 +67,13 @@ pub struct Start {
 impl Scales {
     /// Of a state with this spatial momentum, these sizes of the terms of Casimirs, and this energy with the size of its terms,
     /// which counts where the energy is 0 up to rounding.
-    pub(super) fn new(spatial: &[f64], casimirs: Vec<f64>, [energy, size]: [f64; 2]) -> Self {
+    pub(super) fn new(
+        spatial: impl IntoIterator<Item = f64>,
+        casimirs: Vec<f64>,
+        [energy, size]: [f64; 2],
+    ) -> Self {
         const ROUNDING: f64 = 64.0 * f64::EPSILON;
-        let spatial_momentum = spatial.iter().fold(0.0, |size, j| maximum(size, j.abs()));
+        let spatial_momentum = spatial.into_iter().fold(0.0, |size, j| maximum(size, j.abs()));
         let energy = if energy.abs() > ROUNDING * size { energy.abs() } else { size };
         Self { spatial_momentum, casimirs, energy }
     }
@@ -138,10 +142,13 @@ pub const NUDGE: f64 = 1e-9;
 
 /// Moves each number by 1e-9, relatively, up or down without a pattern.
 pub fn nudge(numbers: &mut [f64]) {
-    for (place, number) in numbers.iter_mut().enumerate() {
-        let up = (place as u32 + 1).wrapping_mul(0x9e37_79b9).count_ones().is_multiple_of(2);
-        *number *= if up { 1.0 + NUDGE } else { 1.0 - NUDGE };
-    }
+    numbers.iter_mut().enumerate().for_each(|(place, number)| *number *= nudged(place));
+}
+
+/// The factor by which [`nudge`] moves the number in this place.
+pub(super) fn nudged(place: usize) -> f64 {
+    let up = (place as u32 + 1).wrapping_mul(0x9e37_79b9).count_ones().is_multiple_of(2);
+    if up { 1.0 + NUDGE } else { 1.0 - NUDGE }
 }
 
 fn relative(difference: f64, scale: f64) -> f64 {
@@ -159,7 +166,7 @@ mod tests {
 
     #[test]
     fn what_is_unknown_has_no_drift_and_nan_stays() {
-        let scales = Scales::new(&[3.0, -4.0], Vec::new(), [0.0; 2]);
+        let scales = Scales::new([3.0, -4.0], Vec::new(), [0.0; 2]);
         let start = Start { conserved: vec![3.0, -4.0], momenta: 2, scales };
         let mut drift = start.drift(&[3.0, -4.5]);
         assert_eq!(drift, Drift { spatial_momentum: Some(0.125), ..Drift::default() });
@@ -172,7 +179,7 @@ mod tests {
 
     #[test]
     fn energies_are_compared_with_their_terms_where_they_are_zero_to_rounding() {
-        let scale = |energy: f64, size: f64| Scales::new(&[], Vec::new(), [energy, size]).energy;
+        let scale = |energy: f64, size: f64| Scales::new([], Vec::new(), [energy, size]).energy;
         assert_eq!(scale(-0.0475, 1.4525), 0.0475);
         assert_eq!(scale(1e-17, 1.5), 1.5);
         assert_eq!(scale(0.0, 0.0), 0.0);

@@ -36,12 +36,12 @@ pub struct Invariants {
     pub potential: bool,
     /// The Hamiltonian, where it is a function of the user's.
     given: Option<Given>,
-    dim: usize,
+    pub(super) dim: usize,
     /// J_L (n), μ (n), the matrix of g ↦ the conserved ⟨J_L, ξ⟩, the Casimirs, the energy.
-    values: Program,
+    pub(super) values: Program,
     /// The same inputs ↦ the sums of the absolute values of the terms of each Casimir and of the energy; of functions that are no
     /// polynomials the absolute value.
-    sizes: Program,
+    pub(super) sizes: Program,
     symbols: Vec<f64>,
 }
 
@@ -101,19 +101,6 @@ impl Invariants {
         }
     }
 
-    /// These without the energy.
-    #[must_use]
-    pub fn without_energy(self) -> Self {
-        let last = usize::from(self.energy);
-        let without = |program: &Program| {
-            let graph = Graph::new();
-            let outputs = graph.call(program, &inputs(&graph, 0, program.inputs()));
-            graph.finish(program.inputs(), &outputs[..outputs.len() - last])
-        };
-        let (values, sizes) = (without(&self.values), without(&self.sizes));
-        Self { energy: false, given: None, values, sizes, ..self }
-    }
-
     /// The number of components of the spatial momentum that are conserved.
     pub fn momenta(&self) -> usize {
         self.directions.as_ref().map_or(self.dim, Vec::len)
@@ -136,39 +123,19 @@ impl Invariants {
 
     /// The sizes of what the Casimirs and the energy at a state are sums of.
     pub fn sizes(&self, time: f64, state: Seen<'_>) -> (Vec<f64>, Option<f64>) {
-        self.parted(self.evaluate(&self.sizes, time, &[state]))
-    }
-
-    /// The sizes of the terms of the Casimirs, and of the energy where there is one.
-    fn parted(&self, mut sizes: Vec<f64>) -> (Vec<f64>, Option<f64>) {
+        let mut sizes = self.evaluate(&self.sizes, time, &[state]);
         let energy = if self.energy { sizes.pop() } else { None };
         (sizes, energy.map(f64::abs))
     }
 
     /// The start of a run from that state.
     pub fn start(&self, time: f64, state: Seen<'_>) -> Start {
-        self.starts(time, &[state]).next().unwrap_or_default()
-    }
-
-    /// The starts of runs from these states.
-    pub fn starts<'a>(
-        &'a self,
-        time: f64,
-        states: &'a [Seen<'_>],
-    ) -> impl Iterator<Item = Start> + 'a {
-        let conserved = self.conserved(time, states);
-        let sizes = self.evaluate(&self.sizes, time, states);
-        let row = |list: &[f64], program: &Program, at: usize| {
-            let width = program.outputs().len();
-            list[at * width..][..width].to_vec()
-        };
-        states.iter().enumerate().map(move |(at, state)| {
-            let conserved = row(&conserved, &self.values, at);
-            let (casimirs, energy) = self.parted(row(&sizes, &self.sizes, at));
-            let known = self.energy_of(&conserved).unwrap_or(0.0);
-            let scales = Scales::new(state.spatial, casimirs, [known, energy.unwrap_or(0.0)]);
-            Start { momenta: self.momenta(), conserved, scales }
-        })
+        let conserved = self.conserved(time, &[state]);
+        let (casimirs, energy) = self.sizes(time, state);
+        let known = self.energy_of(&conserved).unwrap_or(0.0);
+        let energies = [known, energy.unwrap_or(0.0)];
+        let scales = Scales::new(state.spatial.iter().copied(), casimirs, energies);
+        Start { momenta: self.momenta(), conserved, scales }
     }
 
     /// The outputs of a program for each state, one state after the other.

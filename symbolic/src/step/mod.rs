@@ -46,7 +46,7 @@ pub(crate) use error::MOST_OF_TABLES;
 pub use error::StepError;
 pub use invariants::{Invariants, Seen};
 #[cfg(feature = "spatial")]
-pub use observation::Observation;
+pub use observation::{DriftGauge, DriftPrograms, Observation};
 pub use origin::Origin;
 pub use tangent::{Differentiated, Tangent};
 
@@ -263,6 +263,16 @@ impl Step {
     /// element's numbers, and how many rows it has.
     pub fn inverted(&self) -> Vec<(usize, usize)> {
         self.group.inverted()
+    }
+
+    /// g ↦ the numbers of the element that it is up to rounding, put onto the group as products are.
+    pub fn settled(&self) -> Program {
+        let (n, m, graph) = (self.group.dim(), self.group.element(), Graph::new());
+        let nothing = vec![graph.zero(); n];
+        let product = |g: Vec<Id>| self.group.transport(&graph, &g, &nothing, &nothing).g;
+        // To first order each.
+        let outputs = product(product((0..m).map(|i| graph.input(i)).collect()));
+        graph.finish(m, &outputs)
     }
 
     /// A description of the numbers of a group element; those of factors one after the other.

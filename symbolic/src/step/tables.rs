@@ -400,7 +400,8 @@ impl Part for Tables {
     }
 
     fn spatial(&self, graph: &Graph, g: &[Id], back: &[Id], mu: &[Id]) -> Vec<Id> {
-        let (g, back) = (self.square(g), self.square(back));
+        let g = self.square(g);
+        let back = if self.orthogonal { g.transposed() } else { self.square(back) };
         if self.dual.is_empty() {
             // Elements are adjoint matrices.
             return back.transposed().apply(graph, mu);
@@ -410,7 +411,7 @@ impl Part for Tables {
     }
 
     fn inverted(&self) -> Vec<(usize, usize)> {
-        vec![(0, self.size)]
+        if self.orthogonal { Vec::new() } else { vec![(0, self.size)] }
     }
 
     fn extent(&self, graph: &Graph, x: &[Id]) -> Id {

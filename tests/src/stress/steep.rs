@@ -3,7 +3,7 @@
 
 use coadjoint::collocation::{Collocation, Energy};
 use coadjoint::groups::{Coordinates, MatrixGroup, SL2};
-use coadjoint::{LieGroup, SE3, SO3};
+use coadjoint::{LieGroup, Phase, SE3, SO3};
 
 use super::family::Family;
 use super::flow::{DRAWS, Generic, Trial};

@@ -9,13 +9,26 @@ use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::step::{Origin, Step, StepError};
 use coadjoint_codegen::system::{Options, read};
 use coadjoint_native::cards::{
-    Advanced, Api, Card, Device, DeviceError, Refused, Row, Status, compile,
+    Advanced, Api, Card, Device, DeviceError, ENDED, Refused, Status, compile,
 };
 use coadjoint_program::print::{DeviceLanguage, device_unit};
-use coadjoint_program::{Function, Graph, Id, Kernel, KernelParts, Precision, Programs, Stepper};
+use coadjoint_program::states::{States, into_lane, of_lane};
+use coadjoint_program::{
+    Function, Graph, Id, Kernel, KernelParts, Precision, Programs, Stepper, WIDTH,
+};
 use coadjoint_tests::kernels::{smooth, unlimited};
 use coadjoint_tests::sources::golden;
 use nalgebra::DMatrix;
+
+/// A state on its way.
+#[derive(Clone, Debug, Default)]
+struct OnDevice {
+    g: Vec<f64>,
+    mu: Vec<f64>,
+    made: u64,
+    /// True if it moves no further.
+    ended: bool,
+}
 
 /// A step with its folded coefficients.
 struct Ready {
@@ -36,7 +49,7 @@ impl Ready {
     }
 
     /// The steps that the interpreter makes of these.
-    fn alone(&self, row: &mut Row, steps: u64) -> u64 {
+    fn alone(&self, row: &mut OnDevice, steps: u64) -> u64 {
         let (kernel, mut slots) = (self.kernel(), self.slots.clone());
         if !self.step.moves() {
             return kernel.advance(&slots, &mut row.g, &mut row.mu, steps).steps;
@@ -49,14 +62,14 @@ impl Ready {
     }
 
     /// Rows of which the last but one is driven far too hard, and the last is no state.
-    fn rows(&self, count: usize) -> Vec<Row> {
+    fn rows(&self, count: usize) -> Vec<OnDevice> {
         let row = |r: usize| {
             let size = if r + 2 == count { 1e8 } else { 0.4 + 0.5 * (r as f64 * 0.37).sin() };
             let mut mu = momentum(self.kernel().dim, size, r);
             if r + 1 == count {
                 mu[0] = f64::NAN;
             }
-            Row { g: self.identity(), mu, made: 0, ended: false }
+            OnDevice { g: self.identity(), mu, made: 0, ended: false }
         };
         (0..count).map(row).collect()
     }
@@ -149,16 +162,52 @@ fn bits(list: &[f64]) -> Vec<u64> {
     list.iter().map(|value| value.to_bits()).collect()
 }
 
-/// Moves rows on the device; what it refuses ends there.
-fn moved(card: &mut Card, rows: &mut [Row], steps: u64) -> (Advanced, Vec<Status>) {
-    let mut why = Vec::new();
-    let mut redo = |refused: &mut [Refused<'_>], _: u64| {
-        for one in refused {
-            one.row.ended = true;
-            why.push(one.why);
+/// Moves rows on the device; `redo` gets each that it refuses, why, and the step to move it to.
+fn driven_on(
+    card: &mut Card,
+    rows: &mut [OnDevice],
+    steps: u64,
+    mut redo: impl FnMut(&mut OnDevice, Status, u64),
+) -> Advanced {
+    let [element, dim] = rows.first().map_or([0; 2], |row| [row.g.len(), row.mu.len()]);
+    let mut states = States::new(element, dim, rows.len());
+    let block = |place: usize| place / WIDTH * (element + dim) * WIDTH;
+    let put = |states: &mut States, place: usize, row: &OnDevice| {
+        let own = &mut states.blocks_mut()[block(place)..];
+        into_lane(own, place % WIDTH, [&row.g, &row.mu]);
+    };
+    let get = |states: &States, place: usize, row: &mut OnDevice| {
+        let mut numbers = of_lane(&states.blocks()[block(place)..], place % WIDTH);
+        row.g.iter_mut().chain(&mut row.mu).zip(&mut numbers).for_each(|(own, now)| *own = now);
+    };
+    rows.iter().enumerate().for_each(|(place, row)| put(&mut states, place, row));
+    let count = |row: &OnDevice| if row.ended { ENDED } else { row.made };
+    let mut made: Vec<u64> = rows.iter().map(count).collect();
+    let mut others = |states: &mut States, made: &mut [u64], refused: &[Refused], target: u64| {
+        for &Refused { place, why } in refused {
+            let row = &mut rows[place];
+            get(states, place, row);
+            row.made = made[place];
+            redo(row, why, target);
+            put(states, place, row);
+            made[place] = count(row);
         }
     };
-    let advanced = card.advance(rows, steps, &mut redo, &|_| {}).unwrap();
+    let advanced = card.advance(&mut states, &mut made, steps, &mut others, &|_| {}).unwrap();
+    for (place, row) in rows.iter_mut().enumerate() {
+        get(&states, place, row);
+        row.made = if row.ended { row.made } else { made[place] };
+    }
+    advanced
+}
+
+/// Moves rows on the device; what it refuses ends there.
+fn moved(card: &mut Card, rows: &mut [OnDevice], steps: u64) -> (Advanced, Vec<Status>) {
+    let mut why = Vec::new();
+    let advanced = driven_on(card, rows, steps, |row, reason, _| {
+        row.ended = true;
+        why.push(reason);
+    });
     (advanced, why)
 }
 
@@ -274,9 +323,9 @@ fn functions_on_a_device_have_the_bits_of_the_interpreter() {
     let Some(mut card) = opened(Card::new(device, &kernel, &[]), "functions") else { return };
     let row = |r: usize| {
         let size = 2_f64.powi(r as i32 % 40 - 20);
-        Row { g: vec![0.0; 9], mu: momentum(1, size, r), made: 0, ended: false }
+        OnDevice { g: vec![0.0; 9], mu: momentum(1, size, r), made: 0, ended: false }
     };
-    let mut rows: Vec<Row> = (0..500).map(row).collect();
+    let mut rows: Vec<OnDevice> = (0..500).map(row).collect();
     let before = rows.clone();
     moved(&mut card, &mut rows, 3);
     // Which of the many NaNs comes out is left open by IEEE 754.
@@ -296,7 +345,8 @@ fn functions_on_a_device_have_the_bits_of_the_interpreter() {
 fn a_device_says_why_a_step_is_refused() {
     let ready = ready(RIGID_BODY, 7, 0.1, Precision::Double);
     let Some(mut card) = card(&ready) else { return };
-    let start = |mu: [f64; 3], g: [f64; 4]| Row { g: g.into(), mu: mu.into(), ..Row::default() };
+    let start =
+        |mu: [f64; 3], g: [f64; 4]| OnDevice { g: g.into(), mu: mu.into(), ..OnDevice::default() };
     let one = [1.0, 0.0, 0.0, 0.0];
     let mut rows = vec![
         start([0.3, 0.1, 0.2], one),
@@ -326,15 +376,11 @@ fn refused_rows_are_moved_by_the_caller_and_go_on() {
     let mut rows = ready.rows(20);
     let mut seen = Vec::new();
     // The state that the device could not move is put back to a good one.
-    let mut redo = |refused: &mut [Refused<'_>], target: u64| {
-        for Refused { place, row, .. } in refused {
-            assert!(*place >= 18);
-            row.mu = vec![0.1, 0.2, 0.3];
-            row.made = target;
-            seen.push(target);
-        }
-    };
-    let advanced = card.advance(&mut rows, 2000, &mut redo, &|_| {}).unwrap();
+    let advanced = driven_on(&mut card, &mut rows, 2000, |row, _, target| {
+        row.mu = vec![0.1, 0.2, 0.3];
+        row.made = target;
+        seen.push(target);
+    });
     assert_eq!((seen.as_slice(), advanced.refused), (&[256, 256][..], 2));
     assert!(rows.iter().all(|row| row.made == 2000 && !row.ended));
     let (mut g, mut mu) = (ready.identity(), vec![0.1, 0.2, 0.3]);
@@ -381,7 +427,7 @@ fn single_precision_keeps_the_laws_to_its_rounding() {
         let mut rows = start.clone();
         let (_, why) = moved(&mut card, &mut rows, steps);
         assert_eq!(why, [], "{name}");
-        let watched = |row: &Row| double.kernel().watch(&double.slots, &row.g, &row.mu);
+        let watched = |row: &OnDevice| double.kernel().watch(&double.slots, &row.g, &row.mu);
         // Roundings of a random walk, fifteen deviations wide; a matrix of a group by tables multiplies them.
         let kept = 15.0 * u * (steps as f64).sqrt() * n as f64;
         for (row, before) in rows.iter().zip(&start) {
@@ -393,7 +439,8 @@ fn single_precision_keeps_the_laws_to_its_rounding() {
         let mut rows = start.clone();
         let steps = 100;
         moved(&mut card, &mut rows, steps);
-        let farthest = |row: &Row| row.g.iter().chain(&row.mu).fold(1.0_f64, |a, b| a.max(b.abs()));
+        let farthest =
+            |row: &OnDevice| row.g.iter().chain(&row.mu).fold(1.0_f64, |a, b| a.max(b.abs()));
         let sizes: Vec<f64> = rows.iter().map(farthest).collect();
         for row in &mut rows {
             row.made = 0;
