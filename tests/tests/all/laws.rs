@@ -101,7 +101,7 @@ impl Subject {
         let polynomials = SYSTEMS.into_iter().filter(|(_, h)| !h.ends_with("9*g"));
         let others = [
             ("SO3", "sqrt(1 + a^2/2 + b^2/3 + c^2/5) + exp(b/3)"),
-            ("SO3", "sqrt(1 + a^2/2 + b^2/3 + c^2/5) + cos(3*t)*a/3 + sin(2*t)*b^2/4"),
+            ("SO3", "sqrt(1 + a^2/2 + b^2/3 + c^2/5) + cos(t)*a/5 + sin(2*t)*b/7"),
             ("SE3", "ln(2 + a^2 + b^2/2) + cos(c)/3 + (3 + d^2)^(2/3) + atan(e)*f"),
         ];
         let smooth = polynomials.chain(others).map(|(g, h)| Self::by_collocation(g, h, truncation));
@@ -176,7 +176,9 @@ fn order_holds(subject: &Subject, random: &mut Random) {
     });
     let order = order.unwrap_or_else(|| panic!("{name}: no order seen"));
     let expected = subject.order as f64;
-    assert!((order - expected).abs() < 0.3, "{name}: order {order:.2}, not {expected}");
+    // Few steps of order 8 lie between those refused and rounding.
+    let within = if subject.order < 8 { 0.3 } else { 0.4 };
+    assert!((order - expected).abs() < within, "{name}: order {order:.2}, not {expected}");
 }
 
 fn obey_the_laws(truncation: usize) {

@@ -107,7 +107,7 @@ impl Outcome<'_> {
         let folder = self.existing(file)?;
         if file.ends_with(".npy") {
             let (shape, numbers) = array(&folder.at(file)).map_err(|error| error.to_string())?;
-            let width = shape.last().map_or(1, |width| (*width as usize).max(1));
+            let width = shape.last().map_or(1, |width| (*width).max(1));
             let row = |row: &[f64]| row.iter().map(|x| Value::from(*x)).collect();
             return Ok(numbers.chunks(width).map(row).collect());
         }
