@@ -81,7 +81,8 @@ def _steps(run: Run) -> list[int]:
 
 def _samples(run: Run, names: Iterable[str]) -> dict[str, int]:
     """The numbers of samples of these inputs."""
-    known = dict(run._source._core.inputs())
+    core: Any = run._source._core
+    known = dict(core.inputs())
     wanted = [_arrays.text(name, "inputs") for name in names]
     for name in wanted:
         if known.get(name, 0) == 0:
