@@ -363,9 +363,8 @@ impl Pass<'_> {
                      values under [inputs], with hold = \"previous\" where it jumps",
                 ),
             };
-            let name = function.name();
-            let message =
-                format!("`{name}` of the {of} has a kink: the Hamiltonian must be smooth");
+            let name = if function == Function::Abs { "`abs`" } else { "`sign`, `min` or `max`" };
+            let message = format!("{name} of the {of} has a kink: the Hamiltonian must be smooth");
             self.diagnostics.report_other(span, &message, help);
             return None;
         }
