@@ -50,6 +50,9 @@ impl Instance {
 /// Makes steps from the algebra, the terms of S, and the step size that these have been folded for.
 pub type Maker = fn(&LieAlgebra, Terms, f64, &mut Random) -> Option<Instance>;
 
+/// Makes the steps of a seed and counts how they were judged.
+type Judged = Box<dyn Fn(u64, &mut Tally) + Send + Sync>;
+
 pub struct Family {
     pub name: String,
     pub models: Vec<Model>,
@@ -60,7 +63,7 @@ pub struct Family {
     /// Whether all momenta are of those whose steps must be accepted.
     pub promise: bool,
     /// Makes and judges the steps of a seed, where they are those of no generating function.
-    pub instance: Option<Box<dyn Fn(u64, &mut Tally) + Send + Sync>>,
+    pub instance: Option<Judged>,
 }
 
 impl Family {
