@@ -112,9 +112,20 @@ def test_functions_that_sympy_has_and_a_system_has_not() -> None:
     sympy = pytest.importorskip("sympy")
     x, y, z, t = sympy.symbols("x y z t")
     for energy, said in [
-        (sympy.Heaviside(t - 1) * z, "a function of the time alone may be an input"),
+        (sympy.gamma(t + 1) * z, "a function of the time alone may be an input"),
+        (sympy.Heaviside(t - 1) * z, "`sign`, `min` or `max` of the time has a kink"),
         (sympy.Abs(t - 1) * z + x**2, "`abs` of the time has a kink"),
-        (sympy.atan2(y, x), "has a function that is not known here"),
+        (sympy.gamma(x + 3), "has a function that is not known here"),
     ]:
         with pytest.raises(InputError, match=said):
             ca.System("SU2", energy, coordinates=[x, y, z]).simulate([0, 0, 1], time=2, step=0.1)
+    known = {
+        sympy.sech(t) * z + sympy.cosh(x / 4): "z/cosh(t) + cosh(x/4)",
+        sympy.atan2(y, x + 9): "atan2(y, x + 9)",
+        sympy.Max(-3, sympy.Min(z, 5, 9)) * 0 + sympy.asin(x / 9): "asin(x/9)",
+    }
+    for energy, text in known.items():
+        found, right = (
+            ca.System("SU2", either, coordinates="x y z").simulate([0.3, 0.2, 1], time=1, step=0.1).final_momentum for either in (energy, text)
+        )
+        assert abs(found - right).max() < 1e-13
