@@ -1,6 +1,6 @@
 //! Emitted code, compiled and run against the interpreter.
 
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 use coadjoint::groups::{Heisenberg, Power, Product, SE2, SL2, SU2};
 use coadjoint::nalgebra::{SVector, Vector3};
@@ -273,18 +273,22 @@ fn a_group_given_by_tables_keeps_momentum_and_steps_in_time() -> Result<(), Step
     Ok(())
 }
 
-/// Steps too long for the programs are made by the runtime, which is given the velocity and the torque too.
+/// A step too long for the programs is left to the runtime, which is given the velocity and the torque too: it refuses the step with a
+/// size that works, and the state stays.
 #[test]
 fn emitted_drives_are_those_of_the_file_in_steps_that_programs_refuse() -> Result<(), StepError> {
-    let mut start = Phase::<SE3>::at_identity([3.0, -2.0, 4.0, 0.3, 0.2, -0.1]);
+    let mut state = Phase::<SE3>::at_identity([3.0, -2.0, 4.0, 0.3, 0.2, -0.1]);
     let fine = driven_vehicle::DrivenVehicle::new(0.01, 0.2)?;
-    fine.advance_by(&mut start, 0.5, 40)?;
-    let (mut refused, mut exact) = (start.clone(), start);
-    let step = driven_vehicle::DrivenVehicle::new(0.6, 0.2)?;
-    let report = step.advance(&mut refused, 0.9)?;
+    fine.advance_by(&mut state, 0.5, 40)?;
+    let (start, mut exact) = (state.clone(), state.clone());
+    let refused = driven_vehicle::DrivenVehicle::new(0.6, 0.2)?.advance(&mut state, 0.9);
+    let Err(StepError::Unresolved { at, .. }) = refused else { panic!("{refused:?}") };
+    assert_eq!(at.usable_step, Some(0.3));
+    assert_eq!(state.momentum, start.momentum);
+    driven_vehicle::DrivenVehicle::new(0.3, 0.2)?.advance_by(&mut state, 0.9, 2)?;
     fine.advance_by(&mut exact, 0.9, 60)?;
-    let off = (refused.momentum - exact.momentum).amax();
-    assert!(off < 1e-3 && report.iterations > 4, "{off:e} {report:?}");
+    let off = (state.momentum - exact.momentum).amax();
+    assert!(off < 1e-3, "{off:e}");
     Ok(())
 }
 
