@@ -42,6 +42,8 @@ impl Stepper for Kernel {
 /// A step as it was solved for, accepted or not.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attempt {
+    /// p, the numbers that were solved for.
+    pub unknowns: Vec<f64>,
     /// x, the increment.
     pub increment: Vec<f64>,
     /// A bound on the residual of the equation, relative to the largest coordinate of μ.
@@ -55,13 +57,20 @@ pub struct Attempt {
 impl Kernel {
     /// The solution of the equation of the step from μ, by the interpreter; refused where numbers are missing.
     pub fn attempt(&self, slots: &[f64], mu: &[f64]) -> Attempt {
-        let mut walk = Walk::<1>::new(self, slots, &vec![0.0; self.element], mu);
+        self.attempt_at(slots, &vec![0.0; self.element], mu)
+    }
+
+    /// As [`Kernel::attempt`], from (g, μ).
+    pub fn attempt_at(&self, slots: &[f64], g: &[f64], mu: &[f64]) -> Attempt {
+        let mut walk = Walk::<1>::new(self, slots, g, mu);
         walk.run(1, [true]);
+        let list = |variable| {
+            let numbers = walk.numbers[walk.places.range(variable)].iter();
+            numbers.map(|number| number.0[0]).collect()
+        };
         Attempt {
-            increment: walk.numbers[walk.places.range(Variable::Increment)]
-                .iter()
-                .map(|number| number.0[0])
-                .collect(),
+            unknowns: list(Variable::Guess),
+            increment: list(Variable::Increment),
             residual_bound: walk.number(Variable::ResidualBound).0[0],
             distance: walk.number(Variable::Distance).0[0],
             accepted: !walk.refused,

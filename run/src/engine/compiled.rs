@@ -12,7 +12,6 @@ use coadjoint_codegen::step::{
 use coadjoint_program::fold::FoldError;
 use coadjoint_program::{Kernel, Precision, Program, Trajectories, WIDTH};
 
-use super::linear::{Differential, Linear, slopes};
 use crate::backend::{Backend, Code};
 use crate::error::RunError;
 use crate::grid::Grid;
@@ -343,34 +342,29 @@ impl Compiled {
         self.programs.convergence.get_or_init(|| Convergence::new(integrator))
     }
 
-    /// The derivatives of the coefficients in each parameter.
-    ///
-    /// # Errors
-    /// Fails if one is not finite.
-    pub(super) fn slopes(&self) -> Result<Vec<Vec<f64>>, StepError> {
-        let Folded { size, parameters, .. } = &self.folded;
-        slopes(&self.programs.step, *size, parameters)
+    /// The step.
+    pub(super) fn step(&self) -> &Step {
+        &self.programs.step
     }
 
-    /// The derivative of a step of this origin from this state and time, given the [`slopes`](Compiled::slopes); `None` where there is none.
-    ///
-    /// # Errors
-    /// Fails if two solutions of the step meet.
-    pub(super) fn linear(
-        &self,
-        origin: &Origin,
-        slopes: &[Vec<f64>],
-        state: &Numbers,
-        time: f64,
-    ) -> Result<Option<Linear>, StepError> {
+    /// The size of a step, and the values of the parameters that are kept.
+    pub(super) fn values(&self) -> (f64, &[f64]) {
+        (self.folded.size, &self.folded.parameters)
+    }
+
+    /// The programs of the derivatives of steps of this origin, where there are any.
+    pub(super) fn tangent(&self, origin: &Origin) -> Option<&Tangent> {
         let Programs { step, tangent, .. } = &*self.programs;
-        let tangent = tangent.get_or_init(|| Tangent::new(step, origin).ok()).as_ref();
-        let Some(tangent) = tangent else { return Ok(None) };
+        tangent.get_or_init(|| Tangent::new(step, origin).ok()).as_ref()
+    }
+
+    /// The coefficients of the step from this time.
+    pub(super) fn coefficients_at(&self, time: f64) -> Cow<'_, [f64]> {
         let mut slots = Cow::Borrowed(self.coefficients());
-        if step.moves() {
-            step.set_time(slots.to_mut(), self.folded.size, time);
+        if self.step().moves() {
+            self.step().set_time(slots.to_mut(), self.folded.size, time);
         }
-        Differential::new(step, tangent, &slots, slopes).at(state, [time, self.folded.size])
+        slots
     }
 
     /// The spatial momentum Ad\*_g μ and the matrix of g of each state, one after the other.
@@ -415,13 +409,9 @@ impl Compiled {
 
     /// Makes one step from this time, whatever steps came before; whether the programs accept it. The state is else as it was.
     pub(crate) fn one_at(&self, numbers: &mut Numbers, time: f64) -> bool {
-        let step = &self.programs.step;
-        let mut slots = Cow::Borrowed(self.coefficients());
-        if step.moves() {
-            step.set_time(slots.to_mut(), self.folded.size, time);
-        }
+        let slots = self.coefficients_at(time);
         let mut alone = numbers.clone();
-        step.forget(&mut alone.g);
+        self.forget(&mut alone);
         let Numbers { g, mu } = &mut alone;
         let made = self.code().stepper(self.kernel()).advance(&slots, g, mu, 1).steps == 1;
         if made {

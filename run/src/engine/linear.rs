@@ -12,11 +12,10 @@
 use coadjoint::StepError;
 use coadjoint::steps::Circumstances;
 use coadjoint_codegen::graph::Program;
-use coadjoint_codegen::step::{Differentiated, Step, Tangent};
-use coadjoint_program::Kernel;
+use coadjoint_codegen::step::{Differentiated, Origin, Step, Tangent};
 use nalgebra::{DMatrix, DVector};
 
-use super::compiled::{Numbers, refusal};
+use super::compiled::{Compiled, Numbers, refusal};
 
 /// The derivative of a step, or of several, in the state before it, in the parameters θ, and in the values of inputs that it reads.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,7 +57,7 @@ const ROUNDING: f64 = 1e-13;
 const MOST_HALVINGS: i32 = 64;
 
 /// The programs of the derivative of steps, with the derivatives of coefficients in parameters.
-pub(super) struct Differential<'a> {
+struct Differential<'a> {
     step: &'a Step,
     tangent: &'a Tangent,
     slots: &'a [f64],
@@ -75,15 +74,12 @@ struct Carried {
     nu: DMatrix<f64>,
 }
 
-/// The derivatives of the coefficients of steps of this size in each parameter.
+/// The derivatives of the coefficients of steps in each parameter.
 ///
 /// # Errors
 /// Fails if one is not finite.
-pub(super) fn slopes(
-    step: &Step,
-    size: f64,
-    parameters: &[f64],
-) -> Result<Vec<Vec<f64>>, StepError> {
+pub(super) fn slopes(compiled: &Compiled) -> Result<Vec<Vec<f64>>, StepError> {
+    let (step, (size, parameters)) = (compiled.step(), compiled.values());
     let of = |number: usize| {
         let mut change = vec![0.0; parameters.len()];
         change[number] = 1.0;
@@ -93,71 +89,42 @@ pub(super) fn slopes(
     (0..parameters.len()).map(of).collect()
 }
 
-/// A flow of a kernel from a state: its programs with these coefficients.
-struct Solving<'a> {
-    kernel: &'a Kernel,
-    slots: &'a [f64],
-    state: &'a Numbers,
+/// The derivative of a step of this origin from this state and time, given the [`slopes`]; `None` where there is none.
+///
+/// # Errors
+/// Fails if two solutions of the step meet.
+pub(super) fn linear(
+    compiled: &Compiled,
+    origin: &Origin,
+    slopes: &[Vec<f64>],
+    state: &Numbers,
+    time: f64,
+) -> Result<Option<Linear>, StepError> {
+    let Some(tangent) = compiled.tangent(origin) else { return Ok(None) };
+    let (step, slots) = (compiled.step(), compiled.coefficients_at(time));
+    let differential = Differential { step, tangent, slots: &slots, slopes };
+    differential.at(state, [time, compiled.values().0])
 }
 
-impl Solving<'_> {
-    /// The first guess of z, and the constants of the solve.
-    fn guess(&self) -> [Vec<f64>; 2] {
-        let Self { kernel, slots, state: Numbers { g, mu } } = self;
-        let from = if kernel.guesses_from_element() { [&g[..], mu].concat() } else { mu.clone() };
-        let mut z = kernel.programs.guess.run(&from, slots);
-        let constants = z.split_off(kernel.unknowns);
-        [z, constants]
-    }
-
-    /// The next z after a correction, the solution as a motion reads it, and the bound on the residual with the length of the correction.
-    fn corrected(&self, [z, constants]: [&[f64]; 2]) -> (Vec<f64>, Vec<f64>, [f64; 2]) {
-        let Self { kernel, slots, state } = self;
-        let mut next = kernel.programs.correct.run(&[z, &state.mu, constants].concat(), slots);
-        let mut found = next.split_off(kernel.unknowns);
-        let judged = [0, 1].map(|at| found[kernel.solution + at]);
-        found.truncate(kernel.solution);
-        (next, found, judged)
-    }
-
-    /// z and the solution by the programs; `None` where they do not accept it.
-    fn solution(&self) -> Option<[Vec<f64>; 2]> {
-        let Self { kernel, slots, state } = self;
-        let ([mut z, constants], mut distance) = (self.guess(), 0.0);
-        for _ in 0..kernel.corrections {
-            let (next, found, [bound, moved]) = self.corrected([&z, &constants]);
-            (z, distance) = (next, distance + moved);
-            if bound <= kernel.tolerance {
-                let judged = [&state.mu[..], &found, &[bound, distance]].concat();
-                let accepted = kernel.programs.accept.run(&judged, slots) == [1.0];
-                return accepted.then_some([z, found]);
-            }
-            if distance.is_nan() || distance > kernel.near {
-                return None;
-            }
+/// z of the equations of a flow from this state by Newton's method with their matrix; `None` where it does not converge.
+fn by_newton(tangent: &Tangent, slots: &[f64], Numbers { g, mu }: &Numbers) -> Option<Vec<f64>> {
+    let Tangent { equation, flow, .. } = tangent;
+    let (n, u) = (mu.len(), equation.value.outputs().len() - 2 * mu.len());
+    let from = if flow.guesses_from_element() { [&g[..], mu].concat() } else { mu.clone() };
+    let mut z = flow.programs.guess.run(&from, slots);
+    z.truncate(u);
+    for _ in 0..MOST_CORRECTIONS {
+        let at = [&g[..], &vec![0.0; n], mu, &z].concat();
+        let residual = DVector::from_vec(equation.value.run(&at, slots));
+        let slope = by_inputs(equation, &at, slots, [2 * n, 2 * n + u]);
+        let change = slope.rows(0, u).into_owned().lu().solve(&residual.rows(0, u))?;
+        z.iter_mut().zip(&change).for_each(|(z, change)| *z -= change);
+        let size = z.iter().fold(0.0, |largest: f64, z| largest.max(z.abs()));
+        if change.amax() <= ROUNDING * size {
+            return Some(z);
         }
-        None
     }
-
-    /// z and the solution by Newton's method with the matrix of this equation; `None` where it does not converge.
-    fn by_newton(&self, equation: &Differentiated) -> Option<[Vec<f64>; 2]> {
-        let Numbers { g, mu } = self.state;
-        let (n, u) = (mu.len(), equation.value.outputs().len() - 2 * mu.len());
-        let [mut z, constants] = self.guess();
-        for _ in 0..MOST_CORRECTIONS {
-            let at = [&g[..], &vec![0.0; n], mu, &z[..u]].concat();
-            let residual = DVector::from_vec(equation.value.run(&at, self.slots));
-            let slope = by_inputs(equation, &at, self.slots, [2 * n, 2 * n + u]);
-            let change = slope.rows(0, u).into_owned().lu().solve(&residual.rows(0, u))?;
-            z.iter_mut().zip(&change).for_each(|(z, change)| *z -= change);
-            let size = z[..u].iter().fold(0.0, |largest: f64, z| largest.max(z.abs()));
-            if change.amax() <= ROUNDING * size {
-                let (_, found, _) = self.corrected([&z, &constants]);
-                return Some([z, found]);
-            }
-        }
-        None
-    }
+    None
 }
 
 /// A unit vector.
@@ -203,25 +170,11 @@ fn by_slots(own: &Differentiated, at: &[f64], slots: &[f64], changes: &[Vec<f64>
 }
 
 impl<'a> Differential<'a> {
-    /// Of a step with these coefficients, those of its time among them.
-    pub(super) fn new(
-        step: &'a Step,
-        tangent: &'a Tangent,
-        slots: &'a [f64],
-        slopes: &'a [Vec<f64>],
-    ) -> Self {
-        Self { step, tangent, slots, slopes }
-    }
-
     /// The derivative of the step of this size from this state and time; `None` where its equations are not solved.
     ///
     /// # Errors
     /// Fails if two solutions meet.
-    pub(super) fn at(
-        &self,
-        state: &Numbers,
-        [time, size]: [f64; 2],
-    ) -> Result<Option<Linear>, StepError> {
+    fn at(&self, state: &Numbers, [time, size]: [f64; 2]) -> Result<Option<Linear>, StepError> {
         let (kernel, sampled) = (self.step.kernel(), self.step.sampled(size, time));
         let (n, q) = (kernel.dim, self.slopes.len());
         let columns = 2 * n + q + sampled.len();
@@ -281,15 +234,17 @@ impl<'a> Differential<'a> {
         changes: &[Vec<f64>],
     ) -> Result<bool, StepError> {
         let (kernel, Tangent { equation, reads, .. }) = (self.step.kernel(), self.tangent);
-        let own = Solving { kernel, slots, state: &moving.state };
-        let by_programs = own.solution();
-        let refused = by_programs.is_none();
-        let Some([z, found]) = by_programs.or_else(|| own.by_newton(equation)) else {
-            return Ok(false);
-        };
-        let (n, u) = (kernel.dim, equation.value.outputs().len() - 2 * kernel.dim);
-        moving.refused |= refused;
         let Numbers { g, mu } = &moving.state;
+        let made = self.tangent.flow.attempt_at(slots, g, mu);
+        let (n, u) = (kernel.dim, equation.value.outputs().len() - 2 * kernel.dim);
+        let solved = match made.accepted {
+            true => Some(made.unknowns),
+            // The states between kicks are those of accepted flows.
+            false if kernel.flows().is_none() => by_newton(self.tangent, slots, &moving.state),
+            false => None,
+        };
+        let Some(z) = solved else { return Ok(false) };
+        moving.refused = !made.accepted;
         let at = [&g[..], &vec![0.0; n], mu, &z[..u]].concat();
         // What the equations, x, and the momentum that x moves depend on besides z.
         let mut along = by_inputs(equation, &at, slots, [n, 2 * n]) * &moving.nu;
@@ -323,8 +278,13 @@ impl<'a> Differential<'a> {
             let halvings = self.halvings(&y);
             after = self.moved(motion, moving, (&y, &after), change, halvings);
         }
+        if moving.refused {
+            moving.state.mu = after.as_slice().to_vec();
+            return Ok(true);
+        }
         let Numbers { g, mu } = &moving.state;
-        let mut next = kernel.programs.transport.run(&[&g[..], mu, &found].concat(), slots);
+        let from = [&g[..], mu, &made.increment].concat();
+        let mut next = kernel.programs.transport.run(&from, slots);
         let mu = next.split_off(g.len());
         moving.state = Numbers { g: next, mu };
         Ok(true)

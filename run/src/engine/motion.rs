@@ -11,7 +11,7 @@ use coadjoint_codegen::step::Origin;
 use super::breaks::Breaks;
 use super::compiled::{Compiled, Folded, Numbers, Solved, Solves};
 use super::kick::Torque;
-use super::linear::Linear;
+use super::linear::{Linear, linear, slopes};
 use super::method::{Flow, Method, advise};
 use super::space::{Space, Tables};
 use crate::grid::Grid;
@@ -378,7 +378,7 @@ impl<'a> Motion<'a> {
         let slopes = match self.slopes.get() {
             Some(slopes) => slopes,
             None => {
-                let made = compiled.slopes()?;
+                let made = slopes(compiled)?;
                 self.slopes.get_or_init(|| made)
             }
         };
@@ -386,7 +386,7 @@ impl<'a> Motion<'a> {
         if breaks == Some(first) {
             return self.linear_in_parts((origin, compiled), state, time);
         }
-        let linear = compiled.linear(origin, slopes, state, time)?;
+        let linear = linear(compiled, origin, slopes, state, time)?;
         let Some(refused) = linear.as_ref().and_then(|linear| linear.refused.as_ref()) else {
             return Ok(linear);
         };
@@ -410,7 +410,7 @@ impl<'a> Motion<'a> {
         for [time, size] in self.breaks.parts([time, self.grid.step]) {
             let compiled = self.of_size(own, size)?;
             compiled.forget(&mut now);
-            let linear = compiled.linear(origin, &compiled.slopes()?, &now, time)?;
+            let linear = linear(&compiled, origin, &slopes(&compiled)?, &now, time)?;
             let Some(next) = linear.filter(|linear| linear.refused.is_none()) else {
                 return Ok(None);
             };

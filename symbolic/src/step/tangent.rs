@@ -3,8 +3,8 @@
 //! A tangent to a state (g, μ) is (ξ, ν), ξ = g⁻¹δg in 𝔤 and ν = δμ. The solution z of the equations F(g, μ, z) = 0 of a flow moves with the
 //! state by ∂F/∂z δz = −∂F/∂(g, μ) (ξ, ν), whatever has found it.
 
-use coadjoint_program::Argument;
 use coadjoint_program::fold::FoldError;
+use coadjoint_program::{Argument, Kernel};
 
 use super::product::{Part, Product};
 use super::programs::equation_of_series;
@@ -41,6 +41,8 @@ pub struct Tangent {
     /// g (m), y (n), μ (n), z (u) ↦ F of a flow at g·τ(y) (u), its increment x (n), the momentum that x moves (n); differentiated in y, at
     /// which y = 0, in μ and in z.
     pub equation: Differentiated,
+    /// A flow of the step as a step of its own, without kicks.
+    pub flow: Kernel,
     /// True if F reads the group element.
     pub reads: bool,
     /// g (m), y (n), μ (n) ↦ the momentum after a kick at g·τ(y) (n), where there are kicks.
@@ -94,6 +96,7 @@ impl Tangent {
         let kick = step.kernel.kick().map(|kick| Differentiated::new(kicked(group, kick), m));
         Ok(Self {
             equation: Differentiated::new(value, m),
+            flow: Kernel::new((*step.kernel).clone())?,
             reads,
             kick,
             frame: frame.iter().map(|own| Differentiated::new(own.clone(), 0)).collect(),
