@@ -41,7 +41,14 @@ impl Breaks {
             let on_grid = (place - place.round()).abs() <= SLACK;
             (!on_grid && place >= first as f64).then_some(place as u64)
         };
-        self.0.iter().filter_map(inside).min()
+        // They ascend: the first ones in the direction of time are those next.
+        let time = grid.time(first);
+        match grid.step > 0.0 {
+            true => self.0[self.0.partition_point(|at| *at < time)..].iter().find_map(inside),
+            false => {
+                self.0[..self.0.partition_point(|at| *at <= time)].iter().rev().find_map(inside)
+            }
+        }
     }
 }
 
