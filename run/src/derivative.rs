@@ -6,7 +6,7 @@ mod tests;
 use coadjoint_codegen::signal::{Gathered, Signal};
 use nalgebra::{DMatrix, DVector};
 
-use crate::engine::{Linear, Motion, Numbers};
+use crate::engine::{Carried, Motion, Numbers, Read, Tangents};
 use crate::error::RunError;
 use crate::load::Derived;
 use crate::simulate::{Schedule, Setup};
@@ -19,6 +19,8 @@ use crate::simulate::{Schedule, Setup};
 /// the steps, not of the flow: without a velocity or a torque the tangent map is symplectic to rounding.
 pub struct Derivatives<'a> {
     motion: Motion<'a>,
+    /// The tangents of steps, where there are any.
+    tangents: Option<Tangents>,
     signals: &'a [Signal],
     start: Numbers,
     schedule: Schedule,
@@ -55,16 +57,17 @@ impl<'a> Derivatives<'a> {
     /// Settings that make no sense.
     pub fn new(system: &'a Derived, setup: &Setup) -> Result<Self, RunError> {
         let (_, motion, start) = system.begin(setup)?;
-        Ok(Self { motion, signals: system.signals(), start, schedule: setup.schedule })
+        let schedule = setup.schedule;
+        let tangents = motion.tangents(setup.backend, schedule.steps as f64);
+        let tangents = tangents.map_err(RunError::unmade)?;
+        Ok(Self { motion, tangents, signals: system.signals(), start, schedule })
     }
 
-    /// q, the number of parameters.
-    ///
     /// # Errors
     /// Fails where derivatives are not known.
-    fn known(&self) -> Result<usize, RunError> {
+    fn known(&self) -> Result<&Tangents, RunError> {
         let what = "no derivatives are known of learned maps, of functions of the user's, and of systems too large for programs";
-        self.motion.differentiable().ok_or_else(|| RunError::Option(what.to_owned()))
+        self.tangents.as_ref().ok_or_else(|| RunError::Option(what.to_owned()))
     }
 
     /// The inputs of the system.
@@ -79,7 +82,7 @@ impl<'a> Derivatives<'a> {
 
     /// q, the number of parameters.
     pub fn parameters(&self) -> usize {
-        self.motion.differentiable().unwrap_or(0)
+        self.tangents.as_ref().map_or(0, |own| own.parameters)
     }
 
     /// The error of a step after `done` steps.
@@ -94,16 +97,37 @@ impl<'a> Derivatives<'a> {
         made.map(drop).map_err(|(more, error)| self.failed(done + more, &error))
     }
 
-    /// The derivative of the step after `done`, from the state before it.
-    fn linear(&self, done: u64, state: &Numbers) -> Result<Linear, RunError> {
-        let linear = self.motion.linear(state, done);
-        let Some(linear) = linear.map_err(|error| self.failed(done, &error))? else {
-            self.advance(&mut state.clone(), done, 1)?;
-            let what = "this step is too long for its derivative: take smaller steps".to_owned();
-            return Err(RunError::Run { time: self.schedule.time(done), step: done + 1, what });
-        };
-        self.finite(done, [&linear.state, &linear.parameters, &linear.inputs])?;
-        Ok(linear)
+    /// The error of a step, after `done` others, that has no derivative.
+    fn too_long(&self, done: u64) -> RunError {
+        let what = "this step is too long for its derivative: take smaller steps".to_owned();
+        RunError::Run { time: self.schedule.time(done), step: done + 1, what }
+    }
+
+    /// Makes `count` steps after `done` of a state with tangents.
+    fn carry(
+        &self,
+        carried: &mut Carried<'_>,
+        [done, count]: [u64; 2],
+        changes: Option<&dyn Fn(&[Read]) -> DMatrix<f64>>,
+    ) -> Result<(), RunError> {
+        let made = self.motion.carry(carried, [done, count], changes);
+        match made.map_err(|(more, error)| self.failed(done + more, &error))? {
+            made if made < count => Err(self.too_long(done + made)),
+            _ => self.finite(done + count, [&carried.columns]),
+        }
+    }
+
+    /// These tangents, 2n×k, with these changes of the parameters, q×k, at the start.
+    fn begin(
+        &self,
+        tangents: &DMatrix<f64>,
+        parameters: &DMatrix<f64>,
+    ) -> Result<Carried<'_>, RunError> {
+        let (own, two_n, k) = (self.known()?, 2 * self.dim(), tangents.ncols());
+        let mut columns = DMatrix::zeros(two_n + own.parameters + own.reads, k);
+        columns.rows_mut(0, two_n).copy_from(tangents);
+        columns.rows_mut(two_n, own.parameters).copy_from(parameters);
+        own.carry(self.start.clone(), columns)
     }
 
     /// # Errors
@@ -120,16 +144,6 @@ impl<'a> Derivatives<'a> {
         Err(RunError::Run { time: self.schedule.time(done), step: done + 1, what })
     }
 
-    /// Follows `count` steps of the run; `each` is given the derivative of each.
-    fn follow(&self, count: u64, mut each: impl FnMut(u64, &Linear)) -> Result<(), RunError> {
-        let mut state = self.start.clone();
-        for done in 0..count {
-            each(done, &self.linear(done, &state)?);
-            self.advance(&mut state, done, 1)?;
-        }
-        Ok(())
-    }
-
     /// # Errors
     /// Fails if numbers of steps do not ascend, or the last is not in the run.
     fn ascending(&self, at: impl Iterator<Item = u64> + Clone) -> Result<(), RunError> {
@@ -141,21 +155,13 @@ impl<'a> Derivatives<'a> {
         Err(RunError::Option(what))
     }
 
-    /// The changes of the values of inputs that a step reads, for these changes of their samples.
-    fn read(&self, changed: &[Vec<Signal>], linear: &Linear, k: usize) -> DMatrix<f64> {
-        DMatrix::from_fn(linear.read.len(), k, |row, column| {
-            let (input, time) = linear.read[row];
-            changed[input].get(column).map_or(0.0, |signal| signal.at(time))
-        })
-    }
-
     /// The tangents (2n×k) after these numbers of steps, which ascend, of k changes.
     ///
     /// # Errors
     /// Fails if the shapes do not fit, and why the run stopped.
     pub fn forward(&self, changes: &Changes, at: &[u64]) -> Result<Vec<DMatrix<f64>>, RunError> {
         let Changes { state, parameters, inputs } = changes;
-        let (n, q, k) = (self.dim(), self.known()?, state.ncols());
+        let (n, q, k) = (self.dim(), self.known()?.parameters, state.ncols());
         if state.nrows() != 2 * n || parameters.shape() != (q, k) {
             return Err(RunError::Option(format!(
                 "{k} tangents are {}×{k} numbers of the state and {q}×{k} of the parameters",
@@ -179,23 +185,47 @@ impl<'a> Derivatives<'a> {
         };
         let changed: Vec<_> = self.signals.iter().zip(inputs).map(changed).collect();
         self.ascending(at.iter().copied())?;
-        let mut now = state.clone();
-        let mut found = Vec::new();
-        let mut note = |done: u64, now: &DMatrix<f64>| {
-            if at.get(found.len()) == Some(&done) {
-                found.push(now.clone());
-            }
+        let read = |read: &[Read]| {
+            DMatrix::from_fn(read.len(), k, |row, column| {
+                let Read { input, time } = read[row];
+                changed[input].get(column).map_or(0.0, |signal| signal.at(time))
+            })
         };
-        note(0, &now);
-        let last = at.last().copied().unwrap_or(0);
-        self.follow(last, |done, linear| {
-            now = &linear.state * &now + &linear.parameters * parameters;
-            if !changed.is_empty() {
-                now += &linear.inputs * self.read(&changed, linear, k);
+        let changes: Option<&dyn Fn(&[Read]) -> DMatrix<f64>> =
+            if changed.is_empty() { None } else { Some(&read) };
+        let (mut carried, mut done) = (self.begin(state, parameters)?, 0);
+        let mut found = Vec::new();
+        for &at in at {
+            self.carry(&mut carried, [done, at - done], changes)?;
+            found.push(carried.tangents().into_owned());
+            done = at;
+        }
+        Ok(found)
+    }
+
+    /// The derivatives, 2n×(2n + q + s), of the parts of the step after `done`, each with the values of inputs that it reads.
+    fn linear(
+        &self,
+        carried: &mut Carried<'_>,
+        unit: &DMatrix<f64>,
+        done: u64,
+    ) -> Result<Vec<(DMatrix<f64>, Vec<Read>)>, RunError> {
+        let failed = |error| self.failed(done, &error);
+        let parts = self.motion.parts(done);
+        let mut found = Vec::new();
+        for &part in &parts {
+            carried.columns.copy_from(unit);
+            let made = match parts.len() {
+                1 => self.motion.carry(carried, [done, 1], None).map_err(|(_, error)| error),
+                _ => self.motion.carry_part(carried, part).map(u64::from),
+            };
+            if made.map_err(failed)? == 0 {
+                return Err(self.too_long(done));
             }
-            note(done + 1, &now);
-        })?;
-        self.finite(last, [&now, parameters])?;
+            self.finite(done, [&carried.columns])?;
+            let linear = carried.tangents().into_owned();
+            found.push((linear, self.motion.read(part).map_err(failed)?));
+        }
         Ok(found)
     }
 
@@ -208,7 +238,8 @@ impl<'a> Derivatives<'a> {
     /// # Errors
     /// Fails if the shapes do not fit, and why the run stopped.
     pub fn backward(&self, cotangents: &[(u64, DMatrix<f64>)]) -> Result<Adjoint, RunError> {
-        let q = self.known()?;
+        let tangents = self.known()?;
+        let (q, reads) = (tangents.parameters, tangents.reads);
         let (n, count) = (self.dim(), cotangents.last().map_or(0, |&(last, _)| last));
         let k = cotangents.first().map_or(0, |(_, first)| first.ncols());
         if cotangents.iter().any(|(_, own)| own.shape() != (2 * n, k)) {
@@ -229,10 +260,15 @@ impl<'a> Derivatives<'a> {
         let mut parameters = DMatrix::zeros(q, k);
         let gathered = |signal| (0..k).map(|_| Gathered::new(signal)).collect::<Vec<_>>();
         let mut inputs: Vec<_> = self.signals.iter().map(gathered).collect();
-        while let Some(mut state) = checkpoints.pop() {
+        let whole = 2 * n + q + reads;
+        let unit = DMatrix::<f64>::identity(whole, whole);
+        while let Some(state) = checkpoints.pop() {
             let first = checkpoints.len() as u64 * stretch;
             let last = count.min(first + stretch);
+            let mut carried = tangents.carry(state, unit.clone())?;
+            // The derivatives of the parts of steps, from the states before them.
             let mut states = Vec::new();
+            let mut state = carried.state.clone();
             for done in first..last {
                 states.push(state.clone());
                 if done + 1 < last {
@@ -240,18 +276,22 @@ impl<'a> Derivatives<'a> {
                 }
             }
             kept = kept.max(checkpoints.len() + states.len());
-            for (number, state) in states.iter().enumerate().rev() {
+            for (number, state) in states.into_iter().enumerate().rev() {
                 let done = first + number as u64;
                 if let Some((_, own)) = left.next_if(|(step, _)| *step == done + 1) {
                     now += own;
                 }
-                let linear = self.linear(done, state)?;
-                parameters += linear.parameters.tr_mul(&now);
-                let weights = linear.inputs.tr_mul(&now);
-                for (&(input, time), row) in linear.read.iter().zip(weights.row_iter()) {
-                    inputs[input].iter_mut().zip(&row).for_each(|(own, &w)| own.add(time, w));
+                carried.state = state;
+                for (linear, read) in self.linear(&mut carried, &unit, done)?.iter().rev() {
+                    let weights = linear.tr_mul(&now);
+                    parameters += weights.rows(2 * n, q);
+                    for (&Read { input, time }, row) in
+                        read.iter().zip(weights.rows(2 * n + q, reads).row_iter())
+                    {
+                        inputs[input].iter_mut().zip(&row).for_each(|(own, &w)| own.add(time, w));
+                    }
+                    now = weights.rows(0, 2 * n).into_owned();
                 }
-                now = linear.state.tr_mul(&now);
             }
         }
         if let Some((_, own)) = left.next() {
@@ -296,15 +336,18 @@ impl<'a> Derivatives<'a> {
         let mut now =
             DVector::from_fn(2 * self.dim(), |i, _| 1.0 + (1.0 + i as f64).sqrt().fract());
         now /= now.norm();
+        let parameters = DMatrix::zeros(self.parameters(), 1);
+        let mut carried =
+            self.begin(&DMatrix::from_column_slice(now.len(), 1, now.as_slice()), &parameters)?;
         let mut growth = 0.0;
-        self.follow(steps, |done, linear| {
-            now = &linear.state * &now;
-            let length = now.norm();
-            now /= length;
+        for done in 0..steps {
+            self.carry(&mut carried, [done, 1], None)?;
+            let length = carried.tangents().norm();
+            carried.columns /= length;
             if done >= transient {
                 growth += length.ln();
             }
-        })?;
+        }
         Ok(growth / ((steps - transient) as f64 * step.abs()))
     }
 }

@@ -7,11 +7,12 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use coadjoint::StepError;
 use coadjoint_codegen::integrator::Integrator;
 use coadjoint_codegen::step::{
-    self, Convergence, DriftPrograms, Invariants, Observation, Origin, Step, Tangent,
+    self, Convergence, DriftPrograms, Invariants, Observation, Origin, Step,
 };
 use coadjoint_program::fold::FoldError;
 use coadjoint_program::{Kernel, Precision, Program, Trajectories, WIDTH};
 
+use super::tangent::Varied;
 use crate::backend::{Backend, Code};
 use crate::error::RunError;
 use crate::grid::Grid;
@@ -86,6 +87,12 @@ impl Numbers {
 #[derive(Default)]
 pub(crate) struct Kept {
     programs: OnceLock<Arc<Programs>>,
+    codes: Codes,
+}
+
+/// The codes of one kernel, for later runs.
+#[derive(Debug, Default)]
+pub(super) struct Codes {
     codes: Mutex<Vec<(Backend, Trajectories, Arc<Code>)>>,
     /// The steps of runs so far.
     steps: Mutex<f64>,
@@ -97,16 +104,16 @@ pub(crate) struct Programs {
     step: Step,
     observation: Observation,
     convergence: OnceLock<Convergence>,
-    /// The programs of derivatives, once they were asked for; `None` where there are none.
-    tangent: OnceLock<Option<Tangent>>,
+    /// Those of derivatives that were asked for.
+    varied: Mutex<Vec<Arc<Varied>>>,
 }
 
 impl Programs {
     fn build(origin: &Origin) -> Result<Arc<Self>, step::StepError> {
         let step = origin.step(Precision::Double)?;
         let observation = Observation::new(&step);
-        let (convergence, tangent) = Default::default();
-        Ok(Arc::new(Self { step, observation, convergence, tangent }))
+        let (convergence, varied) = Default::default();
+        Ok(Arc::new(Self { step, observation, convergence, varied }))
     }
 }
 
@@ -128,7 +135,9 @@ impl Kept {
                 .map(|programs| self.programs.get_or_init(|| programs).clone()),
         }
     }
+}
 
+impl Codes {
     /// Usable code: made by this backend, or, for [`Backend::Auto`], any machine code.
     fn find(&self, backend: Backend, trajectories: Trajectories) -> Option<Arc<Code>> {
         // A thread that panicked has added whole codes, if any.
@@ -148,6 +157,38 @@ impl Kept {
         codes.retain(|(.., code)| code.lasts());
         codes.push((backend, trajectories, code.clone()));
     }
+
+    /// The code of the kernel by this backend, about `steps` steps of which are going to be made, of these trajectories.
+    ///
+    /// # Errors
+    /// Fails if the backend that the user named cannot be had.
+    pub(super) fn code(
+        &self,
+        kernel: &Kernel,
+        backend: Backend,
+        steps: f64,
+        trajectories: Trajectories,
+    ) -> Result<Running, RunError> {
+        let backend = if is_large(kernel) { Backend::Interpreter } else { backend };
+        if let Some(code) = self.find(backend, trajectories) {
+            return Ok(Running(code));
+        }
+        let mut made = self.steps.lock().unwrap_or_else(PoisonError::into_inner);
+        let code = Arc::new(Code::new(kernel, backend, [steps, *made], trajectories)?);
+        *made += steps;
+        self.keep(backend, trajectories, &code);
+        Ok(Running(code))
+    }
+}
+
+/// The operations of a step.
+fn operations(kernel: &Kernel) -> usize {
+    kernel.programs.correct.nodes().len() + kernel.programs.transport.nodes().len()
+}
+
+/// True if a step has too many operations to be compiled.
+fn is_large(kernel: &Kernel) -> bool {
+    operations(kernel) > MOST_OPERATIONS
 }
 
 /// The numbers that the programs of a step read, for one size and one set of parameters.
@@ -176,7 +217,7 @@ pub(crate) struct Compiled {
 
 /// The code of a run; nothing is compiled any more when the run is over.
 #[derive(Debug)]
-struct Running(Arc<Code>);
+pub(super) struct Running(pub(super) Arc<Code>);
 
 impl Drop for Running {
     fn drop(&mut self) {
@@ -213,31 +254,17 @@ impl Compiled {
             Err(error) => return unfit(&error),
         };
         let step = &programs.step;
-        let parts = &step.kernel().programs;
-        let operations = parts.correct.nodes().len() + parts.transport.nodes().len();
-        let large = operations > MOST_OPERATIONS;
-        if large && !matches!(backend, Backend::Auto | Backend::Interpreter) {
-            let most = MOST_OPERATIONS;
+        if is_large(step.kernel()) && !matches!(backend, Backend::Auto | Backend::Interpreter) {
+            let (operations, most) = (operations(step.kernel()), MOST_OPERATIONS);
             return unfit(&format_args!(
                 "a step has {operations} operations, more than the {most} that are compiled; use the interpreter"
             ));
         }
-        let backend = if large { Backend::Interpreter } else { backend };
         let folded = fold(step, size, &origin.facts().defaults());
         let folded = folded.map_err(RunError::unmade)?;
-        let framed = parts.frame.is_some();
-        let code = match kept.find(backend, trajectories) {
-            Some(code) => code,
-            None => {
-                let mut made = kept.steps.lock().unwrap_or_else(PoisonError::into_inner);
-                let code = Code::new(step.kernel(), backend, [steps, *made], trajectories)?;
-                *made += steps;
-                let code = Arc::new(code);
-                kept.keep(backend, trajectories, &code);
-                code
-            }
-        };
-        let code = Arc::new(Running(code));
+        let framed = step.kernel().programs.frame.is_some();
+        let code = kept.codes.code(step.kernel(), backend, steps, trajectories)?;
+        let code = Arc::new(code);
         Ok(Some(Arc::new(Self { programs, folded, code, framed })))
     }
 
@@ -352,10 +379,20 @@ impl Compiled {
         (self.folded.size, &self.folded.parameters)
     }
 
-    /// The programs of the derivatives of steps of this origin, where there are any.
-    pub(super) fn tangent(&self, origin: &Origin) -> Option<&Tangent> {
-        let Programs { step, tangent, .. } = &*self.programs;
-        tangent.get_or_init(|| Tangent::new(step, origin).ok()).as_ref()
+    /// The programs of derivatives that fit, known ones or, where they can be made, new ones.
+    pub(super) fn varied(
+        &self,
+        fits: impl Fn(&Varied) -> bool,
+        make: impl FnOnce() -> Option<Varied>,
+    ) -> Option<Arc<Varied>> {
+        // A thread that panicked has left whole programs, if any.
+        let mut known = self.programs.varied.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(own) = known.iter().find(|own| fits(own)) {
+            return Some(own.clone());
+        }
+        let own = Arc::new(make()?);
+        known.push(own.clone());
+        Some(own)
     }
 
     /// The coefficients of the step from this time.

@@ -7,13 +7,15 @@ use coadjoint::steps::{Piece, Splitting, compose};
 use coadjoint::{Phase, StepError};
 use coadjoint_codegen::integrator::Kicks;
 use coadjoint_codegen::step::Origin;
+use nalgebra::DMatrix;
 
 use super::breaks::Breaks;
 use super::compiled::{Compiled, Folded, Numbers, Solved, Solves};
 use super::kick::Torque;
-use super::linear::{Linear, linear, slopes};
 use super::method::{Flow, Method, advise};
 use super::space::{Space, Tables};
+use super::tangent::{Carried, Read, Tangents};
+use crate::backend::Backend;
 use crate::grid::Grid;
 
 /// Makes the method for these values of the parameters that are kept.
@@ -66,9 +68,6 @@ fn lengths(kicks: Option<&Kicks>, size: f64) -> Vec<f64> {
 /// Sizes of steps whose coefficients are kept, beside that of the grid.
 const MOST_OTHERS: usize = 16;
 
-/// Two steps that differ by less, relative to the momentum, are the same one.
-const SAME: f64 = 1e-11;
-
 /// Moves states by steps of one size: by programs where there are any, else by its [`Method`], which also makes the steps that
 /// programs refuse.
 pub(crate) struct Motion<'a> {
@@ -88,8 +87,6 @@ pub(crate) struct Motion<'a> {
     origin: Option<&'a Origin>,
     /// The times at which the equations jump or bend, so that steps end there.
     breaks: Breaks,
-    /// The derivatives of the coefficients in each parameter, once they were asked for.
-    slopes: OnceLock<Vec<Vec<f64>>>,
 }
 
 impl<'a> Motion<'a> {
@@ -110,21 +107,10 @@ impl<'a> Motion<'a> {
             Ok::<_, StepError>(Kicked { kicks, torque })
         });
         let kicked = kicked.transpose()?;
-        let (method, map, others, slopes) = Default::default();
+        let (method, map, others) = Default::default();
         let breaks = Breaks::new(origin.map(Origin::breaks).unwrap_or_default());
-        let motion = Self {
-            space,
-            grid,
-            parameters,
-            maker,
-            method,
-            kicked,
-            map,
-            others,
-            origin,
-            breaks,
-            slopes,
-        };
+        let motion =
+            Self { space, grid, parameters, maker, method, kicked, map, others, origin, breaks };
         if motion.space.compiled.is_none() {
             motion.whole()?;
         }
@@ -360,67 +346,103 @@ impl<'a> Motion<'a> {
         self.space.compiled.as_deref()
     }
 
-    /// q, the number of parameters that derivatives are taken in; none where there are no derivatives, as of learned maps, of functions of
-    /// the user's, and of systems too large for programs.
-    pub(crate) fn differentiable(&self) -> Option<usize> {
-        (self.origin.is_some() && self.space.compiled.is_some()).then_some(self.parameters.len())
-    }
-
-    /// The derivative of the next step of a state that `first` steps from the start of the grid have reached; `None` where the step is
-    /// not made by its programs.
+    /// The tangents of steps, about so many of which are going to be made; none of learned maps, of functions of the user's, and of systems
+    /// too large for programs.
     ///
     /// # Errors
-    /// Fails if two solutions of the step meet.
-    pub(crate) fn linear(&self, state: &Numbers, first: u64) -> Result<Option<Linear>, StepError> {
-        let (Some(origin), Some(compiled)) = (self.origin, &self.space.compiled) else {
-            return Ok(None);
-        };
-        let slopes = match self.slopes.get() {
-            Some(slopes) => slopes,
-            None => {
-                let made = slopes(compiled)?;
-                self.slopes.get_or_init(|| made)
-            }
-        };
-        let (time, breaks) = (self.grid.time(first), self.breaks.next(self.grid, first));
-        if breaks == Some(first) {
-            return self.linear_in_parts((origin, compiled), state, time);
+    /// Fails if a derivative of a coefficient is not finite.
+    pub(crate) fn tangents(
+        &self,
+        backend: Backend,
+        steps: f64,
+    ) -> Result<Option<Tangents>, StepError> {
+        match (self.origin, &self.space.compiled) {
+            (Some(origin), Some(compiled)) => Tangents::new(compiled, origin, backend, steps),
+            _ => Ok(None),
         }
-        let linear = linear(compiled, origin, slopes, state, time)?;
-        let Some(refused) = linear.as_ref().and_then(|linear| linear.refused.as_ref()) else {
-            return Ok(linear);
-        };
-        // The equations have other solutions than the step that is made.
-        let mut next = state.clone();
-        self.one_at(&mut next, time)?;
-        let size = next.mu.iter().fold(0.0, |largest: f64, mu| largest.max(mu.abs()));
-        let off = |(a, b): (&f64, &f64)| (a - b).abs() <= SAME * size;
-        let same = refused.iter().zip(&next.mu).all(off);
-        Ok(linear.filter(|_| same))
     }
 
-    /// The derivative of a step with breaks.
-    fn linear_in_parts(
+    /// The parts of the step of this number, which end at breaks: when each begins, and its size.
+    pub(crate) fn parts(&self, number: u64) -> Vec<[f64; 2]> {
+        self.breaks.parts([self.grid.time(number), self.grid.step])
+    }
+
+    /// The programs of parts of this size.
+    fn of_part(&self, size: f64) -> Result<Option<Arc<Compiled>>, StepError> {
+        let own = self.space.compiled.as_ref();
+        own.map(|own| self.of_size(own, size)).transpose()
+    }
+
+    /// The values of inputs that a part of a step reads.
+    ///
+    /// # Errors
+    /// Fails if a coefficient is not finite.
+    pub(crate) fn read(&self, [time, size]: [f64; 2]) -> Result<Vec<Read>, StepError> {
+        let compiled = self.of_part(size)?;
+        Ok(compiled.map_or_else(Vec::new, |own| Carried::read(&own, time)))
+    }
+
+    /// Makes one part of a step, whatever was made before, with tangents; false where its programs do not find it.
+    ///
+    /// # Errors
+    /// Returns the reason for which there is no step.
+    pub(crate) fn carry_part(
         &self,
-        (origin, own): (&Origin, &Arc<Compiled>),
-        state: &Numbers,
-        time: f64,
-    ) -> Result<Option<Linear>, StepError> {
-        let (mut total, mut now): (Option<Linear>, _) = (None, state.clone());
-        for [time, size] in self.breaks.parts([time, self.grid.step]) {
-            let compiled = self.of_size(own, size)?;
-            compiled.forget(&mut now);
-            let linear = linear(&compiled, origin, &slopes(&compiled)?, &now, time)?;
-            let Some(next) = linear.filter(|linear| linear.refused.is_none()) else {
-                return Ok(None);
-            };
-            total = Some(match total {
-                None => next,
-                Some(total) => total.then(&next),
-            });
-            self.alone(Some(&compiled), &mut now, [time, size])?;
+        carried: &mut Carried<'_>,
+        [time, size]: [f64; 2],
+    ) -> Result<bool, StepError> {
+        let Some(compiled) = self.of_part(size)? else { return Ok(false) };
+        if carried.part(&compiled, time)? {
+            return Ok(true);
         }
-        Ok(total)
+        let mut next = carried.state.clone();
+        self.alone(Some(&compiled), &mut next, [time, size])?;
+        carried.refused(&compiled, time, next)
+    }
+
+    /// Makes `count` steps of a state with tangents that `first` steps from the start of the grid have reached; the number of those made
+    /// before one that has no derivative. `changes` are those of the values of inputs that a step reads.
+    ///
+    /// # Errors
+    /// As [`Motion::advance`].
+    pub(crate) fn carry(
+        &self,
+        carried: &mut Carried<'_>,
+        [first, count]: [u64; 2],
+        changes: Option<&dyn Fn(&[Read]) -> DMatrix<f64>>,
+    ) -> Result<u64, (u64, StepError)> {
+        let Some(compiled) = &self.space.compiled else { return Ok(0) };
+        let mut done = 0;
+        while done < count {
+            let (number, failed) = (first + done, move |error| (done, error));
+            let next = self.breaks.next(self.grid, number);
+            let whole = next.map_or(count - done, |next| (count - done).min(next - number));
+            let time = self.grid.time(number);
+            if let Some(changes) = changes.filter(|_| whole > 0) {
+                carried.reading(&changes(&Carried::read(compiled, time)));
+            }
+            let made = carried.advance(compiled, time, whole).map_err(failed)?;
+            done += made;
+            if made > 0 {
+                continue;
+            }
+            for part in self.parts(number) {
+                if whole == 0 {
+                    compiled.forget(&mut carried.state);
+                }
+                if let Some(changes) = changes {
+                    carried.reading(&changes(&self.read(part).map_err(failed)?));
+                }
+                if !self.carry_part(carried, part).map_err(failed)? {
+                    return Ok(done);
+                }
+            }
+            if whole == 0 {
+                compiled.forget(&mut carried.state);
+            }
+            done += 1;
+        }
+        Ok(done)
     }
 
     /// Takes these values of the parameters, and what its programs read for them, where it has any. Steps made before are
@@ -435,7 +457,7 @@ impl<'a> Motion<'a> {
             kicked.torque.vary(parameters);
         }
         // These are of other values.
-        (self.map, self.slopes) = Default::default();
+        self.map = OnceLock::new();
         self.others.get_mut().unwrap_or_else(PoisonError::into_inner).clear();
         if let (Some(compiled), Some(folded)) = (&mut self.space.compiled, folded) {
             Arc::make_mut(compiled).with(folded);

@@ -13,6 +13,7 @@ use coadjoint_geometry::rotation::Quaternions;
 use crate::graph::{Graph, Id};
 use crate::lie::Chart;
 use crate::step::product::{ESTIMATED, Moved, Part};
+use crate::step::tangent::transposed;
 use crate::step::traced::{Traced, matrix, nodes, traced};
 use crate::step::vector::Matrix;
 
@@ -178,6 +179,16 @@ where
 
     fn move_frame(&self, graph: &Graph, g: &[Id], y: &[Id], mu: &[Id]) -> Option<Moved> {
         Some(Self::moved(graph, G::exp(traced(graph, y), Length::Long), g, mu))
+    }
+
+    fn trail(&self, graph: &Graph, y: &[Id], xi: &[Id], change: &[Id]) -> Vec<Id> {
+        let maps = transposed(N, |graph, y, w| {
+            let back = traced(graph, y).map(|y| -y);
+            let (increment, w) = (G::exp(back, Length::Long), traced(graph, w));
+            let moved = [G::back(increment, w), G::pull_back(back, w, Length::Long)];
+            moved.map(|moved| nodes(graph, moved))
+        });
+        graph.call(&maps, &[y, xi, change, &[graph.zero(); N]].concat())
     }
 
     fn spatial(&self, graph: &Graph, g: &[Id], _: &[Id], mu: &[Id]) -> Vec<Id> {

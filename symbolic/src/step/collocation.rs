@@ -33,7 +33,7 @@ use crate::step::StepError;
 const MEASURES: usize = 3;
 
 /// The numbers solved for beside the rates.
-const OTHERS: usize = 2;
+pub(super) const OTHERS: usize = 2;
 
 /// The coefficients of the nodes of a step, for a number of nodes known at run time.
 struct Gauss {
@@ -137,12 +137,6 @@ pub(super) fn kernel(smooth: &Smooth, group: &Product) -> Result<Kernel, StepErr
         programs,
     })?;
     kicked(kernel, smooth.kicks.as_ref(), group, radius_at(smooth) + 1)
-}
-
-/// The equations of a step, for its derivatives: see [`Tangent`](super::Tangent); and if they read the group element.
-pub(super) fn equation(smooth: &Smooth, group: &Product) -> (Program, bool) {
-    let step = Assembly::new(smooth, group);
-    (step.equation(), step.seen() > 0)
 }
 
 struct Assembly<'a> {
@@ -563,27 +557,6 @@ impl<'a> Assembly<'a> {
         outputs.extend_from_slice(&pushes[1]);
         outputs.extend([left, defect]);
         graph.finish(count + OTHERS + n + constants + g.len(), &outputs)
-    }
-
-    /// g, y, μ, the rates with the impulse ↦ what a sweep changes of them at g·exp(y), the increment, the momentum with the impulse.
-    fn equation(&self) -> Program {
-        let (graph, n, mut inputs) = (Graph::new(), self.n, 0);
-        let mut take = |count: usize| {
-            inputs += count;
-            self::inputs(&graph, inputs - count, count)
-        };
-        let (g, y, mu) = (take(self.group.element()), take(n), take(n));
-        let (rates, impulse) = (Rates::new(n, &take(self.rates())), take(self.impulse));
-        let g = match self.seen() {
-            0 => Vec::new(),
-            numbers => self.moved(&graph, &g[..numbers], &y),
-        };
-        let sweep = self.sweep(&graph, &rates, (&mu, &impulse), &g);
-        let [middle, start] = sweep.impulse;
-        let pushed = self.pushed(&graph, &mu, &start);
-        let (x, _) = self.whole(&graph, &rates, (&mu, &[]));
-        let change = [sweep.change.numbers(), plus(&graph, &middle, -1.0, &impulse)];
-        graph.finish(inputs, &[change.concat(), x, pushed].concat())
     }
 
     /// The change of the rates to those that follow from them.

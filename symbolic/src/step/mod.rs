@@ -48,7 +48,7 @@ pub use invariants::{Invariants, Seen};
 #[cfg(feature = "spatial")]
 pub use observation::{DriftGauge, DriftPrograms, Observation};
 pub use origin::Origin;
-pub use tangent::{Differentiated, Tangent};
+pub use tangent::Tangent;
 
 /// A step as programs, with what is needed to fold its coefficients and to read group elements.
 #[derive(Debug)]

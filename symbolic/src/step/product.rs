@@ -102,6 +102,16 @@ impl Part for Product {
         Some(moved)
     }
 
+    fn trail(&self, graph: &Graph, y: &[Id], xi: &[Id], change: &[Id]) -> Vec<Id> {
+        self.joined(|Factor { part, own, .. }| {
+            let [y, xi, change] = [y, xi, change].map(|list| &list[own.clone()]);
+            match [y, change].concat().iter().all(|&entry| graph.is_zero(entry)) {
+                true => xi.to_vec(),
+                false => part.trail(graph, y, xi, change),
+            }
+        })
+    }
+
     fn node_momentum(&self, graph: &Graph, x: &[Id], p: &[Id], degree: usize) -> Vec<Id> {
         self.joined(|Factor { part, own, .. }| {
             part.node_momentum(graph, &x[own.clone()], &p[own], degree)
@@ -210,6 +220,9 @@ pub(crate) trait Part: std::fmt::Debug + Send + Sync {
     /// g·exp(y) and Ad\*_{exp(−y)} μ: the motion of a comoving frame, of any length.
     fn move_frame(&self, graph: &Graph, g: &[Id], y: &[Id], mu: &[Id]) -> Option<Moved>;
 
+    /// Ad_{exp(−y)} ξ + (d^L exp_y) δ for a motion of a comoving frame whose y changes by δ, of any length.
+    fn trail(&self, graph: &Graph, y: &[Id], xi: &[Id], change: &[Id]) -> Vec<Id>;
+
     /// Ad\*_g μ, the spatial momentum. `back` has the numbers of g⁻¹ where [`Part::inverted`] asks for them, else
     /// anything.
     fn spatial(&self, graph: &Graph, g: &[Id], back: &[Id], mu: &[Id]) -> Vec<Id>;
@@ -281,6 +294,10 @@ impl Part for Translations {
 
     fn move_frame(&self, graph: &Graph, g: &[Id], y: &[Id], mu: &[Id]) -> Option<Moved> {
         Some(self.transport(graph, g, y, mu))
+    }
+
+    fn trail(&self, graph: &Graph, _y: &[Id], xi: &[Id], change: &[Id]) -> Vec<Id> {
+        xi.iter().zip(change).map(|(&xi, &change)| graph.add(xi, change)).collect()
     }
 
     fn node_momentum(&self, _graph: &Graph, _x: &[Id], p: &[Id], _degree: usize) -> Vec<Id> {

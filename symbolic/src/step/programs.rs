@@ -57,16 +57,6 @@ pub(crate) fn kernel(
     kicked(kernel, integrator.kicks.as_ref(), group, radius + 1)
 }
 
-/// g, y, μ, p ↦ p − (d^R τ_x)ᵀ μ, x = ∂S/∂p(p), and μ, none of which depends on g and y: the equation of a flow, for its derivatives.
-pub(super) fn equation_of_series(integrator: &Integrator, group: &Product) -> Program {
-    let (n, m, graph) = (group.dim(), group.element(), Graph::new());
-    let [mu, p] = [m + n, m + 2 * n].map(|from| inputs(&graph, from, n));
-    let x = graph.call(&integrator.gradient, &p);
-    let pulled = group.pull_back(&graph, &x, &mu);
-    let residual = p.iter().zip(&pulled).map(|(&p, &pulled)| graph.sub(p, pulled)).collect();
-    graph.finish(m + 3 * n, &[residual, x, mu].concat())
-}
-
 /// The kernel of a flow with kicks between flows, if there are any, whose length is this coefficient.
 pub(super) fn kicked(
     kernel: Kernel,
@@ -127,7 +117,7 @@ fn accept(integrator: &Integrator, scheme: Scheme, group: &Product, radius: usiz
 }
 
 /// g, μ, x ↦ g·τ(x), Ad\*_{τ(x)⁻¹} μ.
-fn transport(group: &Product) -> Program {
+pub(super) fn transport(group: &Product) -> Program {
     let (n, m) = (group.dim(), group.element());
     let graph = Graph::new();
     let g = inputs(&graph, 0, m);

@@ -172,22 +172,34 @@ impl Tables {
     /// exp X − 1 for X of any norm up to [`FARTHEST`], by scaling and squaring (N. Higham, *Functions of Matrices*, SIAM
     /// 2008, chapter 10). Without the identity, (1 + E)² − 1 = 2E + E², no digits of a short X are lost.
     fn exponential_less_one(&self, graph: &Graph, x: &Matrix) -> Matrix {
+        self.exponential_with(graph, x, None).0
+    }
+
+    /// With (exp X − 1)/X applied to a vector, where there is one: of 2X it is 1 + ½E times that of X.
+    fn exponential_with(&self, graph: &Graph, x: &Matrix, v: Option<&[Id]>) -> (Matrix, Vec<Id>) {
         let norm = row_norm(graph, x);
         let (most, scale) = (graph.constant(FARTHEST), graph.constant(0.5_f64.powi(SQUARINGS)));
         let scale = graph.select(norm, most, scale, graph.constant(f64::MAX));
         let x = x.scaled(graph, scale);
+        let plus = |v: &[Id], s: Id, change: Vec<Id>| -> Vec<Id> {
+            v.iter().zip(change).map(|(&v, change)| graph.times_plus(s, change, v)).collect()
+        };
         // X (1 + X/2 (1 + X/3 (…))).
-        let mut sum = Matrix::zeros(graph, self.size, self.size);
+        let mut sum = Matrix::zeros(graph, x.rows(), x.rows());
+        let mut applied = v.map(<[Id]>::to_vec);
         for k in (1..=TERMS).rev() {
             let inverse = graph.constant(1.0 / f64::from(k));
             let part = x.scaled(graph, inverse);
             sum = part.times_plus(graph, &sum, &part);
+            let inverse = graph.constant(1.0 / f64::from(k + 1));
+            applied = applied.zip(v).map(|(now, v)| plus(v, inverse, x.apply(graph, &now)));
         }
-        let two = graph.constant(2.0);
+        let (half, two) = (graph.constant(0.5), graph.constant(2.0));
         for _ in 0..SQUARINGS {
+            applied = applied.map(|now| plus(&now, half, sum.apply(graph, &now)));
             sum = sum.times_plus(graph, &sum, &sum.scaled(graph, two));
         }
-        sum
+        (sum, applied.unwrap_or_default())
     }
 
     /// g·k; where elements are orthogonal, pulled back onto them, so that rounding does not accumulate in gᵀg over many
@@ -397,6 +409,14 @@ impl Part for Tables {
             self.coordinates(graph, &self.between(graph, &increment, mu, &inverse))
         };
         Some(Moved { g: self.product(graph, &own, &increment), mu })
+    }
+
+    fn trail(&self, graph: &Graph, y: &[Id], xi: &[Id], change: &[Id]) -> Vec<Id> {
+        let back: Vec<Id> = y.iter().map(|&y| graph.neg(y)).collect();
+        let inside = self.ad_transpose(graph, &back).transposed();
+        let (turn, change) = self.exponential_with(graph, &inside, Some(change));
+        let turned = turn.apply(graph, xi).into_iter().zip(xi).zip(change);
+        turned.map(|((turned, &xi), change)| graph.add(graph.add(turned, xi), change)).collect()
     }
 
     fn spatial(&self, graph: &Graph, g: &[Id], back: &[Id], mu: &[Id]) -> Vec<Id> {

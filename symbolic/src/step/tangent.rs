@@ -1,109 +1,345 @@
-//! The derivatives of a step: those of the equations that its solution satisfies, and of the motions that it makes.
+//! The step of a state with a tangent beside it, as a kernel: by differentiating the programs of the step.
 //!
-//! A tangent to a state (g, μ) is (ξ, ν), ξ = g⁻¹δg in 𝔤 and ν = δμ. The solution z of the equations F(g, μ, z) = 0 of a flow moves with the
-//! state by ∂F/∂z δz = −∂F/∂(g, μ) (ξ, ν), whatever has found it.
+//! A tangent to a state (g, μ) is (ξ, ν), ξ = g⁻¹δg in 𝔤 and ν = δμ, and changes θ̇ of numbers that coefficients depend on. The solution of a
+//! step is a fixed point z = C(z, μ) of its correction, so its tangent is the fixed point of ż = ∂C/∂z ż + ∂C/∂μ ν + …, and is
+//! corrected with it. A motion by τ(x) moves, with L = d^L τ_x,
+//!
+//! ```text
+//! ξ″ = Ad_{τ(x)⁻¹} ξ + L ẋ
+//! ```
+//!
+//! and ν as the derivative of the moved momentum says.
 
 use coadjoint_program::fold::FoldError;
-use coadjoint_program::{Argument, Kernel};
+use coadjoint_program::{Argument, Kernel, KernelParts, Node, Programs};
 
-use super::product::{Part, Product};
-use super::programs::equation_of_series;
-use super::solving::{Scheme, inputs};
+use super::product::Part;
+use super::solving::inputs;
 use super::tables::structure_of;
-use super::{Elements, Moving, Origin, Step, StepError, collocation};
-use crate::graph::{Graph, Program};
-use crate::lie::Chart;
+use super::vector::largest;
+use super::{Moving, Origin, Step, StepError};
+use super::{collocation, programs};
+use crate::graph::{Graph, Id, Program};
 
-/// A program with its derivatives.
-#[derive(Clone, Debug)]
-pub struct Differentiated {
-    /// The program.
-    pub value: Program,
-    /// Its inputs, and the changes of those after the first ones ↦ the changes of its outputs.
-    pub by_inputs: Program,
-    /// Its inputs, and the changes of all folded coefficients ↦ the changes of its outputs.
-    pub by_slots: Program,
+/// The change of the solution by a correction, relative to its largest number, up to which tangents are as right as it is.
+const SETTLED: f64 = 1e-14;
+
+/// The step of a state with a tangent. n is the dimension, m how many numbers make a group element.
+#[derive(Debug)]
+pub struct Tangent {
+    /// Its programs, of g (m) as the step has it and, in place of μ, of μ (n), ξ (n), ν (n) and θ̇. After the coefficients of a flow they read
+    /// the [slopes](Tangent::slopes).
+    pub kernel: Kernel,
+    /// The derivatives of coefficients that are not 0: the place of the coefficient in a flow, the number of the θ.
+    pub slopes: Vec<(usize, usize)>,
+    /// The number of the θ.
+    directions: usize,
 }
 
-impl Differentiated {
-    /// With the derivatives in all inputs after the first `fixed` ones.
-    fn new(value: Program, fixed: usize) -> Self {
-        let inputs: Vec<Argument> = (fixed..value.inputs()).map(Argument::Input).collect();
-        let slots: Vec<Argument> = (0..value.slots()).map(Argument::Slot).collect();
-        let (by_inputs, by_slots) = (value.push_forward(&inputs), value.push_forward(&slots));
-        Self { value, by_inputs, by_slots }
+/// A state with a tangent, as nodes.
+struct State {
+    mu: Vec<Id>,
+    xi: Vec<Id>,
+    nu: Vec<Id>,
+    theta: Vec<Id>,
+}
+
+impl State {
+    fn numbers(self) -> Vec<Id> {
+        [self.mu, self.xi, self.nu, self.theta].concat()
     }
 }
 
-/// The derivatives of a step. n is the dimension, m how many numbers make a group element, u how many are solved for.
-#[derive(Debug)]
-pub struct Tangent {
-    /// g (m), y (n), μ (n), z (u) ↦ F of a flow at g·τ(y) (u), its increment x (n), the momentum that x moves (n); differentiated in y, at
-    /// which y = 0, in μ and in z.
-    pub equation: Differentiated,
-    /// A flow of the step as a step of its own, without kicks.
-    pub flow: Kernel,
-    /// True if F reads the group element.
-    pub reads: bool,
-    /// g (m), y (n), μ (n) ↦ the momentum after a kick at g·τ(y) (n), where there are kicks.
-    pub kick: Option<Differentiated>,
-    /// μ ↦ y, a motion exp(y) after each flow: those of a comoving frame.
-    pub frame: Vec<Differentiated>,
-    /// x, w ↦ Ad\*_{τ(x)⁻¹} w, (d^R τ_x)ᵀ w.
-    pub motion: Program,
-    /// As `motion`, by the exponential: that of a comoving frame, where there is one.
-    pub frame_motion: Option<Program>,
-    /// (i, j, k, cᵢⱼᵏ) of all structure constants that are not 0.
-    pub structure: Vec<(usize, usize, usize, f64)>,
+/// x, ξ, δ, and anything ↦ aᵀξ + bᵀδ of the maps w ↦ a w, b w at x, which are linear.
+pub(super) fn transposed(n: usize, maps: impl Fn(&Graph, &[Id], &[Id]) -> [Vec<Id>; 2]) -> Program {
+    let graph = Graph::new();
+    let [x, xi, delta, w] = [0, n, 2 * n, 3 * n].map(|from| inputs(&graph, from, n));
+    let [a, b] = maps(&graph, &x, &w);
+    let weighted: Vec<_> = a.into_iter().zip(xi).chain(b.into_iter().zip(delta)).collect();
+    graph.finish(4 * n, &graph.pull_back(&weighted, &w))
 }
 
-/// x, w ↦ Ad\*_{τ(x)⁻¹} w, (d^R τ_x)ᵀ w.
-fn motion(group: &Product) -> Program {
-    let (n, graph) = (group.dim(), Graph::new());
-    let [x, w] = [0, n].map(|from| inputs(&graph, from, n));
-    let anywhere = vec![graph.zero(); group.element()];
-    let mut outputs = group.transport(&graph, &anywhere, &x, &w).mu;
-    outputs.extend(group.pull_back(&graph, &x, &w));
-    graph.finish(2 * n, &outputs)
+/// The programs of a step on their way to those with a tangent.
+struct Differentiation<'a> {
+    step: &'a Step,
+    origin: &'a Origin,
+    slopes: &'a [(usize, usize)],
+    /// The number of the θ.
+    directions: usize,
+    /// The numbers that are solved for, those whose equation has a derivative; others tell how the solve goes.
+    solved: usize,
+    /// The program that moves a state without a frame.
+    moved: Program,
+    /// The numbers of a solution by which the momentum and the element move.
+    moving: Vec<usize>,
+    /// g, y, v ↦ the change of g·τ(y) with y along v.
+    turned: Program,
 }
 
-/// g, y, μ ↦ a kick at g·τ(y).
-fn kicked(group: &Product, kick: &Program) -> Program {
-    let (n, m, graph) = (group.dim(), group.element(), Graph::new());
-    let [g, y, mu] = [(0, m), (m, n), (m + n, n)].map(|(from, count)| inputs(&graph, from, count));
-    let moved = group.transport(&graph, &g, &y, &mu).g;
-    graph.finish(m + n + n, &graph.call(kick, &[moved, mu].concat()))
+impl<'a> Differentiation<'a> {
+    fn new(
+        step: &'a Step,
+        origin: &'a Origin,
+        slopes: &'a [(usize, usize)],
+        directions: usize,
+    ) -> Self {
+        let (kernel, group, graph) = (&step.kernel, &step.group, Graph::new());
+        let (n, m) = (group.dim(), group.element());
+        let [g, y] = [(0, m), (m, n)].map(|(from, count)| inputs(&graph, from, count));
+        let turned = group.transport(&graph, &g, &y, &vec![graph.zero(); n]).g;
+        let of: Vec<_> = (m..m + n).map(Argument::Input).collect();
+        let turned = graph.finish(m + n, &turned).push_forward(&of);
+        let (solved, moved) = match origin {
+            Origin::Series(_) => (kernel.unknowns, programs::transport(group)),
+            Origin::Collocation(_) => {
+                (kernel.unknowns - collocation::OTHERS, kernel.programs.transport.clone())
+            }
+        };
+        let graph = Graph::new();
+        let outputs = graph.call(&moved, &inputs(&graph, 0, moved.inputs()));
+        let read = graph.finish(moved.inputs(), &outputs[m..]);
+        let mut moving: Vec<usize> = (0..n).collect();
+        moving.extend(read.nodes().iter().filter_map(|node| match *node {
+            Node::Input(i) => (i as usize).checked_sub(m + n),
+            _ => None,
+        }));
+        moving.sort_unstable();
+        moving.dedup();
+        Self { step, origin, slopes, directions, solved, moved, moving, turned }
+    }
+
+    /// n.
+    fn dim(&self) -> usize {
+        self.step.kernel.dim
+    }
+
+    /// The numbers in place of a momentum.
+    fn momentum(&self) -> usize {
+        3 * self.dim() + self.directions
+    }
+
+    /// Those of a state from this input on.
+    fn state(&self, graph: &Graph, from: usize) -> State {
+        let n = self.dim();
+        let [mu, xi, nu] = [0, n, 2 * n].map(|at| inputs(graph, from + at, n));
+        State { mu, xi, nu, theta: inputs(graph, from + 3 * n, self.directions) }
+    }
+
+    /// The change of g along ξ.
+    fn turned(&self, graph: &Graph, g: &[Id], xi: &[Id]) -> Vec<Id> {
+        let nothing = vec![graph.zero(); xi.len()];
+        graph.call(&self.turned, &[g, &nothing, xi].concat())
+    }
+
+    /// Coefficients and their changes.
+    fn coefficients(&self, graph: &Graph, theta: &[Id]) -> Vec<(usize, Id)> {
+        let first = self.step.kernel.slots_of_flow();
+        let mut changes: Vec<(usize, Id)> = Vec::new();
+        for (at, &(place, number)) in self.slopes.iter().enumerate() {
+            let slope = graph.slot(first + at);
+            match changes.last_mut().filter(|(last, _)| *last == place) {
+                Some((_, sum)) => *sum = graph.times_plus(slope, theta[number], *sum),
+                None => changes.push((place, graph.mul(slope, theta[number]))),
+            }
+        }
+        changes
+    }
+
+    /// The results of a program, and their changes with those of its inputs and of coefficients.
+    fn along(
+        &self,
+        graph: &Graph,
+        program: &Program,
+        (at, change): (&[Id], &[Id]),
+        theta: &[Id],
+    ) -> [Vec<Id>; 2] {
+        let mut coefficients = self.coefficients(graph, theta);
+        coefficients.retain(|(place, _)| *place < program.slots());
+        let places = coefficients.iter().map(|(place, _)| Argument::Slot(*place));
+        // Inputs that do not change need no derivatives.
+        let moves: Vec<usize> = (0..at.len()).filter(|&i| !graph.is_zero(change[i])).collect();
+        let of: Vec<_> = moves.iter().map(|&i| Argument::Input(i)).chain(places).collect();
+        let changes = moves.iter().map(|&i| change[i]);
+        let changes: Vec<Id> =
+            changes.chain(coefficients.iter().map(|(_, change)| *change)).collect();
+        let changed = graph.call(&program.push_forward(&of), &[at, &changes].concat());
+        [graph.call(program, at), changed]
+    }
+
+    /// μ, or g and μ, ↦ a first guess with its change, and the constants, with their changes where they hold numbers of g.
+    fn guess(&self) -> Program {
+        let (graph, kernel, solved) = (Graph::new(), &self.step.kernel, self.solved);
+        let m = if kernel.guesses_from_element() { kernel.element } else { 0 };
+        let (mut g, state) = (inputs(&graph, 0, m), self.state(&graph, m));
+        let turned = if m > 0 { self.turned(&graph, &g, &state.xi) } else { Vec::new() };
+        // From what earlier steps have left the solution would be guessed better than its change, and the loop end before that is found.
+        let own = m - self.step.memory.min(m);
+        g[own..].fill(graph.zero());
+        let (at, change) = ([&g[..], &state.mu].concat(), [&turned[..], &state.nu].concat());
+        let [value, change] =
+            self.along(&graph, &kernel.programs.guess, (&at, &change), &state.theta);
+        let (unknowns, constants) = value.split_at(kernel.unknowns);
+        let changed = if m > 0 { &change[kernel.unknowns..] } else { &[] };
+        let outputs = [unknowns, &change[..solved], constants, changed].concat();
+        graph.finish(m + self.momentum(), &outputs)
+    }
+
+    /// As the correction of the step, with the changes of what is solved for and of what moves; no solution is one before it has settled.
+    fn correct(&self) -> Program {
+        let (graph, kernel, solved) = (Graph::new(), &self.step.kernel, self.solved);
+        let (u, v) = (kernel.unknowns, kernel.solution);
+        let mut count = 0;
+        let mut take = |more: usize| {
+            count += more;
+            inputs(&graph, count - more, more)
+        };
+        let (z, mut moved) = (take(u), take(solved));
+        moved.resize(u, graph.zero());
+        let state = self.state(&graph, u + solved);
+        take(self.momentum());
+        let constants = take(kernel.programs.guess.outputs().len() - u);
+        let changed = match kernel.guesses_from_element() {
+            true => take(constants.len()),
+            // At a solution they do not matter.
+            false => vec![graph.zero(); constants.len()],
+        };
+        let at = [&z[..], &state.mu, &constants].concat();
+        let change = [&moved[..], &state.nu, &changed].concat();
+        let correct = &kernel.programs.correct;
+        let [value, change] = self.along(&graph, correct, (&at, &change), &state.theta);
+        let pairs = z.iter().zip(&value).take(solved);
+        let less: Vec<Id> = pairs.map(|(&z, &next)| graph.sub(next, z)).collect();
+        let smallest = graph.constant(f64::MIN_POSITIVE);
+        let size = graph.add(largest(&graph, &value[..solved]), smallest);
+        let moved = graph.div(largest(&graph, &less), size);
+        let bound = value[u + v];
+        let settled = graph.select(moved, graph.constant(SETTLED), bound, graph.max(bound, moved));
+        let mut outputs = [&value[..u], &change[..solved], &value[u..u + v]].concat();
+        outputs.extend(self.moving.iter().map(|&at| change[u + at]));
+        outputs.extend([settled, value[u + v + 1]]);
+        graph.finish(count, &outputs)
+    }
+
+    /// A test of the step: of g where it has one, of μ, and of other numbers.
+    fn test(&self, program: &Program, before: usize, skipped: usize, after: usize) -> Program {
+        let graph = Graph::new();
+        let (first, n) = (inputs(&graph, 0, before), self.dim());
+        let mu = inputs(&graph, before, n);
+        let from = before + self.momentum();
+        let own = program.inputs() - before - n - after;
+        let x = inputs(&graph, from, own);
+        let last = inputs(&graph, from + own + skipped, after);
+        let outputs = graph.call(program, &[first, mu, x, last].concat());
+        graph.finish(from + own + skipped + after, &outputs)
+    }
+
+    /// Moves by x, after it by the frame where there is one.
+    fn transport(&self) -> Result<Program, StepError> {
+        let (graph, kernel, group) = (Graph::new(), &self.step.kernel, &self.step.group);
+        let (m, n, v) = (kernel.element, kernel.dim, kernel.solution);
+        let (g, state) = (inputs(&graph, 0, m), self.state(&graph, m));
+        let from = m + self.momentum();
+        let (x, known) = (inputs(&graph, from, v), inputs(&graph, from + v, self.moving.len()));
+        let mut moved = vec![graph.zero(); v];
+        self.moving.iter().zip(known).for_each(|(&at, change)| moved[at] = change);
+        let at = [&g[..], &state.mu, &x].concat();
+        let change = [&vec![graph.zero(); m][..], &state.nu, &moved].concat();
+        let [mut g, mut nu] = self.along(&graph, &self.moved, (&at, &change), &state.theta);
+        let (mut mu, nothing) = (g.split_off(m), vec![graph.zero(); n]);
+        nu.drain(..m);
+        // Ad_{τ⁻¹} is the transpose of Ad*_τ, and d^L τ_x = d^R τ_{−x}.
+        let back = transposed(n, |graph, x, w| {
+            let back: Vec<Id> = x.iter().map(|&x| graph.neg(x)).collect();
+            let anywhere = vec![graph.zero(); m];
+            let moved = group.transport(graph, &anywhere, &back, w).mu;
+            [moved, group.pull_back(graph, &back, w)]
+        });
+        let mut xi = graph.call(&back, &[&x[..n], &state.xi, &moved[..n], &nothing].concat());
+        let algebra = self.origin.facts().algebra;
+        for motion in self.origin.series().map_or(&[][..], |integrator| &integrator.frame) {
+            let [y, change] = self.along(&graph, motion, (&mu, &nu), &state.theta);
+            let unknown = || StepError::Frame { group: algebra.name().to_owned() };
+            let moved = group.move_frame(&graph, &g, &y, &mu).ok_or_else(unknown)?;
+            nu = group.move_frame(&graph, &g, &y, &nu).ok_or_else(unknown)?.mu;
+            let eta = group.trail(&graph, &y, &nothing, &change);
+            xi = group.trail(&graph, &y, &xi, &change);
+            (g, mu) = (moved.g, moved.mu);
+            for (i, j, k, c) in structure_of(algebra) {
+                let factor = graph.mul(graph.constant(c), eta[i]);
+                nu[j] = graph.times_plus(factor, mu[k], nu[j]);
+            }
+        }
+        let state = State { mu, xi, nu, theta: state.theta }.numbers();
+        Ok(graph.finish(from + v + self.moving.len(), &[g, state].concat()))
+    }
+
+    /// A kick.
+    fn kick(&self, kick: &Program) -> Program {
+        let (graph, m) = (Graph::new(), self.step.kernel.element);
+        let (g, State { mu, xi, nu, theta }) = (inputs(&graph, 0, m), self.state(&graph, m));
+        let change = [&self.turned(&graph, &g, &xi)[..], &nu].concat();
+        let at = [&g[..], &mu].concat();
+        let [mu, nu] = self.along(&graph, kick, (&at, &change), &theta);
+        graph.finish(m + self.momentum(), &State { mu, xi, nu, theta }.numbers())
+    }
 }
 
 impl Tangent {
-    /// Of the step of this origin.
+    /// True if it has these slopes, and others perhaps, in the numbers θ, which are so many.
+    pub fn is_for(&self, slopes: &[(usize, usize)], directions: usize) -> bool {
+        let known = |slope| self.slopes.binary_search(slope).is_ok();
+        self.directions == directions && slopes.iter().all(known)
+    }
+
+    /// Of the step of this origin, whose coefficients in these places of a flow depend on the θ of these numbers: see
+    /// [`Tangent::slopes`].
     ///
     /// # Errors
     /// [`StepError`] where the group of a comoving frame has no formulas.
-    pub fn new(step: &Step, origin: &Origin) -> Result<Self, StepError> {
-        let (group, algebra) = (&step.group, origin.facts().algebra);
-        let (value, reads) = match origin {
-            Origin::Series(integrator) => (equation_of_series(integrator, group), false),
-            Origin::Collocation(smooth) => collocation::equation(smooth, group),
+    pub fn new(
+        step: &Step,
+        origin: &Origin,
+        mut slopes: Vec<(usize, usize)>,
+        directions: usize,
+    ) -> Result<Self, StepError> {
+        slopes.sort_unstable();
+        let own = Differentiation::new(step, origin, &slopes, directions);
+        let KernelParts {
+            element: m,
+            unknowns,
+            solution,
+            tolerance,
+            near,
+            corrections,
+            ref programs,
+            ..
+        } = *step.kernel;
+        let nothing = |inputs| Graph::new().finish(inputs, &[]);
+        let programs = Programs {
+            guess: own.guess(),
+            correct: own.correct(),
+            accept: own.test(&programs.accept, 0, own.moving.len(), 2),
+            transport: own.transport()?,
+            frame: None,
+            sound: own.test(&programs.sound, m, 0, 0),
+            watch: nothing(m + own.momentum()),
+            matrix: nothing(m),
         };
-        let frame = origin.series().map_or(&[][..], |integrator| &integrator.frame);
-        let frame_motion = || {
-            let scheme = Scheme::FixedPoint;
-            let parts = Elements::ByFactors.parts(algebra, Chart::Exponential, scheme)?;
-            Ok::<_, StepError>(motion(&Product(parts)))
+        let kernel = Kernel::new(KernelParts {
+            dim: own.momentum(),
+            element: m,
+            unknowns: unknowns + own.solved,
+            solution: solution + own.moving.len(),
+            tolerance,
+            near,
+            corrections,
+            programs,
+        })?;
+        let kernel = match (step.kernel.kick(), step.kernel.flows()) {
+            (Some(kick), Some(flows)) => kernel.with_kicks(own.kick(kick), flows)?,
+            _ => kernel,
         };
-        let m = group.element();
-        let kick = step.kernel.kick().map(|kick| Differentiated::new(kicked(group, kick), m));
-        Ok(Self {
-            equation: Differentiated::new(value, m),
-            flow: Kernel::new((*step.kernel).clone())?,
-            reads,
-            kick,
-            frame: frame.iter().map(|own| Differentiated::new(own.clone(), 0)).collect(),
-            motion: motion(group),
-            structure: structure_of(algebra),
-            frame_motion: (!frame.is_empty()).then(frame_motion).transpose()?,
-        })
+        Ok(Self { kernel, slopes, directions })
     }
 }
 

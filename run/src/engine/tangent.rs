@@ -1,0 +1,301 @@
+//! Steps of states with tangents beside them, by the kernel of their [`Tangent`].
+
+use std::sync::{Arc, OnceLock};
+
+use coadjoint::StepError;
+use coadjoint_codegen::step::{Origin, Step, Tangent};
+use coadjoint_program::{Kernel, Trajectories, WIDTH};
+use nalgebra::{DMatrix, DMatrixView};
+
+use super::compiled::{Codes, Compiled, Numbers, Running, refusal};
+use crate::backend::Backend;
+use crate::error::RunError;
+
+/// A kernel of steps with tangents, and its code, for later runs.
+#[derive(Debug)]
+pub(super) struct Varied {
+    tangent: Tangent,
+    codes: Codes,
+}
+
+/// A value of an input that a step reads.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Read {
+    /// The number of the input.
+    pub input: usize,
+    /// The time.
+    pub time: f64,
+}
+
+/// The tangents of the steps of a motion.
+#[derive(Debug)]
+pub(crate) struct Tangents {
+    varied: Arc<Varied>,
+    backend: Backend,
+    /// The steps that are going to be made.
+    steps: f64,
+    /// q, the number of parameters.
+    pub parameters: usize,
+    /// s, the number of values of inputs that a step reads.
+    pub reads: usize,
+    /// The coefficients of steps of the size that most have, as the kernel reads them, where they do not depend on the time.
+    slots: OnceLock<Vec<f64>>,
+}
+
+/// A state with tangents on their way.
+#[derive(Debug)]
+pub(crate) struct Carried<'t> {
+    tangents: &'t Tangents,
+    code: Running,
+    /// The state.
+    pub state: Numbers,
+    /// ξ, ν, and the changes of the parameters and of the values that a step reads, (2n + q + s)×k.
+    pub columns: DMatrix<f64>,
+}
+
+/// The derivatives of the coefficients of steps in each parameter.
+///
+/// # Errors
+/// Fails if one is not finite.
+fn slopes(step: &Step, (size, parameters): (f64, &[f64])) -> Result<Vec<Vec<f64>>, StepError> {
+    let of = |number: usize| {
+        let mut change = vec![0.0; parameters.len()];
+        change[number] = 1.0;
+        let slope = step.slope(size, parameters, &change);
+        slope.map_err(|error| refusal(error, size, &step.symbols(&change)))
+    };
+    (0..parameters.len()).map(of).collect()
+}
+
+impl Tangents {
+    /// Of these steps, about so many of which are going to be made; `None` where they have none.
+    ///
+    /// # Errors
+    /// Fails if a derivative of a coefficient is not finite.
+    pub(super) fn new(
+        compiled: &Compiled,
+        origin: &Origin,
+        backend: Backend,
+        steps: f64,
+    ) -> Result<Option<Self>, StepError> {
+        let (step, (size, parameters)) = (compiled.step(), compiled.values());
+        let each = step.kernel().slots_of_flow().max(1);
+        let of_parameters = slopes(step, (size, parameters))?;
+        let (sampled, parameters) = (step.sampled(size, 0.0), of_parameters.len());
+        let places = |(number, slope): (usize, &Vec<f64>)| {
+            let known = slope.iter().enumerate().filter(|(_, slope)| **slope != 0.0);
+            known.map(|(at, _)| (at % each, number)).collect::<Vec<_>>()
+        };
+        let mut all: Vec<_> = of_parameters.iter().enumerate().flat_map(places).collect();
+        let of_inputs = sampled.iter().zip(parameters..);
+        all.extend(of_inputs.map(|(&(place, ..), number)| (place % each, number)));
+        all.sort_unstable();
+        all.dedup();
+        let count = parameters + sampled.len();
+        let make = || {
+            let tangent = Tangent::new(step, origin, all.clone(), count).ok()?;
+            Some(Varied { tangent, codes: Codes::default() })
+        };
+        let fits = |known: &Varied| known.tangent.is_for(&all, count);
+        let Some(varied) = compiled.varied(fits, make) else { return Ok(None) };
+        let (reads, slots) = (sampled.len(), OnceLock::new());
+        Ok(Some(Self { varied, backend, steps, parameters, reads, slots }))
+    }
+
+    fn kernel(&self) -> &Kernel {
+        &self.varied.tangent.kernel
+    }
+
+    /// These tangents, (2n + q + s)×k, with this state.
+    ///
+    /// # Errors
+    /// Fails if the backend that the user named cannot be had.
+    pub(crate) fn carry(
+        &self,
+        state: Numbers,
+        columns: DMatrix<f64>,
+    ) -> Result<Carried<'_>, RunError> {
+        let trajectories = match columns.ncols() {
+            1 => Trajectories::One,
+            _ => Trajectories::Lanes,
+        };
+        let steps = self.steps * columns.ncols().div_ceil(WIDTH) as f64;
+        let code = self.varied.codes.code(self.kernel(), self.backend, steps, trajectories)?;
+        Ok(Carried { tangents: self, code, state, columns })
+    }
+
+    /// The coefficients of the step of these programs from this time.
+    fn coefficients(&self, compiled: &Compiled, time: f64) -> Result<Vec<f64>, StepError> {
+        let (step, (size, parameters)) = (compiled.step(), compiled.values());
+        let of_parameters = slopes(step, (size, parameters))?;
+        let sampled = step.sampled(size, time);
+        let (own, known) = (step.kernel().slots_of_flow(), compiled.coefficients_at(time));
+        let slope = |place: usize, number: usize| match of_parameters.get(number) {
+            Some(slope) => slope.get(place).copied().unwrap_or(0.0),
+            None => f64::from(u8::from(sampled[number - of_parameters.len()].0 == place)),
+        };
+        let mut all = Vec::with_capacity(self.kernel().slots());
+        for flow in 0..self.kernel().flows().map_or(1, |flows| flows as usize + 1) {
+            let first = flow * own;
+            all.extend(known.iter().skip(first).take(own));
+            all.resize((flow * self.kernel().slots_of_flow()) + own, 0.0);
+            let slopes = self.varied.tangent.slopes.iter();
+            all.extend(slopes.map(|&(place, number)| slope(first + place, number)));
+            all.resize((flow + 1) * self.kernel().slots_of_flow(), 0.0);
+        }
+        Ok(all)
+    }
+}
+
+impl Carried<'_> {
+    fn kernel(&self) -> &Kernel {
+        self.tangents.kernel()
+    }
+
+    /// The values of inputs that a step of these programs from this time reads.
+    pub(super) fn read(compiled: &Compiled, time: f64) -> Vec<Read> {
+        let sampled = compiled.step().sampled(compiled.values().0, time);
+        sampled.into_iter().map(|(_, input, time)| Read { input, time }).collect()
+    }
+
+    /// Sets the changes of the values that a step reads.
+    pub(super) fn reading(&mut self, changes: &DMatrix<f64>) {
+        let first = self.columns.nrows() - self.tangents.reads;
+        self.columns.rows_mut(first, changes.nrows()).copy_from(changes);
+    }
+
+    /// Makes up to `count` steps of one size, of which the first begins at this time; the number of those made. Steps that depend on the time
+    /// are made one by one.
+    ///
+    /// # Errors
+    /// Fails if a derivative of a coefficient is not finite.
+    pub(super) fn advance(
+        &mut self,
+        compiled: &Compiled,
+        time: f64,
+        count: u64,
+    ) -> Result<u64, StepError> {
+        let tangents = self.tangents;
+        if compiled.step().moves() {
+            return Ok(self.made(&tangents.coefficients(compiled, time)?, count.min(1)));
+        }
+        let slots = match tangents.slots.get() {
+            Some(slots) => slots,
+            None => {
+                let made = tangents.coefficients(compiled, time)?;
+                tangents.slots.get_or_init(|| made)
+            }
+        };
+        Ok(self.made(slots, count))
+    }
+
+    /// As [`Carried::advance`] for one step of another size.
+    ///
+    /// # Errors
+    /// As [`Carried::advance`].
+    pub(super) fn part(&mut self, compiled: &Compiled, time: f64) -> Result<bool, StepError> {
+        let slots = self.tangents.coefficients(compiled, time)?;
+        Ok(self.made(&slots, 1) == 1)
+    }
+
+    /// Makes up to so many steps with these coefficients.
+    fn made(&mut self, slots: &[f64], count: u64) -> u64 {
+        let (mut done, n) = (0, self.state.mu.len());
+        while done < count {
+            let asked = (count - done).min(self.code.0.at_a_time());
+            let made = match self.columns.ncols() {
+                1 => self.alone(slots, asked),
+                _ => self.side_by_side(slots, asked, n),
+            };
+            done += made;
+            if made < asked {
+                break;
+            }
+        }
+        done
+    }
+
+    fn alone(&mut self, slots: &[f64], count: u64) -> u64 {
+        let (stepper, n) = (self.code.0.stepper(self.tangents.kernel()), self.state.mu.len());
+        let mut mu = [&self.state.mu[..], self.columns.as_slice()].concat();
+        let made = stepper.advance(slots, &mut self.state.g, &mut mu, count).steps;
+        let (state, columns) = mu.split_at(n);
+        self.state.mu.copy_from_slice(state);
+        self.columns.as_mut_slice().copy_from_slice(columns);
+        made
+    }
+
+    fn side_by_side(&mut self, slots: &[f64], count: u64, n: usize) -> u64 {
+        let stepper = self.code.0.stepper(self.tangents.kernel());
+        let (start, rows, mut made) = (self.state.clone(), self.columns.nrows(), 0);
+        let beside = |numbers: &[f64]| -> Vec<f64> {
+            numbers.iter().flat_map(|&number| [number; WIDTH]).collect()
+        };
+        for first in (0..self.columns.ncols()).step_by(WIDTH) {
+            let own = WIDTH.min(self.columns.ncols() - first);
+            let (mut g, mut mu) = (beside(&start.g), beside(&start.mu));
+            mu.resize((n + rows) * WIDTH, 0.0);
+            let columns = self.columns.as_mut_slice();
+            let columns = &mut columns[first * rows..(first + own) * rows];
+            for (lane, column) in columns.chunks_exact(rows).enumerate() {
+                for (row, &number) in column.iter().enumerate() {
+                    mu[(n + row) * WIDTH + lane] = number;
+                }
+            }
+            let live = std::array::from_fn(|lane| lane < own);
+            // The steps of all columns are the same.
+            made = stepper.advance_lanes(slots, &mut g, &mut mu, count, live)[0];
+            for (lane, column) in columns.chunks_exact_mut(rows).enumerate() {
+                for (row, number) in column.iter_mut().enumerate() {
+                    *number = mu[(n + row) * WIDTH + lane];
+                }
+            }
+            let first_lane = |numbers: &[f64], own: &mut [f64]| {
+                own.iter_mut().zip(numbers.iter().step_by(WIDTH)).for_each(|(own, &at)| *own = at);
+            };
+            first_lane(&g, &mut self.state.g);
+            first_lane(&mu, &mut self.state.mu);
+        }
+        made
+    }
+
+    /// Makes the step that programs refuse and that leads to this state, if their corrections find it.
+    pub(super) fn refused(
+        &mut self,
+        compiled: &Compiled,
+        time: f64,
+        next: Numbers,
+    ) -> Result<bool, StepError> {
+        let (kernel, tangents) = (self.kernel(), self.tangents);
+        if kernel.flows().is_some() {
+            // The states between kicks are those of accepted flows.
+            return Ok(false);
+        }
+        let (slots, Numbers { g, mu }) = (tangents.coefficients(compiled, time)?, &self.state);
+        let size = next.mu.iter().fold(0.0, |largest: f64, mu| largest.max(mu.abs()));
+        let mut moved = self.columns.clone();
+        for mut column in moved.column_iter_mut() {
+            let own: Vec<f64> = mu.iter().chain(&column).copied().collect();
+            let found = kernel.attempt_at(&slots, g, &own);
+            let from = [&g[..], &own, &found.increment].concat();
+            let after = kernel.programs.transport.run(&from, &slots);
+            let (state, change) = after[g.len()..].split_at(mu.len());
+            let off = |(a, b): (&f64, &f64)| (a - b).abs() <= SAME * size;
+            let solved = found.residual_bound <= kernel.tolerance;
+            if !solved || !state.iter().zip(&next.mu).all(off) {
+                return Ok(false);
+            }
+            column.copy_from_slice(change);
+        }
+        (self.columns, self.state) = (moved, next);
+        Ok(true)
+    }
+
+    /// The tangents.
+    pub(crate) fn tangents(&self) -> DMatrixView<'_, f64> {
+        self.columns.rows(0, 2 * self.state.mu.len())
+    }
+}
+
+/// Two steps that differ by less, relative to the momentum, are the same one.
+const SAME: f64 = 1e-11;
