@@ -4,9 +4,11 @@
 mod tests;
 
 use coadjoint_codegen::signal::{Gathered, Signal};
+use std::ops::AddAssign;
+
 use nalgebra::{DMatrix, DVector};
 
-use crate::engine::{Carried, Motion, Numbers, Read, Tangents};
+use crate::engine::{Carried, Motion, Numbers, Read, Reading, Sense, Tangents};
 use crate::error::RunError;
 use crate::load::Derived;
 use crate::simulate::{Schedule, Setup};
@@ -108,7 +110,7 @@ impl<'a> Derivatives<'a> {
         &self,
         carried: &mut Carried<'_>,
         [done, count]: [u64; 2],
-        changes: Option<&dyn Fn(&[Read]) -> DMatrix<f64>>,
+        changes: Option<&Reading<'_>>,
     ) -> Result<(), RunError> {
         let made = self.motion.carry(carried, [done, count], changes);
         match made.map_err(|(more, error)| self.failed(done + more, &error))? {
@@ -127,7 +129,14 @@ impl<'a> Derivatives<'a> {
         let mut columns = DMatrix::zeros(two_n + own.parameters + own.reads, k);
         columns.rows_mut(0, two_n).copy_from(tangents);
         columns.rows_mut(two_n, own.parameters).copy_from(parameters);
-        own.carry(self.start.clone(), columns)
+        self.forward_from(self.start.clone(), columns)
+    }
+
+    /// These tangents with this state.
+    fn forward_from(&self, state: Numbers, columns: DMatrix<f64>) -> Result<Carried<'_>, RunError> {
+        let carried = self.known()?.carry(Sense::Forward, state, columns)?;
+        // There are steps with tangents wherever there are tangents.
+        carried.ok_or_else(|| self.too_long(0))
     }
 
     /// # Errors
@@ -191,8 +200,7 @@ impl<'a> Derivatives<'a> {
                 changed[input].get(column).map_or(0.0, |signal| signal.at(time))
             })
         };
-        let changes: Option<&dyn Fn(&[Read]) -> DMatrix<f64>> =
-            if changed.is_empty() { None } else { Some(&read) };
+        let changes: Option<&Reading<'_>> = if changed.is_empty() { None } else { Some(&read) };
         let (mut carried, mut done) = (self.begin(state, parameters)?, 0);
         let mut found = Vec::new();
         for &at in at {
@@ -203,30 +211,56 @@ impl<'a> Derivatives<'a> {
         Ok(found)
     }
 
-    /// The derivatives, 2n×(2n + q + s), of the parts of the step after `done`, each with the values of inputs that it reads.
-    fn linear(
-        &self,
-        carried: &mut Carried<'_>,
-        unit: &DMatrix<f64>,
-        done: u64,
-    ) -> Result<Vec<(DMatrix<f64>, Vec<Read>)>, RunError> {
-        let failed = |error| self.failed(done, &error);
-        let parts = self.motion.parts(done);
+    /// The parts of the step after `done` from this state, with the states before them.
+    fn parts(&self, done: u64, mut state: Numbers) -> Result<Vec<([f64; 2], Numbers)>, RunError> {
         let mut found = Vec::new();
-        for &part in &parts {
-            carried.columns.copy_from(unit);
-            let made = match parts.len() {
-                1 => self.motion.carry(carried, [done, 1], None).map_err(|(_, error)| error),
-                _ => self.motion.carry_part(carried, part).map(u64::from),
-            };
-            if made.map_err(failed)? == 0 {
-                return Err(self.too_long(done));
+        let parts = self.motion.parts(done);
+        for (number, &part) in parts.iter().enumerate() {
+            found.push((part, state.clone()));
+            if number + 1 < parts.len() {
+                let made = self.motion.part(&mut state, part);
+                made.map_err(|error| self.failed(done, &error))?;
             }
-            self.finite(done, [&carried.columns])?;
-            let linear = carried.tangents().into_owned();
-            found.push((linear, self.motion.read(part).map_err(failed)?));
         }
         Ok(found)
+    }
+
+    /// Takes the cotangents, and the sums of derivatives in the parameters below them, from after the step after `done`, or a part of it, to
+    /// the state before it: by the transpose of the step or, where it has none, by its derivative. Returns the derivatives in the values of inputs
+    /// that it reads.
+    fn back(
+        &self,
+        carried: &mut Carried<'_>,
+        (done, part): (u64, Option<[f64; 2]>),
+        state: Numbers,
+        columns: &mut DMatrix<f64>,
+    ) -> Result<DMatrix<f64>, RunError> {
+        let rows = columns.nrows();
+        carried.state = state;
+        carried.columns = match carried.sense {
+            Sense::Backward => columns.clone(),
+            Sense::Forward => DMatrix::identity(rows, rows),
+        };
+        let made = match part {
+            None => self.motion.carry(carried, [done, 1], None).map_err(|(_, error)| error),
+            Some(part) => self.motion.carry_part(carried, part).map(u64::from),
+        };
+        if made.map_err(|error| self.failed(done, &error))? == 0 {
+            return Err(self.too_long(done));
+        }
+        self.finite(done, [&carried.columns])?;
+        let (two_n, q) = (2 * self.dim(), self.parameters());
+        if carried.sense == Sense::Backward {
+            columns.copy_from(&carried.columns);
+        } else {
+            let weights = carried.tangents().tr_mul(&columns.rows(0, two_n));
+            columns.rows_mut(0, two_n).copy_from(&weights.rows(0, two_n));
+            columns.rows_range_mut(two_n..).add_assign(&weights.rows_range(two_n..));
+        }
+        let mut own = columns.rows_range_mut(two_n + q..);
+        let read = own.clone_owned();
+        own.fill(0.0);
+        Ok(read)
     }
 
     /// The adjoint: the derivatives, in the start, in the parameters and in the samples of inputs, of k sums over the run, given as cotangents (2n×k)
@@ -256,19 +290,21 @@ impl<'a> Derivatives<'a> {
             }
         }
         let (mut left, mut kept) = (cotangents.iter().rev().peekable(), 0);
-        let mut now = DMatrix::zeros(2 * n, k);
-        let mut parameters = DMatrix::zeros(q, k);
         let gathered = |signal| (0..k).map(|_| Gathered::new(signal)).collect::<Vec<_>>();
         let mut inputs: Vec<_> = self.signals.iter().map(gathered).collect();
-        let whole = 2 * n + q + reads;
-        let unit = DMatrix::<f64>::identity(whole, whole);
-        while let Some(state) = checkpoints.pop() {
+        let mut columns = DMatrix::zeros(2 * n + q + reads, k);
+        let backward = tangents.carry(Sense::Backward, self.start.clone(), columns.clone())?;
+        let mut carried = backward.map_or_else(
+            || {
+                let unit = DMatrix::identity(columns.nrows(), columns.nrows());
+                self.forward_from(self.start.clone(), unit)
+            },
+            Ok,
+        )?;
+        while let Some(mut state) = checkpoints.pop() {
             let first = checkpoints.len() as u64 * stretch;
             let last = count.min(first + stretch);
-            let mut carried = tangents.carry(state, unit.clone())?;
-            // The derivatives of the parts of steps, from the states before them.
             let mut states = Vec::new();
-            let mut state = carried.state.clone();
             for done in first..last {
                 states.push(state.clone());
                 if done + 1 < last {
@@ -279,24 +315,30 @@ impl<'a> Derivatives<'a> {
             for (number, state) in states.into_iter().enumerate().rev() {
                 let done = first + number as u64;
                 if let Some((_, own)) = left.next_if(|(step, _)| *step == done + 1) {
+                    let mut now = columns.rows_mut(0, 2 * n);
                     now += own;
                 }
-                carried.state = state;
-                for (linear, read) in self.linear(&mut carried, &unit, done)?.iter().rev() {
-                    let weights = linear.tr_mul(&now);
-                    parameters += weights.rows(2 * n, q);
-                    for (&Read { input, time }, row) in
-                        read.iter().zip(weights.rows(2 * n + q, reads).row_iter())
-                    {
+                let parts = self.parts(done, state)?;
+                let divided = parts.len() > 1;
+                for (part, state) in parts.into_iter().rev() {
+                    let own = (done, divided.then_some(part));
+                    let weights = self.back(&mut carried, own, state, &mut columns)?;
+                    if reads == 0 {
+                        continue;
+                    }
+                    let read = self.motion.read(part).map_err(|error| self.failed(done, &error))?;
+                    for (&Read { input, time }, row) in read.iter().zip(weights.row_iter()) {
                         inputs[input].iter_mut().zip(&row).for_each(|(own, &w)| own.add(time, w));
                     }
-                    now = weights.rows(0, 2 * n).into_owned();
                 }
             }
         }
         if let Some((_, own)) = left.next() {
+            let mut now = columns.rows_mut(0, 2 * n);
             now += own;
         }
+        let now = columns.rows(0, 2 * n).into_owned();
+        let parameters = columns.rows(2 * n, q).into_owned();
         let derivatives = |own: Vec<Gathered<'_>>| {
             let columns: Vec<_> =
                 own.into_iter().map(|own| DVector::from_vec(own.derivatives())).collect();

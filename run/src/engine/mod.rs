@@ -22,4 +22,4 @@ pub(crate) use kick::Torque;
 pub(crate) use motion::Motion;
 pub(crate) use series::Interpreter;
 pub(crate) use space::{Observed, Space, Tables, entries_of, group_of, identity, phase_of};
-pub(crate) use tangent::{Carried, Read, Tangents};
+pub(crate) use tangent::{Carried, Read, Reading, Sense, Tangents};

@@ -7,14 +7,13 @@ use coadjoint::steps::{Piece, Splitting, compose};
 use coadjoint::{Phase, StepError};
 use coadjoint_codegen::integrator::Kicks;
 use coadjoint_codegen::step::Origin;
-use nalgebra::DMatrix;
 
 use super::breaks::Breaks;
 use super::compiled::{Compiled, Folded, Numbers, Solved, Solves};
 use super::kick::Torque;
 use super::method::{Flow, Method, advise};
 use super::space::{Space, Tables};
-use super::tangent::{Carried, Read, Tangents};
+use super::tangent::{Carried, Read, Reading, Tangents};
 use crate::backend::Backend;
 use crate::grid::Grid;
 
@@ -373,6 +372,18 @@ impl<'a> Motion<'a> {
         own.map(|own| self.of_size(own, size)).transpose()
     }
 
+    /// Makes one part of a step, whatever was made before.
+    ///
+    /// # Errors
+    /// Returns the reason for which there is no step.
+    pub(crate) fn part(
+        &self,
+        state: &mut Numbers,
+        [time, size]: [f64; 2],
+    ) -> Result<(), StepError> {
+        self.alone(self.of_part(size)?.as_ref(), state, [time, size])
+    }
+
     /// The values of inputs that a part of a step reads.
     ///
     /// # Errors
@@ -409,7 +420,7 @@ impl<'a> Motion<'a> {
         &self,
         carried: &mut Carried<'_>,
         [first, count]: [u64; 2],
-        changes: Option<&dyn Fn(&[Read]) -> DMatrix<f64>>,
+        changes: Option<&Reading<'_>>,
     ) -> Result<u64, (u64, StepError)> {
         let Some(compiled) = &self.space.compiled else { return Ok(0) };
         let mut done = 0;

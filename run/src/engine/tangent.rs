@@ -11,12 +11,25 @@ use super::compiled::{Codes, Compiled, Numbers, Running, refusal};
 use crate::backend::Backend;
 use crate::error::RunError;
 
-/// A kernel of steps with tangents, and its code, for later runs.
+/// The kernels of steps with tangents, of their transposes, and their codes, for later runs.
 #[derive(Debug)]
 pub(super) struct Varied {
-    tangent: Tangent,
-    codes: Codes,
+    forward: (Tangent, Codes),
+    /// Where there is one.
+    backward: Option<(Tangent, Codes)>,
 }
+
+/// A kernel of steps with tangents, or of their transposes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Sense {
+    /// Tangents, from the state before a step to that after it.
+    Forward,
+    /// Cotangents, the other way.
+    Backward,
+}
+
+/// Changes of the values that a step reads, k of each.
+pub(crate) type Reading<'a> = dyn Fn(&[Read]) -> DMatrix<f64> + 'a;
 
 /// A value of an input that a step reads.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,13 +52,16 @@ pub(crate) struct Tangents {
     /// s, the number of values of inputs that a step reads.
     pub reads: usize,
     /// The coefficients of steps of the size that most have, as the kernel reads them, where they do not depend on the time.
-    slots: OnceLock<Vec<f64>>,
+    slots: [OnceLock<Vec<f64>>; 2],
 }
 
-/// A state with tangents on their way.
+/// A state with tangents, or cotangents, on their way.
 #[derive(Debug)]
 pub(crate) struct Carried<'t> {
     tangents: &'t Tangents,
+    /// The way they go.
+    pub sense: Sense,
+    tangent: &'t Tangent,
     code: Running,
     /// The state.
     pub state: Numbers,
@@ -93,35 +109,45 @@ impl Tangents {
         all.dedup();
         let count = parameters + sampled.len();
         let make = || {
-            let tangent = Tangent::new(step, origin, all.clone(), count).ok()?;
-            Some(Varied { tangent, codes: Codes::default() })
+            let forward = Tangent::new(step, origin, all.clone(), count).ok()?;
+            let backward = forward.transpose(step, origin).ok()?;
+            let backward = backward.map(|own| (own, Codes::default()));
+            Some(Varied { forward: (forward, Codes::default()), backward })
         };
-        let fits = |known: &Varied| known.tangent.is_for(&all, count);
+        let fits = |known: &Varied| known.forward.0.is_for(&all, count);
         let Some(varied) = compiled.varied(fits, make) else { return Ok(None) };
-        let (reads, slots) = (sampled.len(), OnceLock::new());
+        let (reads, slots) = (sampled.len(), Default::default());
         Ok(Some(Self { varied, backend, steps, parameters, reads, slots }))
     }
 
-    fn kernel(&self) -> &Kernel {
-        &self.varied.tangent.kernel
-    }
-
-    /// These tangents, (2n + q + s)×k, with this state.
+    /// These tangents or cotangents, (2n + q + s)×k, with this state; `None` where steps have no transposes.
     ///
     /// # Errors
     /// Fails if the backend that the user named cannot be had.
     pub(crate) fn carry(
         &self,
+        sense: Sense,
         state: Numbers,
         columns: DMatrix<f64>,
-    ) -> Result<Carried<'_>, RunError> {
+    ) -> Result<Option<Carried<'_>>, RunError> {
         let trajectories = match columns.ncols() {
             1 => Trajectories::One,
             _ => Trajectories::Lanes,
         };
         let steps = self.steps * columns.ncols().div_ceil(WIDTH) as f64;
-        let code = self.varied.codes.code(self.kernel(), self.backend, steps, trajectories)?;
-        Ok(Carried { tangents: self, code, state, columns })
+        let own = match sense {
+            Sense::Forward => Some(&self.varied.forward),
+            Sense::Backward => self.varied.backward.as_ref(),
+        };
+        let Some((tangent, codes)) = own else { return Ok(None) };
+        let code = codes.code(&tangent.kernel, self.backend, steps, trajectories)?;
+        Ok(Some(Carried { tangents: self, sense, tangent, code, state, columns }))
+    }
+}
+
+impl Carried<'_> {
+    fn kernel(&self) -> &Kernel {
+        &self.tangent.kernel
     }
 
     /// The coefficients of the step of these programs from this time.
@@ -134,22 +160,16 @@ impl Tangents {
             Some(slope) => slope.get(place).copied().unwrap_or(0.0),
             None => f64::from(u8::from(sampled[number - of_parameters.len()].0 == place)),
         };
+        let (each, slopes) = (self.kernel().slots_of_flow(), &self.tangent.slopes);
         let mut all = Vec::with_capacity(self.kernel().slots());
         for flow in 0..self.kernel().flows().map_or(1, |flows| flows as usize + 1) {
             let first = flow * own;
             all.extend(known.iter().skip(first).take(own));
-            all.resize((flow * self.kernel().slots_of_flow()) + own, 0.0);
-            let slopes = self.varied.tangent.slopes.iter();
-            all.extend(slopes.map(|&(place, number)| slope(first + place, number)));
-            all.resize((flow + 1) * self.kernel().slots_of_flow(), 0.0);
+            all.resize(flow * each + own, 0.0);
+            all.extend(slopes.iter().map(|&(place, number)| slope(first + place, number)));
+            all.resize((flow + 1) * each, 0.0);
         }
         Ok(all)
-    }
-}
-
-impl Carried<'_> {
-    fn kernel(&self) -> &Kernel {
-        self.tangents.kernel()
     }
 
     /// The values of inputs that a step of these programs from this time reads.
@@ -175,15 +195,15 @@ impl Carried<'_> {
         time: f64,
         count: u64,
     ) -> Result<u64, StepError> {
-        let tangents = self.tangents;
         if compiled.step().moves() {
-            return Ok(self.made(&tangents.coefficients(compiled, time)?, count.min(1)));
+            return Ok(self.made(&self.coefficients(compiled, time)?, count.min(1)));
         }
-        let slots = match tangents.slots.get() {
+        let known = &self.tangents.slots[self.sense as usize];
+        let slots = match known.get() {
             Some(slots) => slots,
             None => {
-                let made = tangents.coefficients(compiled, time)?;
-                tangents.slots.get_or_init(|| made)
+                let made = self.coefficients(compiled, time)?;
+                known.get_or_init(|| made)
             }
         };
         Ok(self.made(slots, count))
@@ -194,7 +214,7 @@ impl Carried<'_> {
     /// # Errors
     /// As [`Carried::advance`].
     pub(super) fn part(&mut self, compiled: &Compiled, time: f64) -> Result<bool, StepError> {
-        let slots = self.tangents.coefficients(compiled, time)?;
+        let slots = self.coefficients(compiled, time)?;
         Ok(self.made(&slots, 1) == 1)
     }
 
@@ -216,7 +236,7 @@ impl Carried<'_> {
     }
 
     fn alone(&mut self, slots: &[f64], count: u64) -> u64 {
-        let (stepper, n) = (self.code.0.stepper(self.tangents.kernel()), self.state.mu.len());
+        let (stepper, n) = (self.code.0.stepper(&self.tangent.kernel), self.state.mu.len());
         let mut mu = [&self.state.mu[..], self.columns.as_slice()].concat();
         let made = stepper.advance(slots, &mut self.state.g, &mut mu, count).steps;
         let (state, columns) = mu.split_at(n);
@@ -226,7 +246,7 @@ impl Carried<'_> {
     }
 
     fn side_by_side(&mut self, slots: &[f64], count: u64, n: usize) -> u64 {
-        let stepper = self.code.0.stepper(self.tangents.kernel());
+        let stepper = self.code.0.stepper(&self.tangent.kernel);
         let (start, rows, mut made) = (self.state.clone(), self.columns.nrows(), 0);
         let beside = |numbers: &[f64]| -> Vec<f64> {
             numbers.iter().flat_map(|&number| [number; WIDTH]).collect()
@@ -266,12 +286,12 @@ impl Carried<'_> {
         time: f64,
         next: Numbers,
     ) -> Result<bool, StepError> {
-        let (kernel, tangents) = (self.kernel(), self.tangents);
+        let kernel = self.kernel();
         if kernel.flows().is_some() {
             // The states between kicks are those of accepted flows.
             return Ok(false);
         }
-        let (slots, Numbers { g, mu }) = (tangents.coefficients(compiled, time)?, &self.state);
+        let (slots, Numbers { g, mu }) = (self.coefficients(compiled, time)?, &self.state);
         let size = next.mu.iter().fold(0.0, |largest: f64, mu| largest.max(mu.abs()));
         let mut moved = self.columns.clone();
         for mut column in moved.column_iter_mut() {

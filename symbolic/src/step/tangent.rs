@@ -24,6 +24,11 @@ use crate::graph::{Graph, Id, Program};
 /// The change of the solution by a correction, relative to its largest number, up to which tangents are as right as it is.
 const SETTLED: f64 = 1e-14;
 
+/// The change of a cotangent of the solution, relative to its largest number, up to which it is solved for; and the corrections, after the
+/// solution has settled, that leave of its change what rounding makes of numbers that cancel each other.
+const SETTLED_COTANGENT: f64 = 1e-13;
+const SETTLED_FOR: u32 = 6;
+
 /// The step of a state with a tangent. n is the dimension, m how many numbers make a group element.
 #[derive(Debug)]
 pub struct Tangent {
@@ -184,7 +189,7 @@ impl<'a> Differentiation<'a> {
         graph.finish(m + self.momentum(), &outputs)
     }
 
-    /// As the correction of the step, with the changes of what is solved for and of what moves; no solution is one before it has settled.
+    /// As the correction of the step, with the changes of what is solved for and of what moves.
     fn correct(&self) -> Program {
         let (graph, kernel, solved) = (Graph::new(), &self.step.kernel, self.solved);
         let (u, v) = (kernel.unknowns, kernel.solution);
@@ -207,17 +212,27 @@ impl<'a> Differentiation<'a> {
         let change = [&moved[..], &state.nu, &changed].concat();
         let correct = &kernel.programs.correct;
         let [value, change] = self.along(&graph, correct, (&at, &change), &state.theta);
-        let pairs = z.iter().zip(&value).take(solved);
-        let less: Vec<Id> = pairs.map(|(&z, &next)| graph.sub(next, z)).collect();
-        let smallest = graph.constant(f64::MIN_POSITIVE);
-        let size = graph.add(largest(&graph, &value[..solved]), smallest);
-        let moved = graph.div(largest(&graph, &less), size);
-        let bound = value[u + v];
-        let settled = graph.select(moved, graph.constant(SETTLED), bound, graph.max(bound, moved));
+        let solved_for = self.settled(&graph, &z, &value);
         let mut outputs = [&value[..u], &change[..solved], &value[u..u + v]].concat();
         outputs.extend(self.moving.iter().map(|&at| change[u + at]));
-        outputs.extend([settled, value[u + v + 1]]);
+        outputs.extend(solved_for);
         graph.finish(count, &outputs)
+    }
+
+    /// The bound on the residual that a correction of z to these values leaves, which is no solution before it has settled, and the length of
+    /// the correction, as far as the step without tangents makes it.
+    fn settled(&self, graph: &Graph, z: &[Id], value: &[Id]) -> [Id; 2] {
+        let kernel = &self.step.kernel;
+        let pairs = z.iter().zip(value).take(self.solved);
+        let less: Vec<Id> = pairs.map(|(&z, &next)| graph.sub(next, z)).collect();
+        let smallest = graph.constant(f64::MIN_POSITIVE);
+        let size = graph.add(largest(graph, &value[..self.solved]), smallest);
+        let moved = graph.div(largest(graph, &less), size);
+        let (bound, length) =
+            (value[z.len() + kernel.solution], value[z.len() + kernel.solution + 1]);
+        let settled = graph.select(moved, graph.constant(SETTLED), bound, graph.max(bound, moved));
+        let tolerance = graph.constant(kernel.tolerance);
+        [settled, graph.select(bound, tolerance, graph.zero(), length)]
     }
 
     /// A test of the step: of g where it has one, of μ, and of other numbers.
@@ -273,6 +288,33 @@ impl<'a> Differentiation<'a> {
         Ok(graph.finish(from + v + self.moving.len(), &[g, state].concat()))
     }
 
+    /// The step of these programs: the guess, the correction and the transport, so many numbers more being solved for and read of a solution.
+    fn kernel(
+        &self,
+        [guess, correct, transport]: [Program; 3],
+        [solved, read]: [usize; 2],
+    ) -> Result<Kernel, StepError> {
+        let (own, nothing) = (&self.step.kernel, |inputs| Graph::new().finish(inputs, &[]));
+        let programs = Programs {
+            guess,
+            correct,
+            accept: self.test(&own.programs.accept, 0, read, 2),
+            transport,
+            frame: None,
+            sound: self.test(&own.programs.sound, own.element, 0, 0),
+            watch: nothing(own.element + self.momentum()),
+            matrix: nothing(own.element),
+        };
+        Ok(Kernel::new(KernelParts {
+            dim: self.momentum(),
+            unknowns: own.unknowns + solved,
+            solution: own.solution + read,
+            corrections: own.corrections + SETTLED_FOR,
+            programs,
+            ..(**own).clone()
+        })?)
+    }
+
     /// A kick.
     fn kick(&self, kick: &Program) -> Program {
         let (graph, m) = (Graph::new(), self.step.kernel.element);
@@ -281,6 +323,164 @@ impl<'a> Differentiation<'a> {
         let at = [&g[..], &mu].concat();
         let [mu, nu] = self.along(&graph, kick, (&at, &change), &theta);
         graph.finish(m + self.momentum(), &State { mu, xi, nu, theta }.numbers())
+    }
+}
+
+/// The transpose of a program in some inputs, in which it is linear, at others: with weights on its outputs of these numbers ↦ the sums
+/// of their derivatives in these inputs.
+fn back(
+    graph: &Graph,
+    program: &Program,
+    at: &[Id],
+    weights: &[(usize, Id)],
+    of: impl IntoIterator<Item = usize>,
+) -> Vec<Id> {
+    let (own, count) = (Graph::new(), program.inputs());
+    let known = inputs(&own, 0, count);
+    let (outputs, factors) = (own.call(program, &known), inputs(&own, count, weights.len()));
+    let pairs = weights.iter().zip(&factors).map(|(&(output, _), &w)| (outputs[output], w));
+    let variables: Vec<Id> = of.into_iter().map(|i| known[i]).collect();
+    let sums = own.pull_back(&pairs.collect::<Vec<_>>(), &variables);
+    let transposed = own.finish(count + weights.len(), &sums);
+    let weights = weights.iter().map(|(_, weight)| *weight);
+    graph.call(&transposed, &at.iter().copied().chain(weights).collect::<Vec<_>>())
+}
+
+/// The programs of a step with a tangent on their way to those with a cotangent (λ, κ), the factors of ξ and ν in a sum: a step takes
+/// that after it to that before it, and adds the derivatives in θ.
+struct Transposition<'a> {
+    own: &'a Differentiation<'a>,
+    guess: &'a Program,
+    correct: &'a Program,
+    transport: &'a Program,
+}
+
+impl Transposition<'_> {
+    /// The numbers of the constants of a solve.
+    fn constants(&self) -> usize {
+        self.own.step.kernel.programs.guess.outputs().len() - self.own.step.kernel.unknowns
+    }
+
+    /// As that of the step with a tangent, a cotangent of the solution in place of the change, which begins with 0.
+    fn guess(&self) -> Program {
+        let Differentiation { step, solved, .. } = self.own;
+        let (graph, u) = (Graph::new(), step.kernel.unknowns);
+        let known = graph.call(self.guess, &inputs(&graph, 0, self.guess.inputs()));
+        let constants = &known[u + solved..][..self.constants()];
+        let outputs = [&known[..u], &vec![graph.zero(); *solved + 1], constants].concat();
+        graph.finish(self.guess.inputs(), &outputs)
+    }
+
+    /// g, μ, and a solution, as the transport has them, without changes.
+    fn of_transport(&self, graph: &Graph, g: &[Id], mu: &[Id], x: &[Id]) -> Vec<Id> {
+        let mut at = [g, mu].concat();
+        at.resize(g.len() + self.own.momentum(), graph.zero());
+        at.extend(x);
+        at.resize(self.transport.inputs(), graph.zero());
+        at
+    }
+
+    /// z, μ and constants, as the correction has them, without changes.
+    fn of_correct(&self, graph: &Graph, z: &[Id], mu: &[Id], constants: &[Id]) -> Vec<Id> {
+        let mut at = z.to_vec();
+        at.resize(z.len() + self.own.solved, graph.zero());
+        at.extend(mu);
+        at.resize(z.len() + self.own.solved + self.own.momentum(), graph.zero());
+        at.extend(constants);
+        at.resize(self.correct.inputs(), graph.zero());
+        at
+    }
+
+    /// The weights of ξ and ν after the step.
+    fn landed(&self, state: &State) -> Vec<(usize, Id)> {
+        let from = self.own.step.kernel.element + self.own.dim();
+        (from..).zip(state.xi.iter().chain(&state.nu).copied()).collect()
+    }
+
+    /// The weights of the changes that a correction makes: of the solution, and of what moves.
+    fn corrected(&self, a: &[Id], moving: &[Id]) -> Vec<(usize, Id)> {
+        let (u, v) = (self.own.step.kernel.unknowns, self.own.step.kernel.solution);
+        let of_moving = (u + self.own.solved + v..).zip(moving.iter().copied());
+        (u..).zip(a.iter().copied()).chain(of_moving).collect()
+    }
+
+    /// A correction of the solution and of its cotangent. What is read of them is the solution as the step reads it, z, that
+    /// cotangent, and the constants.
+    fn correct(&self) -> Program {
+        let (own, graph) = (self.own, Graph::new());
+        let (kernel, solved) = (&own.step.kernel, own.solved);
+        let (u, v, m) = (kernel.unknowns, kernel.solution, kernel.element);
+        let (z, a, known) =
+            (inputs(&graph, 0, u), inputs(&graph, u, solved), graph.input(u + solved));
+        let state = own.state(&graph, u + solved + 1);
+        let from = u + solved + 1 + own.momentum();
+        let constants = inputs(&graph, from, self.constants());
+        let at = [&z[..], &state.mu, &constants].concat();
+        let value = graph.call(&kernel.programs.correct, &at);
+        let at = self.of_transport(&graph, &vec![graph.zero(); m], &state.mu, &value[u..u + v]);
+        let places = m + own.momentum() + v..self.transport.inputs();
+        let moving = back(&graph, self.transport, &at, &self.landed(&state), places);
+        let at = self.of_correct(&graph, &z, &state.mu, &constants);
+        let weights = self.corrected(&a, &moving);
+        let next = back(&graph, self.correct, &at, &weights, u..u + solved);
+        let [settled, length] = own.settled(&graph, &z, &value);
+        // The cotangent begins farther from its solution than z does, and follows at the pace of corrections.
+        let less = a.iter().zip(&next).map(|(&a, &next)| graph.sub(next, a));
+        let moved = largest(&graph, &less.collect::<Vec<_>>());
+        let [one, many] = [1.0, f64::from(SETTLED_FOR)].map(|number| graph.constant(number));
+        let tolerance = graph.constant(kernel.tolerance);
+        let count = graph.select(settled, tolerance, graph.add(known, one), graph.zero());
+        let most = graph.mul(largest(&graph, &next), graph.constant(SETTLED_COTANGENT));
+        let open = graph.select(many, count, settled, one);
+        let settled = graph.select(moved, most, settled, open);
+        let read = [&value[u..u + v], &value[..u], &next, &constants].concat();
+        let outputs = [&value[..u], &next, &[count], &read, &[settled, length]].concat();
+        graph.finish(from + constants.len(), &outputs)
+    }
+
+    /// g and μ after the step, λ and κ before it, the derivatives in θ.
+    fn transport(&self) -> Program {
+        let (own, graph) = (self.own, Graph::new());
+        let (kernel, solved, n) = (&own.step.kernel, own.solved, own.dim());
+        let (u, v, m) = (kernel.unknowns, kernel.solution, kernel.element);
+        let mut count = m + own.momentum();
+        let mut take = |more: usize| {
+            count += more;
+            inputs(&graph, count - more, more)
+        };
+        let (g, state) = (inputs(&graph, 0, m), own.state(&graph, m));
+        let (x, z, a, constants) = (take(v), take(u), take(solved), take(self.constants()));
+        let at = self.of_transport(&graph, &g, &state.mu, &x);
+        let from = m + own.momentum();
+        let changes = (m + n..from).chain(from + v..self.transport.inputs());
+        let mut sums = back(&graph, self.transport, &at, &self.landed(&state), changes);
+        let mut after = graph.call(self.transport, &at);
+        after.truncate(m + n);
+        let moving = sums.split_off(own.momentum() - n);
+        let mut add = |first: usize, more: &[Id]| {
+            for (sum, &more) in sums[first..].iter_mut().zip(more) {
+                *sum = graph.add(*sum, more);
+            }
+        };
+        let at = self.of_correct(&graph, &z, &state.mu, &constants);
+        let first = u + solved;
+        let changes = first + 2 * n..first + own.momentum();
+        let held = first + own.momentum() + constants.len()..self.correct.inputs();
+        let weights = self.corrected(&a, &moving);
+        let by = back(&graph, self.correct, &at, &weights, changes.clone().chain(held));
+        let (by_state, by_constants) = by.split_at(changes.len());
+        add(n, by_state);
+        if kernel.guesses_from_element() {
+            let mut at = [&g[..], &state.mu].concat();
+            at.resize(self.guess.inputs(), graph.zero());
+            let first = u + solved + constants.len();
+            let weights: Vec<_> = (first..).zip(by_constants.iter().copied()).collect();
+            add(0, &back(&graph, self.guess, &at, &weights, m + n..self.guess.inputs()));
+        }
+        let (cotangent, theta) = sums.split_at(2 * n);
+        let theta: Vec<Id> =
+            theta.iter().zip(&state.theta).map(|(&own, &sum)| graph.add(own, sum)).collect();
+        graph.finish(count, &[&after[..], cotangent, &theta].concat())
     }
 }
 
@@ -304,42 +504,31 @@ impl Tangent {
     ) -> Result<Self, StepError> {
         slopes.sort_unstable();
         let own = Differentiation::new(step, origin, &slopes, directions);
-        let KernelParts {
-            element: m,
-            unknowns,
-            solution,
-            tolerance,
-            near,
-            corrections,
-            ref programs,
-            ..
-        } = *step.kernel;
-        let nothing = |inputs| Graph::new().finish(inputs, &[]);
-        let programs = Programs {
-            guess: own.guess(),
-            correct: own.correct(),
-            accept: own.test(&programs.accept, 0, own.moving.len(), 2),
-            transport: own.transport()?,
-            frame: None,
-            sound: own.test(&programs.sound, m, 0, 0),
-            watch: nothing(m + own.momentum()),
-            matrix: nothing(m),
-        };
-        let kernel = Kernel::new(KernelParts {
-            dim: own.momentum(),
-            element: m,
-            unknowns: unknowns + own.solved,
-            solution: solution + own.moving.len(),
-            tolerance,
-            near,
-            corrections,
-            programs,
-        })?;
+        let programs = [own.guess(), own.correct(), own.transport()?];
+        let kernel = own.kernel(programs, [own.solved, own.moving.len()])?;
         let kernel = match (step.kernel.kick(), step.kernel.flows()) {
             (Some(kick), Some(flows)) => kernel.with_kicks(own.kick(kick), flows)?,
             _ => kernel,
         };
         Ok(Self { kernel, slopes, directions })
+    }
+
+    /// The transpose of this step: in place of (ξ, ν) a cotangent (λ, κ), of that after the step to that before it, g and μ being those before
+    /// it; to the θ̇ the derivatives in θ are added. `None` with kicks, whose flows would have to be made backwards.
+    ///
+    /// # Errors
+    /// Never, for a step of this origin.
+    pub fn transpose(&self, step: &Step, origin: &Origin) -> Result<Option<Self>, StepError> {
+        if step.kernel.flows().is_some() {
+            return Ok(None);
+        }
+        let own = Differentiation::new(step, origin, &self.slopes, self.directions);
+        let Programs { guess, correct, transport, .. } = &self.kernel.programs;
+        let back = Transposition { own: &own, guess, correct, transport };
+        let read = step.kernel.unknowns + own.solved + back.constants();
+        let kernel =
+            own.kernel([back.guess(), back.correct(), back.transport()], [own.solved + 1, read])?;
+        Ok(Some(Self { kernel, slopes: self.slopes.clone(), directions: self.directions }))
     }
 }
 
