@@ -5,7 +5,8 @@ use coadjoint_native::cards::{Card, Device};
 use coadjoint_program::Precision;
 use coadjoint_program::print::{DeviceLanguage, device_unit};
 
-use super::compiled::{MOST_OPERATIONS, coefficients};
+use super::codes::MOST_OPERATIONS;
+use super::compiled::coefficients;
 use crate::error::RunError;
 use crate::grid::Grid;
 

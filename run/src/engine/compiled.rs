@@ -12,7 +12,8 @@ use coadjoint_codegen::step::{
 use coadjoint_program::fold::FoldError;
 use coadjoint_program::{Kernel, Precision, Program, Trajectories, WIDTH};
 
-use super::tangent::Varied;
+use super::codes::{Codes, MOST_OPERATIONS, Running, is_large, operations};
+use super::varied::Varied;
 use crate::backend::{Backend, Code};
 use crate::error::RunError;
 use crate::grid::Grid;
@@ -33,9 +34,6 @@ pub(super) fn refusal(error: FoldError, step: f64, symbols: &[f64]) -> StepError
         }
     }
 }
-
-/// Programs of more operations than this are not compiled: they are evaluated as data.
-pub(super) const MOST_OPERATIONS: usize = 60_000;
 
 /// The course of the solves of steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -90,14 +88,6 @@ pub(crate) struct Kept {
     codes: Codes,
 }
 
-/// The codes of one kernel, for later runs.
-#[derive(Debug, Default)]
-pub(super) struct Codes {
-    codes: Mutex<Vec<(Backend, Trajectories, Arc<Code>)>>,
-    /// The steps of runs so far.
-    steps: Mutex<f64>,
-}
-
 /// The programs of one integrator.
 #[derive(Debug)]
 pub(crate) struct Programs {
@@ -137,60 +127,6 @@ impl Kept {
     }
 }
 
-impl Codes {
-    /// Usable code: made by this backend, or, for [`Backend::Auto`], any machine code.
-    fn find(&self, backend: Backend, trajectories: Trajectories) -> Option<Arc<Code>> {
-        // A thread that panicked has added whole codes, if any.
-        let codes = self.codes.lock().unwrap_or_else(PoisonError::into_inner);
-        let serves = |(by, of, code): &&(Backend, Trajectories, Arc<Code>)| {
-            *of == trajectories
-                && (*by == backend || backend == Backend::Auto)
-                && (backend != Backend::Auto || code.lasts())
-        };
-        codes.iter().find(serves).map(|(_, _, code)| code.clone())
-    }
-
-    /// Keeps a code.
-    fn keep(&self, backend: Backend, trajectories: Trajectories, code: &Arc<Code>) {
-        let mut codes = self.codes.lock().unwrap_or_else(PoisonError::into_inner);
-        // Others are of runs that ended before they were compiled.
-        codes.retain(|(.., code)| code.lasts());
-        codes.push((backend, trajectories, code.clone()));
-    }
-
-    /// The code of the kernel by this backend, about `steps` steps of which are going to be made, of these trajectories.
-    ///
-    /// # Errors
-    /// Fails if the backend that the user named cannot be had.
-    pub(super) fn code(
-        &self,
-        kernel: &Kernel,
-        backend: Backend,
-        steps: f64,
-        trajectories: Trajectories,
-    ) -> Result<Running, RunError> {
-        let backend = if is_large(kernel) { Backend::Interpreter } else { backend };
-        if let Some(code) = self.find(backend, trajectories) {
-            return Ok(Running(code));
-        }
-        let mut made = self.steps.lock().unwrap_or_else(PoisonError::into_inner);
-        let code = Arc::new(Code::new(kernel, backend, [steps, *made], trajectories)?);
-        *made += steps;
-        self.keep(backend, trajectories, &code);
-        Ok(Running(code))
-    }
-}
-
-/// The operations of a step.
-fn operations(kernel: &Kernel) -> usize {
-    kernel.programs.correct.nodes().len() + kernel.programs.transport.nodes().len()
-}
-
-/// True if a step has too many operations to be compiled.
-fn is_large(kernel: &Kernel) -> bool {
-    operations(kernel) > MOST_OPERATIONS
-}
-
 /// The numbers that the programs of a step read, for one size and one set of parameters.
 #[derive(Clone, Debug)]
 pub(crate) struct Folded {
@@ -213,16 +149,6 @@ pub(crate) struct Compiled {
     /// True if a comoving frame moves: then each step is a block of its own, so that bits do not depend on how a run is
     /// cut into pieces.
     framed: bool,
-}
-
-/// The code of a run; nothing is compiled any more when the run is over.
-#[derive(Debug)]
-pub(super) struct Running(pub(super) Arc<Code>);
-
-impl Drop for Running {
-    fn drop(&mut self) {
-        self.0.stop();
-    }
 }
 
 impl std::fmt::Debug for Compiled {

@@ -3,6 +3,7 @@
 mod breaks;
 mod card;
 mod charted;
+mod codes;
 mod collocation;
 mod compiled;
 mod drive;
@@ -12,6 +13,7 @@ mod motion;
 mod series;
 mod space;
 mod tangent;
+mod varied;
 
 pub(crate) use breaks::Breaks;
 pub(crate) use card::{card, device_text};
@@ -22,4 +24,5 @@ pub(crate) use kick::Torque;
 pub(crate) use motion::Motion;
 pub(crate) use series::Interpreter;
 pub(crate) use space::{Observed, Space, Tables, entries_of, group_of, identity, phase_of};
-pub(crate) use tangent::{Carried, Read, Reading, Sense, Tangents};
+pub(crate) use tangent::{Carried, Read, Reading, Tangents};
+pub(crate) use varied::Sense;

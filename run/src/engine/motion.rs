@@ -345,8 +345,8 @@ impl<'a> Motion<'a> {
         self.space.compiled.as_deref()
     }
 
-    /// The tangents of steps, about so many of which are going to be made; none of learned maps, of functions of the user's, and of systems
-    /// too large for programs.
+    /// The tangents of steps, of which about `steps` are going to be made. Learned maps, functions of the user's and systems too large for
+    /// programs have none.
     ///
     /// # Errors
     /// Fails if a derivative of a coefficient is not finite.

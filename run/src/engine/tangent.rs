@@ -7,26 +7,11 @@ use coadjoint_codegen::step::{Origin, Step, Tangent};
 use coadjoint_program::{Kernel, Trajectories, WIDTH};
 use nalgebra::{DMatrix, DMatrixView};
 
-use super::compiled::{Codes, Compiled, Numbers, Running, refusal};
+use super::codes::{Codes, Running};
+use super::compiled::{Compiled, Numbers, refusal};
+use super::varied::{Sense, Varied};
 use crate::backend::Backend;
 use crate::error::RunError;
-
-/// The kernels of steps with tangents, of their transposes, and their codes, for later runs.
-#[derive(Debug)]
-pub(super) struct Varied {
-    forward: (Tangent, Codes),
-    /// Where there is one.
-    backward: Option<(Tangent, Codes)>,
-}
-
-/// A kernel of steps with tangents, or of their transposes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Sense {
-    /// Tangents, from the state before a step to that after it.
-    Forward,
-    /// Cotangents, the other way.
-    Backward,
-}
 
 /// Changes of the values that a step reads, k of each.
 pub(crate) type Reading<'a> = dyn Fn(&[Read]) -> DMatrix<f64> + 'a;
@@ -84,7 +69,7 @@ fn slopes(step: &Step, (size, parameters): (f64, &[f64])) -> Result<Vec<Vec<f64>
 }
 
 impl Tangents {
-    /// Of these steps, about so many of which are going to be made; `None` where they have none.
+    /// Differentiates these steps, of which about `steps` are going to be made; `None` where they have no derivatives.
     ///
     /// # Errors
     /// Fails if a derivative of a coefficient is not finite.
@@ -135,11 +120,7 @@ impl Tangents {
             _ => Trajectories::Lanes,
         };
         let steps = self.steps * columns.ncols().div_ceil(WIDTH) as f64;
-        let own = match sense {
-            Sense::Forward => Some(&self.varied.forward),
-            Sense::Backward => self.varied.backward.as_ref(),
-        };
-        let Some((tangent, codes)) = own else { return Ok(None) };
+        let Some((tangent, codes)) = self.varied.of(sense) else { return Ok(None) };
         let code = codes.code(&tangent.kernel, self.backend, steps, trajectories)?;
         Ok(Some(Carried { tangents: self, sense, tangent, code, state, columns }))
     }
@@ -218,7 +199,7 @@ impl Carried<'_> {
         Ok(self.made(&slots, 1) == 1)
     }
 
-    /// Makes up to so many steps with these coefficients.
+    /// Makes up to `count` steps with these coefficients.
     fn made(&mut self, slots: &[f64], count: u64) -> u64 {
         let (mut done, n) = (0, self.state.mu.len());
         while done < count {

@@ -13,8 +13,8 @@ use coadjoint_geometry::rotation::Quaternions;
 use crate::graph::{Graph, Id};
 use crate::lie::Chart;
 use crate::step::product::{ESTIMATED, Moved, Part};
-use crate::step::tangent::transposed;
 use crate::step::traced::{Traced, matrix, nodes, traced};
+use crate::step::transposed::transposed;
 use crate::step::vector::Matrix;
 
 /// The group of formulas G: N coordinates, elements of M numbers, matrices of D rows.

@@ -22,6 +22,7 @@ mod solving;
 mod tables;
 mod tangent;
 mod traced;
+mod transposed;
 mod vector;
 
 use coadjoint_program::fold::{FoldError, Values};

@@ -16,6 +16,7 @@ use coadjoint_program::{Argument, Kernel, KernelParts, Node, Programs};
 use super::product::Part;
 use super::solving::inputs;
 use super::tables::structure_of;
+use super::transposed::{back, transposed};
 use super::vector::largest;
 use super::{Moving, Origin, Step, StepError};
 use super::{collocation, programs};
@@ -53,15 +54,6 @@ impl State {
     fn numbers(self) -> Vec<Id> {
         [self.mu, self.xi, self.nu, self.theta].concat()
     }
-}
-
-/// x, ξ, δ, and anything ↦ aᵀξ + bᵀδ of the maps w ↦ a w, b w at x, which are linear.
-pub(super) fn transposed(n: usize, maps: impl Fn(&Graph, &[Id], &[Id]) -> [Vec<Id>; 2]) -> Program {
-    let graph = Graph::new();
-    let [x, xi, delta, w] = [0, n, 2 * n, 3 * n].map(|from| inputs(&graph, from, n));
-    let [a, b] = maps(&graph, &x, &w);
-    let weighted: Vec<_> = a.into_iter().zip(xi).chain(b.into_iter().zip(delta)).collect();
-    graph.finish(4 * n, &graph.pull_back(&weighted, &w))
 }
 
 /// The programs of a step on their way to those with a tangent.
@@ -288,7 +280,7 @@ impl<'a> Differentiation<'a> {
         Ok(graph.finish(from + v + self.moving.len(), &[g, state].concat()))
     }
 
-    /// The step of these programs: the guess, the correction and the transport, so many numbers more being solved for and read of a solution.
+    /// The step of these programs. A solve has `solved` unknowns more than the step's own, and its solution `read` numbers more.
     fn kernel(
         &self,
         [guess, correct, transport]: [Program; 3],
@@ -324,26 +316,6 @@ impl<'a> Differentiation<'a> {
         let [mu, nu] = self.along(&graph, kick, (&at, &change), &theta);
         graph.finish(m + self.momentum(), &State { mu, xi, nu, theta }.numbers())
     }
-}
-
-/// The transpose of a program in some inputs, in which it is linear, at others: with weights on its outputs of these numbers ↦ the sums
-/// of their derivatives in these inputs.
-fn back(
-    graph: &Graph,
-    program: &Program,
-    at: &[Id],
-    weights: &[(usize, Id)],
-    of: impl IntoIterator<Item = usize>,
-) -> Vec<Id> {
-    let (own, count) = (Graph::new(), program.inputs());
-    let known = inputs(&own, 0, count);
-    let (outputs, factors) = (own.call(program, &known), inputs(&own, count, weights.len()));
-    let pairs = weights.iter().zip(&factors).map(|(&(output, _), &w)| (outputs[output], w));
-    let variables: Vec<Id> = of.into_iter().map(|i| known[i]).collect();
-    let sums = own.pull_back(&pairs.collect::<Vec<_>>(), &variables);
-    let transposed = own.finish(count + weights.len(), &sums);
-    let weights = weights.iter().map(|(_, weight)| *weight);
-    graph.call(&transposed, &at.iter().copied().chain(weights).collect::<Vec<_>>())
 }
 
 /// The programs of a step with a tangent on their way to those with a cotangent (λ, κ), the factors of ξ and ν in a sum: a step takes
