@@ -85,7 +85,7 @@ impl Numbers {
 /// The compiled programs of one integrator, for later runs: programs do not depend on the size of a step.
 #[derive(Default)]
 pub(crate) struct Kept {
-    programs: OnceLock<Arc<Programs>>,
+    programs: OnceLock<Arc<Executable>>,
     codes: Mutex<Vec<(Backend, Trajectories, Arc<Code>)>>,
     /// The steps of runs so far.
     steps: Mutex<f64>,
@@ -93,7 +93,7 @@ pub(crate) struct Kept {
 
 /// The programs of one integrator.
 #[derive(Debug)]
-pub(crate) struct Programs {
+pub(crate) struct Executable {
     step: Step,
     observation: Observation,
     convergence: OnceLock<Convergence>,
@@ -101,7 +101,7 @@ pub(crate) struct Programs {
     tangent: OnceLock<Option<Tangent>>,
 }
 
-impl Programs {
+impl Executable {
     fn build(origin: &Origin) -> Result<Arc<Self>, step::StepError> {
         let step = origin.step(Precision::Double)?;
         let observation = Observation::new(&step);
@@ -121,10 +121,10 @@ impl Kept {
     ///
     /// # Errors
     /// The reason for which there are none.
-    pub(crate) fn programs(&self, origin: &Origin) -> Result<Arc<Programs>, step::StepError> {
+    pub(crate) fn programs(&self, origin: &Origin) -> Result<Arc<Executable>, step::StepError> {
         match self.programs.get() {
             Some(programs) => Ok(programs.clone()),
-            None => Programs::build(origin)
+            None => Executable::build(origin)
                 .map(|programs| self.programs.get_or_init(|| programs).clone()),
         }
     }
@@ -166,7 +166,7 @@ pub(crate) struct Folded {
 /// Steps as straight-line programs.
 #[derive(Clone)]
 pub(crate) struct Compiled {
-    programs: Arc<Programs>,
+    programs: Arc<Executable>,
     folded: Folded,
     code: Arc<Running>,
     /// True if a comoving frame moves: then each step is a block of its own, so that bits do not depend on how a run is
@@ -354,7 +354,7 @@ impl Compiled {
 
     /// The programs of the derivatives of steps of this origin, where there are any.
     pub(super) fn tangent(&self, origin: &Origin) -> Option<&Tangent> {
-        let Programs { step, tangent, .. } = &*self.programs;
+        let Executable { step, tangent, .. } = &*self.programs;
         tangent.get_or_init(|| Tangent::new(step, origin).ok()).as_ref()
     }
 

@@ -12,13 +12,13 @@ use super::breaks::Breaks;
 use super::compiled::{Compiled, Folded, Numbers, Solved, Solves};
 use super::kick::Torque;
 use super::linear::{Linear, linear, slopes};
-use super::method::{Flow, Method, advise};
+use super::method::{Flow, Propagator, advise};
 use super::space::{Space, Tables};
 use crate::grid::Grid;
 
 /// Makes the method for these values of the parameters that are kept.
 pub(super) type Maker<'a> =
-    Box<dyn Fn(&[f64]) -> Result<Box<dyn Method<'a> + 'a>, StepError> + Send + Sync + 'a>;
+    Box<dyn Fn(&[f64]) -> Result<Box<dyn Propagator<'a> + 'a>, StepError> + Send + Sync + 'a>;
 
 /// The kicks between the flows of a step.
 #[derive(Debug)]
@@ -69,7 +69,7 @@ const MOST_OTHERS: usize = 16;
 /// Two steps that differ by less, relative to the momentum, are the same one.
 const SAME: f64 = 1e-11;
 
-/// Moves states by steps of one size: by programs where there are any, else by its [`Method`], which also makes the steps that
+/// Moves states by steps of one size: by programs where there are any, else by its [`Propagator`], which also makes the steps that
 /// programs refuse.
 pub(crate) struct Motion<'a> {
     space: Space,
@@ -78,7 +78,7 @@ pub(crate) struct Motion<'a> {
     parameters: Vec<f64>,
     maker: Maker<'a>,
     /// The method for these values, once it was needed.
-    method: OnceLock<Box<dyn Method<'a> + 'a>>,
+    method: OnceLock<Box<dyn Propagator<'a> + 'a>>,
     kicked: Option<Kicked<'a>>,
     /// The step without programs, once one was needed.
     map: OnceLock<Map<'a>>,
@@ -146,7 +146,7 @@ impl<'a> Motion<'a> {
     }
 
     /// The method for these values of the parameters.
-    fn method(&self) -> Result<&dyn Method<'a>, StepError> {
+    fn method(&self) -> Result<&dyn Propagator<'a>, StepError> {
         if let Some(method) = self.method.get() {
             return Ok(&**method);
         }
@@ -155,7 +155,7 @@ impl<'a> Motion<'a> {
     }
 
     /// The step of this size by a method.
-    fn map<'m>(&self, method: &dyn Method<'m>, size: f64) -> Result<Map<'m>, StepError> {
+    fn map<'m>(&self, method: &dyn Propagator<'m>, size: f64) -> Result<Map<'m>, StepError> {
         let flow = |length| method.flow(&self.space.group, length, &self.parameters);
         let flows: Result<_, _> = lengths(self.kicks(), size).into_iter().map(flow).collect();
         Ok(Map { size, flows: flows? })
