@@ -1,10 +1,10 @@
 //! The signature: which argument is the momentum, and the parameters.
 
 use quote::ToTokens;
-use syn::{FnArg, Pat, ReturnType, Type};
+use syn::{AngleBracketedGenericArguments, Expr, FnArg, GenericArgument, Pat, ReturnType, Type};
 
 use super::evaluate::Evaluator;
-use super::value::{Matrix, Value};
+use super::value::Value;
 use crate::diagnostic::{Mistake, Span};
 use crate::expr::Node;
 use crate::problem::{Parameter, Shape};
@@ -53,7 +53,14 @@ pub(super) fn read(
     mut time: Option<(String, Span)>,
     evaluator: &mut Evaluator<'_>,
 ) -> (Option<Variables>, Vec<Parameter>) {
-    qualifiers(signature, evaluator);
+    let output = match &signature.output {
+        ReturnType::Type(_, ty) if is_f64(ty) => None,
+        ReturnType::Default => Some(Span::of(&signature.ident)),
+        output => Some(Span::of(output)),
+    };
+    if let Some(span) = output {
+        evaluator.unsupported(span, "the energy is returned as f64", "write -> f64");
+    }
     let (mut first, mut parameters) = (None, Vec::new());
     let mut scalars = 0;
     for (position, argument) in signature.inputs.iter().enumerate() {
@@ -128,21 +135,17 @@ pub(super) fn read(
     (first, parameters)
 }
 
-fn qualifiers(signature: &syn::Signature, evaluator: &mut Evaluator<'_>) {
-    if let Some(token) = &signature.asyncness {
-        evaluator.unsupported(Span::of(token), "an energy cannot be async", "remove `async`");
+/// An expression without the parentheses and references around it.
+pub(super) fn bare(mut expression: &Expr) -> &Expr {
+    loop {
+        expression = match expression {
+            Expr::Paren(inner) => &inner.expr,
+            Expr::Group(inner) => &inner.expr,
+            Expr::Reference(inner) => &inner.expr,
+            Expr::Unary(syn::ExprUnary { op: syn::UnOp::Deref(_), expr, .. }) => expr,
+            _ => return expression,
+        };
     }
-    if !signature.generics.params.is_empty() {
-        let span = Span::of(&signature.generics);
-        let help = "write the function for f64; what is generated is generic by itself";
-        evaluator.unsupported(span, "an energy cannot be generic", help);
-    }
-    let span = match &signature.output {
-        ReturnType::Type(_, ty) if is_f64(ty) => return,
-        ReturnType::Default => Span::of(&signature.ident),
-        output => Span::of(output),
-    };
-    evaluator.unsupported(span, "the energy is returned as f64", "write -> f64");
 }
 
 /// Fills a shape with numbers by their position.
@@ -150,13 +153,13 @@ fn shaped(shape: &Shape, mut number: impl FnMut(usize) -> Value) -> Value {
     match *shape {
         Shape::Scalar => number(0),
         Shape::Array(n) => Value::list((0..n).map(number)),
-        Shape::Vector(n) => Value::Matrix(Matrix::new(n, 1, (0..n).map(number))),
+        Shape::Vector(n) => Value::matrix(n, 1, &(0..n).map(number).collect::<Vec<_>>()),
         Shape::Grid(rows, columns) => {
             let row = |i| Value::list((0..columns).map(|j| number(i * columns + j)));
             Value::list((0..rows).map(row))
         }
         Shape::Matrix(rows, columns) => {
-            Value::Matrix(Matrix::new(rows, columns, (0..rows * columns).map(number)))
+            Value::matrix(rows, columns, &(0..rows * columns).map(number).collect::<Vec<_>>())
         }
     }
 }
@@ -179,12 +182,12 @@ fn coordinate_names(pattern: &Pat, count: usize) -> Vec<String> {
     if names.len() == count { names } else { (0..count).map(|i| format!("mu[{i}]")).collect() }
 }
 
-fn is_f64(ty: &Type) -> bool {
+pub(super) fn is_f64(ty: &Type) -> bool {
     matches!(ty, Type::Path(path) if path.path.is_ident("f64"))
 }
 
 /// The shape of a type, where it is one.
-pub(super) fn shape(ty: &Type) -> Option<Shape> {
+fn shape(ty: &Type) -> Option<Shape> {
     match ty {
         Type::Paren(inner) => shape(&inner.elem),
         Type::Group(inner) => shape(&inner.elem),
@@ -203,15 +206,15 @@ pub(super) fn shape(ty: &Type) -> Option<Shape> {
             let syn::PathArguments::AngleBracketed(arguments) = &last.arguments else {
                 return None;
             };
+            // The first is the type of the entries; all others are sizes.
             let sizes = sizes(arguments);
-            let numbers = arguments.args.iter().filter(|argument| match argument {
-                syn::GenericArgument::Type(ty) => is_f64(ty),
+            let fits = match arguments.args.first()? {
+                GenericArgument::Type(entry) => is_f64(entry),
                 _ => false,
-            });
-            let numbers = numbers.count();
-            // One is the type of the entries; all others are sizes.
-            let fits = numbers == 1 && numbers + sizes.len() == arguments.args.len();
-            fits.then(|| sized(&last.ident.to_string(), &sizes)).flatten()
+            };
+            (fits && sizes.len() + 1 == arguments.args.len())
+                .then(|| sized(&last.ident.to_string(), &sizes))
+                .flatten()
         }
         _ => None,
     }
@@ -242,26 +245,19 @@ pub(super) fn sized(name: &str, sizes: &[usize]) -> Option<Shape> {
 }
 
 /// The numbers among generic arguments: `<f64, 3>`.
-pub(super) fn sizes(arguments: &syn::AngleBracketedGenericArguments) -> Vec<usize> {
-    let size = |argument: &syn::GenericArgument| match argument {
-        syn::GenericArgument::Const(size) => length(size),
+pub(super) fn sizes(arguments: &AngleBracketedGenericArguments) -> Vec<usize> {
+    let size = |argument: &GenericArgument| match argument {
+        GenericArgument::Const(size) => length(size),
         _ => None,
     };
     arguments.args.iter().filter_map(size).collect()
 }
 
-fn length(expression: &syn::Expr) -> Option<usize> {
-    match expression {
-        syn::Expr::Lit(literal) => match &literal.lit {
-            syn::Lit::Int(n) => n.base10_parse().ok().filter(|&n: &usize| n > 0 && n <= 4096),
-            _ => None,
-        },
-        syn::Expr::Paren(inner) => length(&inner.expr),
-        syn::Expr::Group(inner) => length(&inner.expr),
-        syn::Expr::Block(block) => match &block.block.stmts[..] {
-            [syn::Stmt::Expr(inner, None)] => length(inner),
-            _ => None,
-        },
+fn length(expression: &Expr) -> Option<usize> {
+    match bare(expression) {
+        Expr::Lit(syn::ExprLit { lit: syn::Lit::Int(n), .. }) => {
+            n.base10_parse().ok().filter(|n| (1..=4096).contains(n))
+        }
         _ => None,
     }
 }
