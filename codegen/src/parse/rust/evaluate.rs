@@ -5,14 +5,14 @@ use std::rc::Rc;
 
 use syn::{
     BinOp, Block, Expr, ExprBinary, ExprCall, ExprRange, FnArg, Item, Lit, LocalInit, Member, Pat,
-    Path, RangeLimits, Stmt, UnOp,
+    Path, PathSegment, RangeLimits, Stmt, UnOp,
 };
 
 use crate::diagnostic::{Diagnostics, Mistake, Span, nearest};
 use crate::expr::{Arena, ExprId, Node};
 use crate::number::{Rational, integer};
 use crate::parse::decimal;
-use crate::parse::rust::signature::{bare, is_f64, sized, sizes};
+use crate::parse::rust::signature::{bare, is_f64, of_segment};
 use crate::parse::rust::value::{Aggregate, Value};
 use crate::problem::Shape;
 
@@ -412,32 +412,34 @@ impl<'a> Evaluator<'a> {
         value: Value,
         span: Span,
     ) {
+        let patterns = patterns.into_iter();
         let entries = match value {
-            Value::List(list) => Some(list.entries),
-            Value::Wrong => None,
+            Value::List(list) => list.entries,
             other => {
-                let message = format!("{} cannot be taken apart like this", other.kind());
-                self.unsupported(span, &message, "index it instead");
-                None
+                if !matches!(other, Value::Wrong) {
+                    let message = format!("{} cannot be taken apart like this", other.kind());
+                    self.unsupported(span, &message, "index it instead");
+                }
+                Rc::new(vec![Value::Wrong; patterns.len()])
             }
         };
-        let patterns = patterns.into_iter();
-        let length = entries.as_ref().map_or(0, |entries| entries.len());
         // `..` stands for all entries that no other pattern takes.
-        let rest = (length + 1).saturating_sub(patterns.len());
+        let rest = (entries.len() + 1).saturating_sub(patterns.len());
         let names: Vec<Option<&Pat>> = patterns
             .flat_map(|pattern| match pattern {
                 Pat::Rest(_) => vec![None; rest],
                 name => vec![Some(name)],
             })
             .collect();
-        if entries.is_some() && names.len() != length {
-            let message = format!("the pattern has {} names for {length} entries", names.len());
+        let (count, length) = (names.len(), entries.len());
+        if count != length {
+            let message = format!("the pattern has {count} names for {length} entries");
             self.unsupported(span, &message, "give as many");
         }
         for (i, name) in names.into_iter().enumerate() {
-            let value = entries.as_ref().and_then(|entries| entries.get(i)).cloned();
-            name.map(|name| self.bind(name, value.unwrap_or(Value::Wrong)));
+            if let Some(name) = name {
+                self.bind(name, entries.get(i).cloned().unwrap_or(Value::Wrong));
+            }
         }
     }
 
@@ -553,36 +555,28 @@ impl<'a> Evaluator<'a> {
             return value.clone();
         }
         let span = Span::of(path);
-        let segments = segments(path);
-        match &segments[..] {
-            [.., module, name]
-                if module == "consts"
-                    && let Some(value) = float_constant(name) =>
-            {
-                self.constant(value, span)
+        let name = written(path);
+        if let Some((module, constant)) = name.rsplit_once("::") {
+            if let Some(value) = float_constant(constant).filter(|_| module.ends_with("consts")) {
+                return self.constant(value, span);
             }
-            [name] => {
-                let mut names: Vec<String> = Vec::new();
-                for (known, _) in &self.variables {
-                    if !names.contains(known) {
-                        names.push(known.clone());
-                    }
-                }
-                let near = nearest(name, names.iter().map(String::as_str)).map(str::to_owned);
-                let constant = name.chars().all(|c| c.is_uppercase() || c == '_' || c.is_numeric());
-                if constant && near.is_none() {
-                    let message = format!("the constant `{name}` is not visible here");
-                    let help =
-                        "define it with `const` inside the function, or pass it as a parameter";
-                    return self.unsupported(span, &message, help);
-                }
-                self.wrong(span, Mistake::UnknownVariable(name.clone(), near, names))
-            }
-            _ => {
-                let message = format!("`{}` is not read", segments.join("::"));
-                self.unsupported(span, &message, "write its value, or pass it as a parameter")
+            let message = format!("`{name}` is not read");
+            return self.unsupported(span, &message, "write its value, or pass it as a parameter");
+        }
+        let mut names: Vec<String> = Vec::new();
+        for (known, _) in &self.variables {
+            if !names.contains(known) {
+                names.push(known.clone());
             }
         }
+        let near = nearest(&name, names.iter().map(String::as_str)).map(str::to_owned);
+        let constant = name.chars().all(|c| c.is_uppercase() || c == '_' || c.is_numeric());
+        if constant && near.is_none() {
+            let message = format!("the constant `{name}` is not visible here");
+            let help = "define it with `const` inside the function, or pass it as a parameter";
+            return self.unsupported(span, &message, help);
+        }
+        self.wrong(span, Mistake::UnknownVariable(name, near, names))
     }
 
     fn call(&mut self, call: &ExprCall) -> Result<Value, NoValue> {
@@ -595,22 +589,22 @@ impl<'a> Evaluator<'a> {
             let function = function.clone();
             return self.apply(&function, arguments, span);
         }
-        let segments = segments(&path.path);
+        let segments: Vec<&PathSegment> = path.path.segments.iter().collect();
         let value = match (&segments[..], &arguments[..]) {
-            ([.., ty, name], [value]) if ty == "f64" && name == "from" => {
+            ([.., ty, name], [value]) if ty.ident == "f64" && name.ident == "from" => {
                 Some(self.cast(value.clone(), true, span))
             }
-            ([.., ty, name], [Value::Number(x), rest @ ..]) if ty == "f64" => {
-                self.number_method(name, *x, rest, span)
+            ([.., ty, name], [Value::Number(x), rest @ ..]) if ty.ident == "f64" => {
+                self.number_method(&name.ident.to_string(), *x, rest, span)
             }
-            ([.., ty, name], _) => self.constructor(&path.path, ty, name, &arguments, span),
+            ([.., ty, name], _) => self.constructor(ty, &name.ident.to_string(), &arguments, span),
             _ => None,
         };
         Ok(match value {
             Some(value) => value,
             None if arguments.iter().any(|a| matches!(a, Value::Wrong)) => Value::Wrong,
             None => {
-                let message = format!("the function `{}` is not read", segments.join("::"));
+                let message = format!("the function `{}` is not read", written(&path.path));
                 let help = "define it inside the body, or write out what it computes";
                 self.unsupported(Span::of(&call.func), &message, help)
             }
@@ -620,18 +614,12 @@ impl<'a> Evaluator<'a> {
     /// `Vector3::new(a, b, c)`, `Vector3::z()`, and the like.
     fn constructor(
         &mut self,
-        path: &Path,
-        ty: &str,
+        ty: &PathSegment,
         name: &str,
         arguments: &[Value],
         span: Span,
     ) -> Option<Value> {
-        // `SVector::<f64, 3>::new`.
-        let sizes = path.segments.iter().flat_map(|segment| match &segment.arguments {
-            syn::PathArguments::AngleBracketed(arguments) => sizes(arguments),
-            _ => Vec::new(),
-        });
-        let (rows, columns) = match sized(ty, &sizes.collect::<Vec<_>>())? {
+        let (rows, columns) = match of_segment(ty)? {
             Shape::Vector(n) => (n, 1),
             Shape::Matrix(rows, columns) => (rows, columns),
             _ => return None,
@@ -648,12 +636,14 @@ impl<'a> Evaluator<'a> {
             }
             _ => return None,
         };
-        Some(Value::matrix(rows, columns, &entries))
+        Some(Value::matrix(rows, columns, entries))
     }
 }
 
-fn segments(path: &Path) -> Vec<String> {
-    path.segments.iter().map(|segment| segment.ident.to_string()).collect()
+/// A path as it is written, without generic arguments.
+fn written(path: &Path) -> String {
+    let names: Vec<String> = path.segments.iter().map(|one| one.ident.to_string()).collect();
+    names.join("::")
 }
 
 fn is_assignment(op: &BinOp) -> bool {

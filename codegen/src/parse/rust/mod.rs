@@ -45,7 +45,7 @@ fn assembled<T>(
     assemble: fn(Draft, &Diagnostics) -> Option<T>,
 ) -> Result<T, Diagnostics> {
     let diagnostics = Diagnostics::new();
-    let (algebra, choice, time) = arguments::lie_poisson(arguments, &diagnostics);
+    let (algebra, choice, time) = arguments::read(arguments, Variable::Momentum, &diagnostics);
     let (variable, hamiltonian) = read(function, Variable::Momentum, time, &diagnostics);
     // Without a momentum every name would be unknown: one mistake is enough.
     let Some((_, coordinates, coordinates_span)) = variable else { return Err(diagnostics) };
@@ -72,7 +72,7 @@ fn assembled<T>(
 /// Every mistake of the arguments, the signature and the body.
 pub fn potential(arguments: TokenStream, function: &ItemFn) -> Result<Potential, Diagnostics> {
     let diagnostics = Diagnostics::new();
-    let algebra = arguments::potential(arguments, &diagnostics);
+    let (algebra, ..) = arguments::read(arguments, Variable::Element, &diagnostics);
     let (variable, energy) = read(function, Variable::Element, None, &diagnostics);
     let Some((Shape::Grid(rows, columns) | Shape::Matrix(rows, columns), _, span)) = variable
     else {

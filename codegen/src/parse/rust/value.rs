@@ -3,13 +3,13 @@
 use std::cmp::Ordering;
 use std::rc::Rc;
 
-use syn::{BinOp, ExprMethodCall};
+use syn::{BinOp, ExprMethodCall, GenericArgument};
 
 use crate::diagnostic::{Mistake, Span, nearest};
 use crate::expr::{ExprId, Function, Node};
 use crate::number::{Rational, integer};
 use crate::parse::rust::evaluate::{Callable, Evaluator, NoValue};
-use crate::parse::rust::signature::sizes;
+use crate::parse::rust::signature::length;
 
 /// A value of the function's world.
 #[derive(Clone)]
@@ -59,7 +59,7 @@ impl Value {
     }
 
     /// A matrix with these entries, row by row.
-    pub(super) fn matrix(rows: usize, columns: usize, entries: &[Value]) -> Self {
+    pub(super) fn matrix(rows: usize, columns: usize, entries: Vec<Value>) -> Self {
         let by_columns = (0..columns).flat_map(|j| entries.iter().skip(j).step_by(columns));
         let entries = Rc::new(by_columns.cloned().collect());
         Self::List(Aggregate { entries, shape: Some((rows, columns)) })
@@ -331,13 +331,13 @@ impl Evaluator<'_> {
                     self.arithmetic(MINUS, a, b, span)
                 })),
             ("fixed_rows", [Value::Integer(start)]) => {
-                let Some(&[count]) = call.turbofish.as_ref().map(sizes).as_deref() else {
-                    return Ok(None);
-                };
+                let sizes = call.turbofish.as_ref().and_then(|sizes| sizes.args.first());
+                let Some(GenericArgument::Const(count)) = sizes else { return Ok(None) };
+                let Some(count) = length(count) else { return Ok(None) };
                 let start = usize::try_from(*start).unwrap_or(usize::MAX);
                 let end = start.saturating_add(count);
                 match items.get(start..end) {
-                    Some(rows) => Value::matrix(count, 1, rows),
+                    Some(rows) => Value::matrix(count, 1, rows.to_vec()),
                     None => {
                         let wrong = Mistake::IndexRange(format!("{start}..{end}"), items.len());
                         self.wrong(span, wrong)
