@@ -458,6 +458,8 @@ impl<'a> Evaluator<'a> {
         {
             *variable = value;
         } else if let Some((base, mut list, at)) = self.entry(expression)? {
+            // The variable lets go of the list, which is then changed in place.
+            self.assign(base, Value::Unit)?;
             Rc::make_mut(&mut list.entries)[at] = value;
             return self.assign(base, Value::List(list));
         }

@@ -303,7 +303,10 @@ impl Evaluator<'_> {
                     self.apply(function, vec![value, item.clone()], span)
                 })?
             }
-            ("sum", []) => self.sum(items.to_vec(), span),
+            ("sum", []) => {
+                items.iter().try_for_each(|_| self.tick(span))?;
+                self.sum(items.to_vec(), span)
+            }
             _ if list.shape.is_none() => return Ok(None),
             ("dot", [Value::List(other)]) if items.len() == other.entries.len() => {
                 self.dot(items.iter(), other.entries.iter(), span)
