@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use crate::systems::{SYSTEMS, System, momenta};
+use crate::systems::{SYSTEMS, Workload, momenta};
 use crate::timing::{Contender, Failure, line, medians};
 
 const BODIES: usize = 100_000;
@@ -30,7 +30,7 @@ pub fn find(given: Option<&PathBuf>) -> Result<PathBuf, Failure> {
 fn seconds(
     command: &Path,
     verb: &str,
-    system: &System,
+    system: &Workload,
     steps: u64,
     more: &[String],
 ) -> Result<Duration, Failure> {
@@ -51,7 +51,7 @@ fn seconds(
 fn way<'a>(
     command: &'a Path,
     verb: &'static str,
-    system: &'a System,
+    system: &'a Workload,
     more: Vec<String>,
     bodies: usize,
 ) -> Contender<'a> {

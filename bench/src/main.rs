@@ -21,13 +21,13 @@ use timing::{Failure, machine};
 /// Measures steps by the attribute, from files, and against peers; every row is one interleaved run.
 #[derive(Parser)]
 #[command(name = "coadjoint-bench")]
-struct Arguments {
+struct Opts {
     #[command(subcommand)]
-    table: Table,
+    table: Benchmark,
 }
 
 #[derive(Subcommand)]
-enum Table {
+enum Benchmark {
     /// Nanoseconds a step of six systems by the attribute: `advance`, `advance_by`, and lanes
     Step(Common),
     /// The systems by the command, `simulate --backend …`, beside `advance`
@@ -75,15 +75,15 @@ struct Work {
     method: String,
 }
 
-fn run(table: &Table) -> Result<(), Failure> {
+fn run(table: &Benchmark) -> Result<(), Failure> {
     println!("{}\n", machine());
     match table {
-        Table::Step(common) => systems::table(common.quick, &common.only),
-        Table::Backends(given) => {
+        Benchmark::Step(common) => systems::table(common.quick, &common.only),
+        Benchmark::Backends(given) => {
             let command = command::find(given.command.as_ref())?;
             command::single(&command, &given.backend, given.common.quick, &given.common.only)
         }
-        Table::Ensembles(given) => {
+        Benchmark::Ensembles(given) => {
             let command = command::find(given.command.as_ref())?;
             let mut ways: Vec<Vec<String>> =
                 given.backend.iter().map(|name| vec!["--backend".into(), name.clone()]).collect();
@@ -93,13 +93,15 @@ fn run(table: &Table) -> Result<(), Failure> {
             }
             command::ensembles(&command, &ways, given.common.quick, &given.common.only)
         }
-        Table::Lattice(common) => lattice::tables(common.quick, &common.only),
-        Table::Work(Work { common, method }) => work::tables(common.quick, &common.only, method),
+        Benchmark::Lattice(common) => lattice::tables(common.quick, &common.only),
+        Benchmark::Work(Work { common, method }) => {
+            work::tables(common.quick, &common.only, method)
+        }
     }
 }
 
 fn main() -> ExitCode {
-    match run(&Arguments::parse().table) {
+    match run(&Opts::parse().table) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {error}");

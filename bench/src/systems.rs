@@ -58,7 +58,7 @@ fn quadratic(mu: [f64; 8]) -> f64 {
 
 type Made = Result<Vec<Contender<'static>>, Failure>;
 
-pub struct System {
+pub struct Workload {
     pub name: &'static str,
     /// The example file.
     pub file: &'static str,
@@ -79,7 +79,7 @@ pub struct System {
 /// The ways of one system.
 macro_rules! system {
     ($name:literal, $file:literal, $k:literal, $h:literal, $step:ident, $group:ty, $n:literal, $mu:expr) => {
-        System {
+        Workload {
             name: $name,
             file: concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/", $file, ".toml"),
             truncation: $k,
@@ -131,7 +131,7 @@ macro_rules! system {
     };
 }
 
-pub const SYSTEMS: [System; 6] = [
+pub const SYSTEMS: [Workload; 6] = [
     system!("rigid body, K = 7", "rigid_body", 7, 0.1, RigidBody, SO3, 3, &[2.0, 0.5, 1.0]),
     system!(
         "heavy top, K = 7",
@@ -186,7 +186,7 @@ pub const SYSTEMS: [System; 6] = [
 ];
 
 /// This many momenta of a system, one after the other, each a little larger than the one before.
-pub fn momenta(system: &System, count: usize) -> Vec<f64> {
+pub fn momenta(system: &Workload, count: usize) -> Vec<f64> {
     let size = |i: usize| 1.0 + 0.2 * i as f64 / count as f64;
     (0..count).flat_map(|i| system.momentum.iter().map(move |mu| mu * size(i))).collect()
 }

@@ -3,7 +3,7 @@
 use clap::Args;
 use coadjoint_codegen::system::Parameters;
 use coadjoint_learn::ModelFile;
-use coadjoint_run::series::{Series, json, latex, learned, text};
+use coadjoint_run::series::{Expansion, json, latex, learned, text};
 use coadjoint_run::{Accuracy, polynomial};
 
 use crate::error::CliError;
@@ -12,7 +12,7 @@ use crate::source::Input;
 use crate::{load, progress};
 
 /// Prints a series.
-pub(crate) type Form = fn(&Series) -> String;
+pub(crate) type Form = fn(&Expansion) -> String;
 
 /// Formats of a series.
 pub(crate) const FORMS: &Names<Form> = &[
@@ -53,7 +53,7 @@ pub(crate) fn run(options: &DeriveOptions) -> Result<(), CliError> {
         "`check` tries the laws of these steps",
     )?;
     let phase = progress::phase("deriving the series");
-    let series = Series::derive(&source.file, system.problem)?;
+    let series = Expansion::derive(&source.file, system.problem)?;
     drop(phase);
     out!("{}", (options.format)(&series));
     Ok(())

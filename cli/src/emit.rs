@@ -7,7 +7,7 @@ use coadjoint_codegen::system::Parameters;
 use coadjoint_learn::ModelFile;
 use coadjoint_program::Precision;
 use coadjoint_run::Accuracy;
-use coadjoint_run::emit::{Source, header, kernel, rust};
+use coadjoint_run::emit::{Emittable, header, kernel, rust};
 
 use crate::arguments::EmitOptions;
 use crate::error::{CliError, unwritten};
@@ -54,9 +54,9 @@ pub(crate) fn run(options: &EmitOptions) -> Result<(), CliError> {
 }
 
 /// The system or the model to be written, and the file it is from.
-fn source(options: &EmitOptions) -> Result<(PathBuf, Source), CliError> {
+fn source(options: &EmitOptions) -> Result<(PathBuf, Emittable), CliError> {
     if let Some(path) = &options.input.model {
-        return Ok((path.clone(), Source::Model(Box::new(ModelFile::load(path)?))));
+        return Ok((path.clone(), Emittable::Model(Box::new(ModelFile::load(path)?))));
     }
     let source = options.input.source(options.truncation);
     let parameters =
@@ -66,5 +66,5 @@ fn source(options: &EmitOptions) -> Result<(PathBuf, Source), CliError> {
     let (problem, gave_way) = system.problem.settled();
     system.problem = problem;
     gave_way.iter().for_each(|reason| errln!("note: {}", reason.gave_way()));
-    Ok((source.file, Source::System(Box::new(system), choice)))
+    Ok((source.file, Emittable::System(Box::new(system), choice)))
 }

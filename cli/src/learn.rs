@@ -7,7 +7,9 @@ use coadjoint_codegen::file;
 use coadjoint_codegen::lie::Chart;
 use coadjoint_learn::data::RowPolicy;
 use coadjoint_learn::network::{Progress, TrainingOptions};
-use coadjoint_learn::{Errors, Figures, Kind, Request, Source, Summary, learn, remove_checkpoints};
+use coadjoint_learn::{
+    Dataset, Errors, Figures, Kind, Request, Summary, learn, remove_checkpoints,
+};
 
 use crate::error::{CliError, unwritten};
 use crate::named::{CHARTS, FORMATS, Format, Names, named};
@@ -109,7 +111,7 @@ pub(crate) fn run(options: &LearnOptions) -> Result<(), CliError> {
         drift_steps: options.steps,
     };
     let bar = progress::bar(1, "learning");
-    let source = Source::files(&options.data, options.test.as_deref())?;
+    let source = Dataset::files(&options.data, options.test.as_deref())?;
     let (model, summary) =
         learn(&request, source, &mut |Progress { step, total, loss, .. }| {
             bar.set_length(total as u64);

@@ -4,7 +4,7 @@
 
 /// One number at each time of a run.
 #[derive(Clone, Debug, Default)]
-pub struct Series {
+pub struct Channel {
     /// The name.
     pub name: String,
     /// The unit, if there is one.
@@ -35,9 +35,9 @@ pub fn range<'a>(values: impl IntoIterator<Item = &'a f64>) -> Option<(f64, f64)
 }
 
 /// The coordinates that vary most, in the order of the file, and all the others.
-pub(crate) fn largest<'a>(series: &[&'a Series]) -> (Vec<&'a Series>, Vec<&'a Series>) {
+pub(crate) fn largest<'a>(series: &[&'a Channel]) -> (Vec<&'a Channel>, Vec<&'a Channel>) {
     let variation =
-        |series: &Series| range(&series.values).map_or(0.0, |(low, high)| high / 2.0 - low / 2.0);
+        |series: &Channel| range(&series.values).map_or(0.0, |(low, high)| high / 2.0 - low / 2.0);
     let mut order: Vec<usize> = (0..series.len()).collect();
     order.sort_by(|&a, &b| variation(series[b]).total_cmp(&variation(series[a])));
     let shown = &order[..order.len().min(NAMED)];
@@ -58,7 +58,7 @@ pub(crate) struct Window {
 
 /// All records, or the first ones: where all together have too many turning points to be told apart, or
 /// where later records are too far apart to follow what the first ones show.
-pub(crate) fn window(series: &[&Series], times: &[f64]) -> Window {
+pub(crate) fn window(series: &[&Channel], times: &[f64]) -> Window {
     let all = series.iter().flat_map(|series| &series.values);
     let (low, high) = range(all).unwrap_or_default();
     let wiggle = WIGGLE * (high / 2.0 - low / 2.0) * 2.0;
@@ -179,11 +179,11 @@ fn stretches(points: &[(f64, f64)], columns: usize) -> impl Iterator<Item = &[(f
 
 #[cfg(test)]
 mod tests {
-    use super::{Series, Window, largest, thinned, turning_points, unbeaten, window};
+    use super::{Channel, Window, largest, thinned, turning_points, unbeaten, window};
 
-    fn wave(name: &str, rate: f64, records: usize) -> Series {
+    fn wave(name: &str, rate: f64, records: usize) -> Channel {
         let values = (0..records).map(|n| (rate * n as f64).sin()).collect();
-        Series { name: name.to_owned(), unit: None, values }
+        Channel { name: name.to_owned(), unit: None, values }
     }
 
     #[test]
@@ -201,16 +201,16 @@ mod tests {
         let thin: Vec<f64> =
             times.iter().map(|&n| if n < 200.0 { n } else { 200.0 + 64.0 * (n - 199.0) }).collect();
         let values = thin.iter().map(|time| (0.3 * time).sin()).collect();
-        let part = window(&[&Series { values, ..fast }], &thin);
+        let part = window(&[&Channel { values, ..fast }], &thin);
         assert_eq!(part, Window { records: 200, resolved: true });
         // Rounding of a constant is no motion.
-        let noise = Series { values: vec![1.0, 1.0 - 1e-16, 1.0], ..slow.clone() };
+        let noise = Channel { values: vec![1.0, 1.0 - 1e-16, 1.0], ..slow.clone() };
         assert!(turning_points(&noise.values, 0.04).is_empty());
     }
 
     #[test]
     fn the_eight_that_vary_most_are_shown_in_order() {
-        let mut all: Vec<Series> = (0..12).map(|i| wave(&format!("c{i}"), 0.1, 200)).collect();
+        let mut all: Vec<Channel> = (0..12).map(|i| wave(&format!("c{i}"), 0.1, 200)).collect();
         for series in &mut all[2..6] {
             series.values.iter_mut().for_each(|value| *value *= 0.1);
         }

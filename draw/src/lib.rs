@@ -32,6 +32,6 @@ mod svg;
 
 pub use axis::Axis;
 pub use curves::unbeaten;
-pub use panel::{Curve, Panel, Sample, sheet};
+pub use panel::{Curve, Panel, Swatch, sheet};
 pub use style::{STYLE_SHEET, Style};
 pub use svg::escaped;

@@ -21,7 +21,7 @@ const HEADING: f64 = 15.0;
 
 /// The sample beside a name in a legend.
 #[derive(Clone, Copy, Debug)]
-pub enum Sample {
+pub enum Swatch {
     /// A stroke of this style.
     Stroke(Style),
     /// A stroke with a marker.
@@ -54,11 +54,11 @@ impl Curve {
     }
 
     /// Its sample in a legend.
-    fn sample(&self) -> Sample {
+    fn sample(&self) -> Swatch {
         match (self.joined, self.marked) {
-            (true, false) => Sample::Stroke(self.style),
-            (true, true) => Sample::Both(self.style),
-            (false, _) => Sample::Marker(self.style),
+            (true, false) => Swatch::Stroke(self.style),
+            (true, true) => Swatch::Both(self.style),
+            (false, _) => Swatch::Marker(self.style),
         }
     }
 }
@@ -71,7 +71,7 @@ pub struct Panel {
     /// Remarks, each on a line of its own.
     pub notes: Vec<String>,
     /// Samples and their names.
-    pub legend: Vec<(Sample, String)>,
+    pub legend: Vec<(Swatch, String)>,
     /// The label of the horizontal axis.
     pub across: String,
     /// The horizontal axis.
@@ -214,27 +214,27 @@ pub(crate) fn paragraph(svg: &mut Svg, text: &str, (left, right): (f64, f64), mu
 /// Draws samples with their names, in as many rows as they need; returns the last row's baseline.
 pub(crate) fn legend(
     svg: &mut Svg,
-    items: &[(Sample, String)],
+    items: &[(Swatch, String)],
     (left, right): (f64, f64),
     above: f64,
 ) -> f64 {
     let mut y = above + LINE + 2.0;
     let mut x = left;
     for (sample, name) in items {
-        let stroke = if matches!(sample, Sample::Marker(_)) { 10.0 } else { STROKE };
+        let stroke = if matches!(sample, Swatch::Marker(_)) { 10.0 } else { STROKE };
         let name = cut(name, FONT, right - left - stroke - 8.0);
         let wide = stroke + 8.0 + width(&name, FONT);
         if x > left && x + wide > right {
             (x, y) = (left, y + LINE);
         }
         let middle = y - 4.5;
-        if let Sample::Stroke(style) | Sample::Both(style) = sample {
+        if let Swatch::Stroke(style) | Swatch::Both(style) = sample {
             svg.line((x, middle), (x + stroke, middle), &style.line());
         }
-        if let Sample::Marker(style) | Sample::Both(style) = sample {
+        if let Swatch::Marker(style) | Swatch::Both(style) = sample {
             svg.path(&style.marker((x + stroke / 2.0, middle)), &style.fill());
         }
-        if let Sample::Band = sample {
+        if let Swatch::Band = sample {
             let (a, b, from, to) = (x, x + stroke, middle - 6.0, middle + 6.0);
             svg.polygon(&[(a, from), (b, from), (b, to), (a, to)], BAND);
         }

@@ -1,9 +1,9 @@
 //! The picture of a run: the momentum, and the drift of energy, spatial momentum and Casimirs.
 
 use crate::axis::Axis;
-pub use crate::curves::Series;
+pub use crate::curves::Channel;
 use crate::curves::{self, Window, largest, peaks, range, thinned, window};
-use crate::panel::{Curve, Panel, Place, RIGHT, Sample, WIDTH, heading, legend, paragraph};
+use crate::panel::{Curve, Panel, Place, RIGHT, Swatch, WIDTH, heading, legend, paragraph};
 use crate::style::Style;
 use crate::svg::Svg;
 
@@ -18,9 +18,9 @@ pub struct Recording {
     /// The times of the records.
     pub times: Vec<f64>,
     /// The coordinates of the momentum.
-    pub momentum: Vec<Series>,
+    pub momentum: Vec<Channel>,
     /// Relative differences of conserved quantities from the start; the names are those of panels.
-    pub drifts: Vec<Series>,
+    pub drifts: Vec<Channel>,
 }
 
 /// The label of an axis of time.
@@ -63,8 +63,8 @@ pub fn render(picture: &Picture) -> String {
     }
     if several && !drifts.is_empty() {
         let names = picture.runs.iter().enumerate();
-        let names: Vec<(Sample, String)> =
-            names.map(|(i, run)| (Sample::Stroke(Style::new(i)), run.label.clone())).collect();
+        let names: Vec<(Swatch, String)> =
+            names.map(|(i, run)| (Swatch::Stroke(Style::new(i)), run.label.clone())).collect();
         y = legend(&mut svg, &names, (left, WIDTH - RIGHT), y) + 6.0;
     }
     if !drifts.is_empty() {
@@ -114,7 +114,7 @@ pub fn motion_panels(
             units.push(unit);
         }
     }
-    let groups: Vec<Vec<&Series>> = match units.len() {
+    let groups: Vec<Vec<&Channel>> = match units.len() {
         2..=MOST_PANELS => {
             let of = |unit| run.momentum.iter().filter(|s| s.unit.as_deref() == unit).collect();
             units.iter().map(|&unit| of(unit)).collect()
@@ -146,8 +146,8 @@ fn motion_panel(
     run: &Recording,
     named: bool,
     &Time { across, unit: time_unit, part, columns }: &Time<'_>,
-    shown: &[&Series],
-    rest: &[&Series],
+    shown: &[&Channel],
+    rest: &[&Channel],
 ) -> Panel {
     let times = &run.times[..part.records];
     let mut notes = Vec::new();
@@ -179,22 +179,22 @@ fn motion_panel(
     if named {
         heading.push_str(&format!(", {}", run.label));
     }
-    let name = |series: &Series| match &series.unit {
+    let name = |series: &Channel| match &series.unit {
         Some(unit) if !same => format!("{} ({unit})", series.name),
         _ => series.name.clone(),
     };
-    let mut legend: Vec<(Sample, String)> = Vec::new();
+    let mut legend: Vec<(Swatch, String)> = Vec::new();
     let mut curves = Vec::new();
     for (i, series) in shown.iter().enumerate() {
         let (name, style) = (name(series), Style::new(i));
-        legend.push((Sample::Stroke(style), name.clone()));
+        legend.push((Swatch::Stroke(style), name.clone()));
         let points = thinned(times, &series.values, columns);
         curves.push(Curve::line(name, style, points));
     }
     let band = band(times, rest, columns);
     if !rest.is_empty() {
         let text = format!("{} more, from their least to their greatest", rest.len());
-        legend.push((Sample::Band, text));
+        legend.push((Swatch::Band, text));
         let (count, all) = (shown.len(), shown.len() + rest.len());
         notes.insert(0, format!("Drawn by name: the {count} of {all} coordinates that vary most."));
     }
@@ -221,7 +221,7 @@ fn brief(low: f64, high: f64) -> String {
 
 /// The outline of everything between the least and the greatest of the curves: the upper edge
 /// forwards, the lower edge backwards.
-fn band(times: &[f64], series: &[&Series], columns: usize) -> Vec<(f64, f64)> {
+fn band(times: &[f64], series: &[&Channel], columns: usize) -> Vec<(f64, f64)> {
     if series.is_empty() {
         return Vec::new();
     }

@@ -1,24 +1,24 @@
 //! The functions of an angle that exponentials need.
 
 use crate::number::Number;
-use crate::series::{NEWTON, ROUNDING, Series, alternating};
+use crate::series::{NEWTON, ROUNDING, Taylor, alternating};
 
 /// The series of an angle's functions for t = θ² up to a reach.
 #[derive(Clone, Copy, Debug)]
 pub struct Reach {
-    half_cosine: Series,
-    half_sine: Series,
-    b: Series,
-    c: Series,
+    half_cosine: Taylor,
+    half_sine: Taylor,
+    b: Taylor,
+    c: Taylor,
 }
 
 impl Reach {
     const fn new(reach: f64, accuracy: [f64; 4]) -> Self {
         Self {
-            half_cosine: Series::new(alternating(0, 1.0, 0.25), reach, accuracy),
-            half_sine: Series::new(alternating(1, 0.5, 0.25), reach, accuracy),
-            b: Series::new(alternating(2, 1.0, 1.0), reach, accuracy),
-            c: Series::new(alternating(3, 1.0, 1.0), reach, accuracy),
+            half_cosine: Taylor::new(alternating(0, 1.0, 0.25), reach, accuracy),
+            half_sine: Taylor::new(alternating(1, 0.5, 0.25), reach, accuracy),
+            b: Taylor::new(alternating(2, 1.0, 1.0), reach, accuracy),
+            c: Taylor::new(alternating(3, 1.0, 1.0), reach, accuracy),
         }
     }
 }

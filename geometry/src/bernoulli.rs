@@ -1,7 +1,7 @@
 //! The series of exp's J_R about the middle of a step.
 
 use crate::number::Number;
-use crate::series::{ROUNDING, Series, TRIED};
+use crate::series::{ROUNDING, TRIED, Taylor};
 
 /// The powers of x that a series of the exponential chart may have.
 pub const MAX_DEGREE: usize = 14;
@@ -26,18 +26,18 @@ pub const BETA: [f64; MAX_DEGREE + 1] = [
 ];
 
 /// Σ |β₂ₖ| tᵏ⁻¹ up to the term of x^degree.
-const fn bernoulli_of(degree: usize) -> Series {
+const fn bernoulli_of(degree: usize) -> Taylor {
     let mut c = [0.0; TRIED];
     let mut k = 2;
     while k <= degree {
         c[k / 2 - 1] = BETA[k].abs();
         k += 2;
     }
-    Series::new(c, 1.0, [ROUNDING; 4])
+    Taylor::new(c, 1.0, [ROUNDING; 4])
 }
 
 /// The factors of exp's J_R for the degrees 0, 2, …, 14.
-const BERNOULLI: &[Series; 8] = &[
+const BERNOULLI: &[Taylor; 8] = &[
     bernoulli_of(0),
     bernoulli_of(2),
     bernoulli_of(4),

@@ -3,7 +3,7 @@
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::number::Number;
-use crate::series::Series;
+use crate::series::Taylor;
 use crate::vector::{dot, each};
 
 /// a + εb.
@@ -111,7 +111,7 @@ impl<T: Number> Number for Dual<T> {
         self.real.known_at_most(limit)
     }
     #[inline(always)]
-    fn even<const N: usize>(x: [Self; N], series: &'static Series, order: usize) -> Self {
+    fn even<const N: usize>(x: [Self; N], series: &'static Taylor, order: usize) -> Self {
         let (real, dual) = parts(x);
         let slope = T::even(real, series, order + 1);
         Self { real: T::even(real, series, order), dual: slope * dot(real, dual) }

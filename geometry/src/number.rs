@@ -2,7 +2,7 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::series::{List, Series};
+use crate::series::{List, Taylor};
 #[cfg(feature = "simba")]
 use simba::simd::SimdBool as _;
 
@@ -40,7 +40,7 @@ pub trait Number:
 
     /// A series at t = Σ xᵢ², or its derivative of this order in t/2.
     #[inline(always)]
-    fn even<const N: usize>(x: [Self; N], series: &'static Series, order: usize) -> Self {
+    fn even<const N: usize>(x: [Self; N], series: &'static Taylor, order: usize) -> Self {
         sum(&series.0[order], Self::squares(x))
     }
     /// Σ xᵢ²

@@ -6,7 +6,7 @@ use crate::number::Number;
 
 /// M numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Row<T, const M: usize>(pub [T; M]);
+pub struct Tuple<T, const M: usize>(pub [T; M]);
 
 /// Operations of numbers side by side, as methods of a trait; with loops, and not the maps of arrays, which stay calls in
 /// large formulas.
@@ -25,7 +25,7 @@ macro_rules! by_number {
 
 macro_rules! operators {
     ($($operator:ident $name:ident($($other:ident)?)),*) => {$(
-        impl<T: Number, const M: usize> $operator for Row<T, M> {
+        impl<T: Number, const M: usize> $operator for Tuple<T, M> {
             type Output = Self;
 
             by_number!($name($($other)?));
@@ -35,7 +35,7 @@ macro_rules! operators {
 
 operators!(Add add(b), Sub sub(b), Mul mul(b), Div div(b), Neg neg());
 
-impl<T: Number, const M: usize> Number for Row<T, M> {
+impl<T: Number, const M: usize> Number for Tuple<T, M> {
     by_number!(times_plus(a, b), abs(), sqrt(), round(), at_most(other, then, otherwise));
 
     #[inline(always)]

@@ -23,9 +23,9 @@ pub(crate) struct List {
 
 /// A function of t, 0 ≤ t ≤ reach, and its first three derivatives in t/2: with t = |x|² these are what x·v multiplies.
 #[derive(Clone, Copy, Debug)]
-pub struct Series(pub(crate) [List; 4]);
+pub struct Taylor(pub(crate) [List; 4]);
 
-impl Series {
+impl Taylor {
     /// Σ cₖ tᵏ, each derivative to its accuracy.
     pub(crate) const fn new(mut c: [f64; TRIED], reach: f64, accuracy: [f64; 4]) -> Self {
         let mut lists = [List { count: 1, coefficients: [0.0; MOST] }; 4];

@@ -68,13 +68,13 @@ fn covariance(points: &[f64], dim: usize, length: f64, noise: f64) -> DMatrix<f6
 /// The covariance of the observed gradients is the mixed second derivative of the kernel
 /// (Rasmussen and Williams, *Gaussian Processes for Machine Learning*, section 9.4).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "Stored", into = "Stored")]
+#[serde(try_from = "Posterior", into = "Posterior")]
 pub struct GaussianProcess {
-    stored: Stored,
+    stored: Posterior,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-struct Stored {
+struct Posterior {
     mean: PolynomialModel,
     scaling: Scaling,
     length: f64,
@@ -86,16 +86,16 @@ struct Stored {
     weights: Vec<f64>,
 }
 
-impl From<GaussianProcess> for Stored {
+impl From<GaussianProcess> for Posterior {
     fn from(process: GaussianProcess) -> Self {
         process.stored
     }
 }
 
-impl TryFrom<Stored> for GaussianProcess {
+impl TryFrom<Posterior> for GaussianProcess {
     type Error = String;
 
-    fn try_from(stored: Stored) -> Result<Self, String> {
+    fn try_from(stored: Posterior) -> Result<Self, String> {
         let dim = stored.mean.dim();
         let Scaling { centre, half_width } = &stored.scaling;
         if centre.len() != dim || half_width.len() != dim {
@@ -257,7 +257,7 @@ pub fn fit_gaussian_process(
             return Err(failed());
         }
     };
-    let stored = Stored {
+    let stored = Posterior {
         mean,
         scaling,
         length,

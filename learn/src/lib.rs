@@ -61,5 +61,5 @@ pub use gaussian_process::{GaussianProcess, fit_gaussian_process};
 pub use group::{DataGroup, GroupChoice, OwnAlgebra, matrix_of};
 pub use least_squares::GaussNewton;
 pub use model::{Model, ModelFile, TrainingRecord, exact_polynomial, fit_hybrid, problem};
-pub use session::{Kind, Request, Source, Summary, learn, remove_checkpoints};
+pub use session::{Dataset, Kind, Request, Summary, learn, remove_checkpoints};
 pub use table::npy_header;

@@ -124,14 +124,14 @@ fn named(rows: &[BadRow]) -> Vec<(usize, String)> {
 }
 
 /// Tables whose columns are those of [`Recording`].
-pub struct Source {
+pub struct Dataset {
     /// The training data.
     pub data: Table,
     /// Test data, where there are any.
     pub test: Option<Table>,
 }
 
-impl Source {
+impl Dataset {
     /// The data in these files: CSV, NPY, NPZ, or Parquet where the feature is built in.
     ///
     /// # Errors
@@ -147,7 +147,7 @@ impl Source {
 /// [`LearnError`] naming what is wrong with the data or the request.
 pub fn learn(
     request: &Request,
-    source: Source,
+    source: Dataset,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<(ModelFile, Summary), LearnError> {
     if !(request.step.is_finite() && request.step != 0.0) {
@@ -167,7 +167,7 @@ pub fn learn(
 
 struct Learner<'a> {
     request: &'a Request,
-    source: Source,
+    source: Dataset,
     progress: &'a mut dyn FnMut(Progress),
 }
 

@@ -7,7 +7,7 @@ use quote::ToTokens;
 
 /// The path of the runtime crate, as far as the user says, and the other arguments.
 #[derive(Default)]
-pub(crate) struct Arguments {
+pub(crate) struct Meta {
     /// The path after `crate =`.
     pub krate: Option<TokenStream>,
     /// The other arguments as they are.
@@ -18,7 +18,7 @@ pub(crate) struct Arguments {
 ///
 /// # Errors
 /// If it is there twice, or what stands after the equals sign is no path.
-pub(crate) fn split(tokens: TokenStream) -> syn::Result<Arguments> {
+pub(crate) fn split(tokens: TokenStream) -> syn::Result<Meta> {
     let mut krate = None;
     let mut others: Vec<TokenTree> = Vec::new();
     let tokens: Vec<TokenTree> = tokens.into_iter().collect();
@@ -34,7 +34,7 @@ pub(crate) fn split(tokens: TokenStream) -> syn::Result<Arguments> {
             _ => others.extend_from_slice(entry),
         }
     }
-    Ok(Arguments { krate, others: others.into_iter().collect() })
+    Ok(Meta { krate, others: others.into_iter().collect() })
 }
 
 fn is_punct(token: &TokenTree, character: char) -> bool {

@@ -5,7 +5,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{ToTokens, quote};
 use syn::ItemFn;
 
-use crate::arguments::{self, Arguments, help_without_runtime};
+use crate::arguments::{self, Meta, help_without_runtime};
 use crate::fallback;
 use crate::generate::Generate;
 
@@ -25,9 +25,9 @@ pub(crate) fn expand(
             return quote!(#error #item);
         }
     };
-    let (Arguments { krate, others }, error) = match arguments::split(arguments) {
+    let (Meta { krate, others }, error) = match arguments::split(arguments) {
         Ok(arguments) => (arguments, None),
-        Err(error) => (Arguments::default(), Some(error)),
+        Err(error) => (Meta::default(), Some(error)),
     };
     if krate.is_none()
         && error.is_none()

@@ -254,13 +254,13 @@ impl Session {
 
 /// Triples of coordinates that stay on a sphere: of rotations, and the translations' of motions.
 fn spheres(factors: &[Component]) -> Vec<[usize; 3]> {
-    use crate::system::Kind;
+    use crate::system::Depiction;
     let triple = |start: usize| [start, start + 1, start + 2];
     factors
         .iter()
         .filter_map(|factor| match factor.kind {
-            Kind::Rotation => Some(triple(factor.coordinate)),
-            Kind::Motion => Some(triple(factor.coordinate + 3)),
+            Depiction::Rotation => Some(triple(factor.coordinate)),
+            Depiction::Motion => Some(triple(factor.coordinate + 3)),
             _ => None,
         })
         .collect()

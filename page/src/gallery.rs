@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::fields::Fields;
 
 #[derive(Clone, Debug, Serialize)]
-pub struct Entry {
+pub struct Exhibit {
     pub id: &'static str,
     pub title: &'static str,
     pub family: &'static str,
@@ -86,9 +86,9 @@ entries! {
     }
 }
 
-pub fn gallery() -> Vec<Entry> {
+pub fn gallery() -> Vec<Exhibit> {
     let entry = |&[family, id, title, text, about]: &[&'static str; 5]| {
-        Fields::of_file(text).map(|fields| Entry { id, title, family, about, fields })
+        Fields::of_file(text).map(|fields| Exhibit { id, title, family, about, fields })
     };
     ENTRIES.iter().filter_map(entry).collect()
 }

@@ -13,7 +13,7 @@ const SMOOTH: usize = 4;
 
 /// (g, μ) and μ̇.
 #[derive(Clone, Debug, Default)]
-struct State {
+struct Knot {
     g: Vec<f64>,
     mu: Vec<f64>,
     rate: Vec<f64>,
@@ -26,8 +26,8 @@ pub struct Animation {
     /// The rival's steps within one of ours.
     pub substeps: usize,
     pub steps: u64,
-    before: State,
-    now: State,
+    before: Knot,
+    now: Knot,
     rival: Vec<f64>,
     rival_rate: Vec<f64>,
     /// μ and μ̇ after each step, ours and the rival's.
@@ -54,7 +54,7 @@ impl Animation {
             (0..size * size).map(|at| f64::from(u8::from(at / size == at % size))).collect();
         let g = system.step.element_of(&identity);
         let rate = system.rival.rate(START, momentum);
-        let now = State { g, mu: momentum.to_vec(), rate: rate.clone() };
+        let now = Knot { g, mu: momentum.to_vec(), rate: rate.clone() };
         let seen = Seen { spatial: momentum, matrix: &[], momentum };
         let start = system.invariants.start(START, seen);
         let mut run = Self {
@@ -122,7 +122,7 @@ impl Animation {
     /// μ a part of the way from the last state but one to the last. Only for pictures.
     pub fn between(&self, part: f64) -> Vec<f64> {
         let (a, b) = (&self.before, &self.now);
-        let end = |of: &State, i: usize| (of.mu[i], of.rate[i] * self.h);
+        let end = |of: &Knot, i: usize| (of.mu[i], of.rate[i] * self.h);
         (0..a.mu.len()).map(|i| hermite(end(a, i), end(b, i), part)).collect()
     }
 
@@ -188,16 +188,16 @@ impl Animation {
     }
 
     fn our_spatial(&self) -> Vec<f64> {
-        let State { g, mu, .. } = &self.now;
+        let Knot { g, mu, .. } = &self.now;
         self.observation.spatial_momentum(g, mu)
     }
 }
 
 /// The number of the rival's steps that cost as much as one of ours, rounded up.
-fn substeps(system: &System, start: &State) -> usize {
+fn substeps(system: &System, start: &Knot) -> usize {
     let kernel = system.step.kernel();
     let programs = &kernel.programs;
-    let (State { mut g, mut mu, .. }, mut slots) = (start.clone(), system.slots.clone());
+    let (Knot { mut g, mut mu, .. }, mut slots) = (start.clone(), system.slots.clone());
     let (mut steps, mut corrections) = (0_u64, 0_u64);
     while steps < 16 {
         system.step.set_time(&mut slots, system.h, START + steps as f64 * system.h);

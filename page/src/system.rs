@@ -24,7 +24,7 @@ pub const START: f64 = 0.0;
 /// The kind of a factor of the group, for pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Kind {
+pub enum Depiction {
     /// SO(3), or SU(2) as the real matrices of quaternions.
     Rotation,
     Motion,
@@ -35,7 +35,7 @@ pub enum Kind {
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct Component {
     /// Rotations, vectors or other.
-    pub kind: Kind,
+    pub kind: Depiction,
     /// The index of its first coordinate, and the number of coordinates.
     pub coordinate: usize,
     pub dim: usize,
@@ -195,10 +195,10 @@ fn factors(algebra: &LieAlgebra) -> Vec<Component> {
         let dim = factor.dim();
         let size = factor.matrix_size();
         let kind = match () {
-            () if is("SO3") || is("SU2") => Kind::Rotation,
-            () if is("SE3") => Kind::Motion,
-            () if is("SE2") => Kind::Plane,
-            () => Kind::Matrix,
+            () if is("SO3") || is("SU2") => Depiction::Rotation,
+            () if is("SE3") => Depiction::Motion,
+            () if is("SE2") => Depiction::Plane,
+            () => Depiction::Matrix,
         };
         let found = Component { kind, coordinate, dim, row, size };
         (coordinate, row) = (coordinate + dim, row + size);

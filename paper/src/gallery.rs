@@ -6,7 +6,7 @@ use std::path::Path;
 use coadjoint_codegen::smooth::Facts;
 use coadjoint_codegen::system::{Options, Parameters};
 use coadjoint_draw::curves::range;
-use coadjoint_draw::run::{Picture, Recording, Series, drift_panels, motion_panels};
+use coadjoint_draw::run::{Channel, Picture, Recording, drift_panels, motion_panels};
 use coadjoint_draw::{Panel, escaped};
 use coadjoint_run::simulate::{self, Drift, Moment, Schedule, Setup, Sink};
 use coadjoint_run::{Accuracy, Derived, meet_tolerance, read_varying};
@@ -52,7 +52,7 @@ pub fn picture(file: &Path) -> Fallible<Picture> {
     // An unknown drift has no curve.
     let drift = |name: &str, of: fn(&Drift) -> Option<f64>| {
         let values: Option<Vec<f64>> = looks.iter().map(|look| of(&look.2)).collect();
-        values.map(|values| Series { name: name.to_owned(), unit: None, values })
+        values.map(|values| Channel { name: name.to_owned(), unit: None, values })
     };
     let mut drifts = Vec::from_iter(drift("energy", |drift| drift.energy));
     if outcome.momenta > 0 {
@@ -64,7 +64,7 @@ pub fn picture(file: &Path) -> Fallible<Picture> {
     if outcome.casimirs > 0 {
         drifts.extend(drift("Casimirs", |drift| drift.casimirs));
     }
-    let series = |(i, name): (usize, &String)| Series {
+    let series = |(i, name): (usize, &String)| Channel {
         name: name.clone(),
         unit: units.coordinate(i).map(str::to_owned),
         values: looks.iter().map(|look| look.1[i]).collect(),
@@ -93,7 +93,7 @@ pub fn picture(file: &Path) -> Fallible<Picture> {
 pub fn worst(picture: &Picture) -> f64 {
     let exact = picture.runs.iter().flat_map(|run| &run.drifts);
     let exact = exact.filter(|drift| drift.name != "energy");
-    let largest = |series: &Series| range(&series.values).map_or(f64::NAN, |(_, high)| high);
+    let largest = |series: &Channel| range(&series.values).map_or(f64::NAN, |(_, high)| high);
     exact.map(largest).fold(0.0, |a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) })
 }
 
@@ -119,10 +119,10 @@ pub fn exhibit(picture: &Picture) -> String {
 
 /// All drifts of a run in one panel, as if each were of a run of its own.
 fn together(run: &Recording, across: (f64, f64), unit: Option<&str>) -> Option<Panel> {
-    let alone = |drift: &Series| Recording {
+    let alone = |drift: &Channel| Recording {
         label: drift.name.split(',').next().unwrap_or_default().to_owned(),
         times: run.times.clone(),
-        drifts: vec![Series { name: String::new(), ..drift.clone() }],
+        drifts: vec![Channel { name: String::new(), ..drift.clone() }],
         ..Recording::default()
     };
     let runs: Vec<Recording> = run.drifts.iter().map(alone).collect();

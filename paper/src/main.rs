@@ -5,13 +5,13 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use coadjoint_paper::experiment::run;
-use coadjoint_paper::outcome::{Fallible, Options, files, write};
+use coadjoint_paper::outcome::{Config, Fallible, files, write};
 use coadjoint_paper::{gallery, page};
 
 /// Run the experiments of the paper and print its figures beside ours
 #[derive(Parser, Debug)]
 #[command(name = "coadjoint-paper")]
-struct Arguments {
+struct Invocation {
     /// The experiment: simulation, orders, work, table-2, hamiltonian, geometrize, hamilton-jacobi, reduction-error,
     /// learned, noise, table-1, harder-truths, or all
     name: String,
@@ -33,7 +33,7 @@ struct Arguments {
 }
 
 fn main() -> ExitCode {
-    match all(Arguments::parse()) {
+    match all(Invocation::parse()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {}", error.to_string().trim_end());
@@ -42,8 +42,8 @@ fn main() -> ExitCode {
     }
 }
 
-fn all(arguments: Arguments) -> Fallible<()> {
-    let Arguments { name, quick, seed, out, html, gallery } = arguments;
+fn all(arguments: Invocation) -> Fallible<()> {
+    let Invocation { name, quick, seed, out, html, gallery } = arguments;
     // Mistakes are reported before anything is computed; the gallery takes seconds.
     if let Some(html) = &html {
         let file = std::fs::OpenOptions::new().append(true).create(true).open(html);
@@ -68,7 +68,7 @@ fn all(arguments: Arguments) -> Fallible<()> {
         eprintln!("gallery, {} of {}: {}", i + 1, systems.len(), file.display());
         pictures.push(gallery::picture(file)?);
     }
-    let reports = run(&name, &Options { quick, seed, out })?;
+    let reports = run(&name, &Config { quick, seed, out })?;
     for report in &reports {
         println!("{}", report.text());
     }

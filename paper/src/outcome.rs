@@ -48,7 +48,7 @@ pub fn brief(value: f64) -> String {
 }
 
 #[derive(Clone, Debug, Default)]
-pub struct Options {
+pub struct Config {
     /// Fewer samples and steps, smaller networks.
     pub quick: bool,
     pub seed: u64,
@@ -56,7 +56,7 @@ pub struct Options {
     pub out: Option<PathBuf>,
 }
 
-impl Options {
+impl Config {
     pub(crate) fn report(&self, name: &str) -> Report {
         Report { name: name.into(), quick: self.quick, seed: self.seed, ..Report::default() }
     }
@@ -77,13 +77,13 @@ pub(crate) const CHECKPOINT: &str = "checkpoint";
 
 /// A table with its title and the heads of its columns.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Table {
+pub struct Tabulation {
     pub title: String,
     pub columns: Vec<String>,
     pub rows: Vec<Vec<Value>>,
 }
 
-impl Table {
+impl Tabulation {
     /// An empty table; the heads of its columns are parted by bars.
     pub fn new(title: impl Into<String>, columns: &str) -> Self {
         let columns = columns.split(" | ").map(Into::into).collect();
@@ -184,14 +184,14 @@ pub struct Report {
     pub name: String,
     pub quick: bool,
     pub seed: u64,
-    pub tables: Vec<Table>,
+    pub tables: Vec<Tabulation>,
     pub judgements: Vec<Judgement>,
     pub curves: Vec<Curve>,
 }
 
 impl Report {
     /// The report with this table and this curve.
-    pub fn with(mut self, table: Table, curve: Curve) -> Self {
+    pub fn with(mut self, table: Tabulation, curve: Curve) -> Self {
         self.tables.push(table);
         self.curves.push(curve);
         self

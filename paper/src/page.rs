@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use coadjoint_draw::{Panel, STYLE_SHEET, escaped, run::Picture};
 
 use crate::gallery::{self, settings, verdict};
-use crate::outcome::{Judgement, Report, Table, brief, shown};
+use crate::outcome::{Judgement, Report, Tabulation, brief, shown};
 use crate::text::{Figure, figures, fill};
 
 const SIZE: (f64, f64) = (440.0, 230.0);
@@ -18,7 +18,7 @@ pub struct Section {
     pub settings: Vec<String>,
     pub out: String,
     pub panels: Vec<Panel>,
-    pub tables: Vec<Table>,
+    pub tables: Vec<Tabulation>,
     pub judgements: Vec<Judgement>,
 }
 
@@ -146,7 +146,7 @@ fn section(text: &mut String, section: &Section) {
     text.push_str("</section>\n");
 }
 
-fn table(text: &mut String, table: &Table) {
+fn table(text: &mut String, table: &Tabulation) {
     let numeric = |column: usize| {
         column > 0
             && table

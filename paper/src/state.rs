@@ -148,11 +148,11 @@ hamiltonian = "x^2/3 + y^2/4 + z^2/5"
 "#;
 
 /// Steps of one size, as programs, from the text of a system.
-pub struct Steps {
+pub struct Timestep {
     step: Step,
 }
 
-impl Steps {
+impl Timestep {
     pub fn new(system: &str, chart: Chart, truncation: usize) -> Fallible<Self> {
         let options = Options {
             parameters: Parameters::Substituted,

@@ -9,7 +9,7 @@ use coadjoint_run::{RunError, emit};
 /// The code of a system or a model in this language.
 pub fn emitted(
     name: &str,
-    source: emit::Source,
+    source: emit::Emittable,
     language: &str,
     prefix: Option<String>,
     step: Option<f64>,

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use coadjoint_codegen::signal::Signal;
-use coadjoint_codegen::smooth::{Function, Given};
+use coadjoint_codegen::smooth::{Given, Oracle};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
@@ -148,7 +148,7 @@ impl Callables {
     }
 }
 
-impl Function for Callables {
+impl Oracle for Callables {
     fn value(&self, time: f64, mu: &[f64]) -> f64 {
         self.call(false, time, mu).first().copied().unwrap_or(f64::NAN)
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::atomic::Ordering;
 
 use coadjoint_run::RunError;
-use coadjoint_run::lattice::{Arrays, Lattice, News};
+use coadjoint_run::lattice::{Arrays, News, Simulation};
 use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -55,7 +55,7 @@ pub fn simulate_lattice<'py>(
         let pool = rayon::ThreadPoolBuilder::new().build();
         let pool = pool.map_err(|error| RunError::Option(error.to_string()))?;
         let end = pool.install(|| {
-            let lattice = Lattice::read(Path::new(&name), &text, &arrays)?;
+            let lattice = Simulation::read(Path::new(&name), &text, &arrays)?;
             let none = || RunError::Option("the text has no [lattice]".to_owned());
             lattice.ok_or_else(none)?.run(&accuracy, Some(every.unwrap_or(1)), estimate, &mut told)
         })?;

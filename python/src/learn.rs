@@ -7,7 +7,7 @@ use std::sync::atomic::Ordering;
 use coadjoint_learn::data::RowPolicy;
 use coadjoint_learn::network::{Progress, TrainingOptions};
 use coadjoint_learn::table;
-use coadjoint_learn::{Kind, ModelFile, Request, Source};
+use coadjoint_learn::{Dataset, Kind, ModelFile, Request};
 use coadjoint_run::simulate::{Schedule, Setup, run_model};
 use coadjoint_run::{RunError, emit, learned, read_group, series};
 use numpy::PyReadonlyArray1;
@@ -18,7 +18,7 @@ use crate::control::work;
 use crate::emit::emitted;
 use crate::error::{raised, refused};
 use crate::outcome::result_of;
-use crate::record::{Keeper, Table};
+use crate::record::{Keeper, Trace};
 use crate::system::Core;
 
 /// Named columns of numbers.
@@ -107,7 +107,7 @@ pub fn learn<'py>(
             control.done.store(step as u64, Ordering::Relaxed);
         };
         let table = |columns| table::Table::of_columns(Path::new("the data"), columns);
-        let source = Source { data: table(data)?, test: test.map(table).transpose()? };
+        let source = Dataset { data: table(data)?, test: test.map(table).transpose()? };
         let (file, summary) = coadjoint_learn::learn(&request, source, &mut told)?;
         let unwritten = |error: &dyn std::fmt::Display| RunError::Option(error.to_string());
         let text = file.text().map_err(|error| unwritten(&error))?;
@@ -167,7 +167,7 @@ impl ModelCore {
             control.total.store(schedule.steps, Ordering::Relaxed);
             let setup =
                 Setup { recording: true, every: Some(every), ..Setup::new(schedule, momentum) };
-            let mut keeper = Keeper { table: Table::default(), control };
+            let mut keeper = Keeper { table: Trace::default(), control };
             let outcome = run_model(Path::new(&name), &model, &setup, &mut keeper)?;
             let label = format!("learned {}, {}", model.model.name(), model.chart);
             Ok((keeper.table, outcome, schedule, label))
@@ -203,7 +203,7 @@ impl ModelCore {
         prefix: Option<String>,
         single: bool,
     ) -> PyResult<String> {
-        let source = emit::Source::Model(Box::new((*self.model).clone()));
+        let source = emit::Emittable::Model(Box::new((*self.model).clone()));
         let (name, language) = (self.name.clone(), language.to_owned());
         let made =
             work(py, None, move |_| emitted(&name, source, &language, prefix, None, single))?;

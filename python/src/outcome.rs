@@ -1,16 +1,16 @@
 //! The result of a run, in Python's types.
 
-use coadjoint_run::simulate::{Block, Crossing, Kind, Outcome, Schedule, Unknown, split};
+use coadjoint_run::simulate::{Block, Crossing, Outcome, Representation, Schedule, Unknown, split};
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::record::Table;
+use crate::record::Trace;
 
 /// The result of a run, as Python has it.
 pub fn result_of<'py>(
     py: Python<'py>,
-    table: Table,
+    table: Trace,
     outcome: &Outcome,
     schedule: &Schedule,
 ) -> PyResult<Bound<'py, PyDict>> {
@@ -52,7 +52,8 @@ pub fn result_of<'py>(
     let events: Vec<_> = outcome.events.iter().map(crossing).collect();
     found.set_item("events", events)?;
     // First rows of rotations of space in the matrix: those of a rigid motion begin with one.
-    let turns = |block: &&Block| matches!(block.kind, Kind::Rotation | Kind::Motion);
+    let turns =
+        |block: &&Block| matches!(block.kind, Representation::Rotation | Representation::Motion);
     let rotations = outcome.blocks.iter().filter(turns).map(|block| block.range.start);
     found.set_item("rotations", rotations.collect::<Vec<usize>>())?;
     let drift = outcome.drift;

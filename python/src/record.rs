@@ -8,7 +8,7 @@ use crate::control::Control;
 
 /// Columns of a run, a row for each record.
 #[derive(Debug, Default)]
-pub struct Table {
+pub struct Trace {
     /// t.
     pub time: Vec<f64>,
     /// μ, row by row.
@@ -32,7 +32,7 @@ pub struct Table {
 /// Keeps the records of a run, and hears whether it is to stop.
 pub struct Keeper<'a> {
     /// The records.
-    pub table: Table,
+    pub table: Trace,
     /// Stops the run on request.
     pub control: &'a Control,
 }
@@ -46,7 +46,7 @@ impl Sink for Keeper<'_> {
     }
 
     fn record(&mut self, record: &Record<'_>) -> Result<(), Halt> {
-        let Table { time, momentum, element, spatial, energy, drift, .. } = &mut self.table;
+        let Trace { time, momentum, element, spatial, energy, drift, .. } = &mut self.table;
         time.push(record.time);
         momentum.extend_from_slice(record.momentum);
         if !record.element.is_empty() {

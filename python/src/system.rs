@@ -33,7 +33,7 @@ use crate::error::{raised, raised_by, refused};
 use crate::event::Watched;
 use crate::function::{Callables, Failures, input};
 use crate::outcome::result_of;
-use crate::record::{Keeper, Table};
+use crate::record::{Keeper, Trace};
 use crate::stepper::Stepper;
 
 /// The most that records of one run may take in memory.
@@ -369,7 +369,7 @@ impl Core {
             let truncation = system.problem.facts().truncation;
             let derived = here.derive(system, None, control)?;
             control.total.store(schedule.steps, Ordering::Relaxed);
-            let mut keeper = Keeper { table: Table::default(), control };
+            let mut keeper = Keeper { table: Trace::default(), control };
             let outcome = run(&derived, &setup, &mut keeper)?;
             Ok((keeper.table, outcome, schedule, truncation, choice, derived.label()))
         })?;
@@ -632,7 +632,7 @@ impl Core {
             let instead = "simulate, ensemble and check make them";
             let problem =
                 polynomial(Path::new(&name), system, "there is no series", instead)?.problem;
-            let series = series::Series::derive(Path::new(&name), problem)?;
+            let series = series::Expansion::derive(Path::new(&name), problem)?;
             Ok(match form.as_str() {
                 "latex" => series::latex(&series),
                 "json" => series::json(&series),
@@ -743,7 +743,7 @@ impl Core {
         let made = work(py, None, move |_| {
             let (system, choice) =
                 here.accurate(&Accuracy { step, ..Accuracy::default() }, None)?;
-            let source = emit::Source::System(Box::new(system), choice);
+            let source = emit::Emittable::System(Box::new(system), choice);
             emitted(&here.name, source, &language, prefix, step, single)
         })?;
         made.map_err(|error| self.raised(py, &error))

@@ -146,7 +146,7 @@ fn verified(
     target: &Target,
     choice: Choice,
 ) -> Result<Choice, RunError> {
-    let trial = Trial::new(derived, t0, target);
+    let trial = Pilot::new(derived, t0, target);
     let found = trial.step(&choice, target.tolerance);
     let (step, error) = found.ok_or_else(|| unmet(&derived.file, target))?;
     let shorter = step / choice.step;
@@ -165,7 +165,7 @@ fn unmet(path: &Path, target: &Target) -> RunError {
 }
 
 /// Runs by which a step is picked.
-struct Trial<'a> {
+struct Pilot<'a> {
     derived: &'a Derived,
     /// The programs of its steps, where there are any.
     compiled: Option<Arc<Compiled>>,
@@ -176,7 +176,7 @@ struct Trial<'a> {
     duration: f64,
 }
 
-impl<'a> Trial<'a> {
+impl<'a> Pilot<'a> {
     /// From the start of the target, and from points of its region.
     fn new(derived: &'a Derived, t0: f64, target: &Target) -> Self {
         let dim = derived.facts().algebra.dim();

@@ -16,7 +16,7 @@ use crate::load::{Derived, System, derive, integrator, learned};
 
 /// The source of emitted code.
 #[derive(Debug)]
-pub enum Source {
+pub enum Emittable {
     /// A system, and what was chosen for its tolerance.
     System(Box<System>, Option<Choice>),
     /// A learned polynomial.
@@ -27,10 +27,10 @@ pub enum Source {
 ///
 /// # Errors
 /// Fails if the series is too large, or the model is no polynomial.
-pub fn rust(path: &Path, source: Source) -> Result<String, RunError> {
+pub fn rust(path: &Path, source: Emittable) -> Result<String, RunError> {
     let (system, choice) = match source {
-        Source::System(system, choice) => (*system, choice),
-        Source::Model(model) => {
+        Emittable::System(system, choice) => (*system, choice),
+        Emittable::Model(model) => {
             let problem = problem(&model, "learned")?;
             let style = Options::for_problem(&problem.name);
             return Ok(format!(
@@ -62,16 +62,16 @@ pub fn rust(path: &Path, source: Source) -> Result<String, RunError> {
 /// Fails if the series is too large, or the system is not written as C.
 pub fn header(
     path: &Path,
-    source: Source,
+    source: Emittable,
     language: Language,
     prefix: Option<String>,
 ) -> Result<String, RunError> {
     let style = HeaderOptions { language, ..HeaderOptions::default() };
     let (system, style, choice) = match source {
-        Source::Model(model) => {
+        Emittable::Model(model) => {
             (learned(&model)?, HeaderOptions { only_step: Some(model.step), ..style }, None)
         }
-        Source::System(system, choice) => {
+        Emittable::System(system, choice) => {
             let units = &system.units;
             let of = |i| units.coordinate(i).map(str::to_owned);
             let momentum = (0..system.problem.facts().algebra.dim()).map(of).collect();
@@ -114,19 +114,19 @@ fn chosen(choice: &Choice) -> String {
 /// Fails if the step is missing, or the system is not written as a kernel.
 pub fn kernel(
     path: &Path,
-    source: Source,
+    source: Emittable,
     step: Option<f64>,
     precision: Precision,
     language: DeviceLanguage,
 ) -> Result<String, RunError> {
     let (system, step, choice) = match source {
-        Source::Model(model) => {
+        Emittable::Model(model) => {
             if step.is_some() {
                 return Err(RunError::Option("--step: a learned model has its own".into()));
             }
             (learned(&model)?, model.step, None)
         }
-        Source::System(system, choice) => {
+        Emittable::System(system, choice) => {
             let step = step.or(system.run.step).ok_or_else(|| RunError::no_step(path))?;
             (*system, step, choice)
         }

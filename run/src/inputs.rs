@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use coadjoint_codegen::signal::{Columns, Interpolation, Signal, SignalError};
 use coadjoint_codegen::smooth::Hamiltonian;
 use coadjoint_codegen::system::System;
-use coadjoint_learn::table::{Row, Table};
+use coadjoint_learn::table::{Cells, Table};
 use sha2::{Digest, Sha256};
 
 use crate::error::RunError;
@@ -76,7 +76,7 @@ fn fill_columns(system: &Path, path: &Path, columns: &mut Read) -> Result<(), Ru
     if let Some(name) = columns.keys().find(|name| !names.contains(name)) {
         return Err(refuse(format!("column {name} is missing; there are {}", names.join(", "))));
     }
-    let mut row = Row::default();
+    let mut row = Cells::default();
     while table.read(&mut row).map_err(unread)? {
         for (place, column) in names.iter().enumerate() {
             let Some(numbers) = columns.get_mut(column) else { continue };

@@ -16,14 +16,14 @@ use crate::error::RunError;
 use crate::number::shortest;
 
 /// A system with its series.
-pub struct Series {
+pub struct Expansion {
     /// The system.
     pub problem: Problem,
     /// S₁ … S_K.
     pub series: GeneratingSeries,
 }
 
-impl Series {
+impl Expansion {
     /// Derives S₁ … S_K of a system, which is called `file` in messages.
     ///
     /// # Errors
@@ -42,8 +42,8 @@ impl Series {
 }
 
 /// A head, then one polynomial per order.
-pub fn text(derived: &Series) -> String {
-    let Series { problem, series } = derived;
+pub fn text(derived: &Expansion) -> String {
+    let Expansion { problem, series } = derived;
     let Problem { name, algebra, chart, truncation, .. } = problem;
     let (group, order) = (algebra.name(), truncation + 1);
     let mut out = format!(
@@ -91,8 +91,8 @@ pub fn sum(polynomial: &Polynomial, names: &[String], symbols: &[Symbol]) -> Str
 
 /// The series as JSON: `{system, group, H, chart, S: [{k, terms: [{exponents, coefficient}]}]}`, and `comoving`, the part of H
 /// that moves the frame and is left out of S, where there is one.
-pub fn json(derived: &Series) -> String {
-    let Series { problem, series } = derived;
+pub fn json(derived: &Expansion) -> String {
+    let Expansion { problem, series } = derived;
     let list = |polynomial: &Polynomial| -> Value {
         let term = |term: &Term| json!({ "exponents": term.exponents, "coefficient": term.coefficient(&problem.symbols) });
         terms(polynomial, problem.algebra.dim()).iter().map(term).collect()
@@ -115,8 +115,8 @@ pub fn json(derived: &Series) -> String {
 
 /// An `align` environment with one row per order that does not vanish; in a comoving frame S generates
 /// the flow of H₀.
-pub fn latex(derived: &Series) -> String {
-    let Series { problem, series } = derived;
+pub fn latex(derived: &Expansion) -> String {
+    let Expansion { problem, series } = derived;
     let mut rows = vec![format!("H &= {}", latex_polynomial(problem, &problem.hamiltonian))];
     if let Some(frame) = &problem.comoving {
         rows.push(format!("H - H_0 &= {}", latex_polynomial(problem, &frame.energy())));

@@ -61,7 +61,7 @@ pub struct Smooth {
 }
 
 /// A Hamiltonian that is a function of the user's.
-pub trait Function: Send + Sync {
+pub trait Oracle: Send + Sync {
     /// H(t, μ); NaN where it is not defined.
     fn value(&self, time: f64, mu: &[f64]) -> f64;
 
@@ -71,7 +71,7 @@ pub trait Function: Send + Sync {
 
 /// A function of the user's, shared.
 #[derive(Clone)]
-pub struct Given(pub Arc<dyn Function>);
+pub struct Given(pub Arc<dyn Oracle>);
 
 impl std::fmt::Debug for Given {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {

@@ -20,7 +20,7 @@ pub struct Spin;
 
 /// [`Root`] with cos(3t) and sin(2t), between the middle and the ends of a step.
 #[derive(Clone, Copy, Debug)]
-pub struct Driven;
+pub struct Modulated;
 
 /// Six variables with 1/√ and exp.
 #[derive(Clone, Copy, Debug)]
@@ -62,7 +62,7 @@ impl Energy<Vector3<f64>> for Spin {
     }
 }
 
-impl Energy<Vector3<f64>> for Driven {
+impl Energy<Vector3<f64>> for Modulated {
     fn value(&self, t: f64, m: &Vector3<f64>) -> f64 {
         let driven = 0.3 * (3.0 * t).cos() * m.x + 0.25 * (2.0 * t).sin() * m.y * m.y;
         root(m).0 + driven + 0.1 * m.z * m.z * m.z * t.cos()

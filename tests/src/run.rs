@@ -12,7 +12,7 @@ use crate::reference::{EndState, numbers};
 
 /// Errors and drifts of a run, all relative.
 #[derive(Clone, Debug)]
-pub struct Outcome {
+pub struct Deviation {
     /// max |μ − μ_reference| / max |μ_reference| at the end.
     pub momentum: f64,
     /// max |g − g_reference| / max |g_reference| at the end, over the entries.
@@ -35,7 +35,7 @@ pub fn run(
     (steps, steps_to_end): (usize, usize),
     start: Option<&[f64]>,
     watched: &[Watched<'_>],
-) -> (Phase<MatrixGroup>, Outcome) {
+) -> (Phase<MatrixGroup>, Deviation) {
     let time: f64 = entry.time.parse().expect("a time");
     let group = matrix_group(&entry.algebra()).expect("a matrix group");
     let h = time / steps_to_end as f64;
@@ -47,7 +47,7 @@ pub fn run(
     let known = |mu: &DVector<f64>| casimirs(&entry.group, &entry.system, mu.as_slice());
     let first = known(&start);
     let values: Vec<f64> = watched.iter().map(|f| f(start.as_slice())).collect();
-    let mut outcome = Outcome {
+    let mut outcome = Deviation {
         momentum: f64::NAN,
         group_element: f64::NAN,
         spatial_momentum: 0.0,

@@ -15,7 +15,7 @@ type State = Vec<[f64; 3]>;
 /// Makes steps of this size, as many as given.
 type Steps<'a> = Box<dyn Fn(&mut State, f64, u64) -> Result<(), Failure> + 'a>;
 
-struct Method<'a> {
+struct Entrant<'a> {
     name: String,
     order: i32,
     /// Steps in the unit of time, few first.
@@ -104,23 +104,23 @@ fn rotations<'a>(
     family: Family,
     order: Order,
     settings: &'static [u64],
-) -> Method<'a> {
+) -> Entrant<'a> {
     let steps = move |spins: &mut State, h: f64, steps: u64| {
         Ok(problem.lattice.rotations(family, order, h)?.advance_by(spins, steps)?)
     };
     let order = order.number() as i32;
-    Method { name: format!("{family}, order {order}"), order, settings, steps: Box::new(steps) }
+    Entrant { name: format!("{family}, order {order}"), order, settings, steps: Box::new(steps) }
 }
 
-fn gauss<'a, const M: usize>(problem: &'a Specimen, settings: &'static [u64]) -> Method<'a> {
+fn gauss<'a, const M: usize>(problem: &'a Specimen, settings: &'static [u64]) -> Entrant<'a> {
     let steps = |spins: &mut State, h: f64, steps: u64| {
         Ok(problem.lattice.gauss::<M>(h)?.advance_by(spins, steps)?)
     };
     let order = 2 * M as i32;
-    Method { name: format!("Gauss, order {order}"), order, settings, steps: Box::new(steps) }
+    Entrant { name: format!("Gauss, order {order}"), order, settings, steps: Box::new(steps) }
 }
 
-fn methods(problem: &Specimen) -> Result<Vec<Method<'_>>, Failure> {
+fn methods(problem: &Specimen) -> Result<Vec<Entrant<'_>>, Failure> {
     let cube = problem.cube;
     let rival = |name: &str, order, settings, steps: fn(Cube, &mut rivals::Board, f64, u64)| {
         let made = move |spins: &mut State, h: f64, count: u64| {
@@ -129,7 +129,7 @@ fn methods(problem: &Specimen) -> Result<Vec<Method<'_>>, Failure> {
             cube.write(&board, spins);
             Ok(())
         };
-        Method { name: name.to_owned(), order, settings, steps: Box::new(made) }
+        Entrant { name: name.to_owned(), order, settings, steps: Box::new(made) }
     };
     let mut methods = vec![
         rival("RK4", 4, &[20, 40, 80], Cube::runge_kutta),
@@ -160,7 +160,7 @@ fn problem(name: &'static str, side: usize) -> Result<Specimen, Failure> {
 /// nanoseconds of a step there.
 fn costs(
     problem: &Specimen,
-    method: &Method<'_>,
+    method: &Entrant<'_>,
     exact: &State,
     runs: usize,
 ) -> Result<[f64; TARGETS.len()], Failure> {

@@ -4,8 +4,8 @@ use coadjoint::{LieGroup, SE3};
 use nalgebra::Vector6;
 use ode_solvers::{Dop853, SVector, System, dop_shared::OutputType};
 
-use super::method::Method;
-use super::problem::{Kind, Problem, Quaternion, State, Vector, cross, matrix};
+use super::method::Competitor;
+use super::problem::{Dynamics, Problem, Quaternion, State, Vector, cross, matrix};
 use super::smooth::{root, six, spin};
 use crate::timing::Failure;
 
@@ -13,8 +13,8 @@ use crate::timing::Failure;
 const MAX_STEPS: u32 = 100_000_000;
 
 /// The method, by its tolerance.
-pub fn method() -> Option<Method> {
-    Some(Method {
+pub fn method() -> Option<Competitor> {
+    Some(Competitor {
         name: "DOP853 (ode_solvers)".to_owned(),
         order: None,
         settings: (24..=128).map(|k| 10f64.powf(-f64::from(k) / 8.0)).collect(),
@@ -31,30 +31,30 @@ fn run(problem: &Problem, tolerance: f64) -> Result<State, Failure> {
     whole[..7].copy_from_slice(&start);
     whole[7..10].copy_from_slice(&f);
     let y = match problem.kind {
-        Kind::Free => {
+        Dynamics::Free => {
             let field = Turning(|m: &Vector| [m[0] * a[0], m[1] * a[1], m[2] * a[2]]);
             return rotating(integrate(field, start, problem.end, tolerance)?);
         }
-        Kind::Root => {
+        Dynamics::Root => {
             let field = Turning(|m: &Vector| root(&(*m).into()).into());
             return rotating(integrate(field, start, problem.end, tolerance)?);
         }
-        Kind::Spin => {
+        Dynamics::Spin => {
             let field = Turning(|m: &Vector| spin(&(*m).into()).into());
             return rotating(integrate(field, start, problem.end, tolerance)?);
         }
-        Kind::Six => {
+        Dynamics::Six => {
             let y = integrate(Six, [m[0], m[1], m[2], f[0], f[1], f[2]], problem.end, tolerance)?;
             let whole = State::rotating([y[0], y[1], y[2]], [[0.0; 3]; 3]);
             return Ok(State { force: [y[3], y[4], y[5]], ..whole });
         }
-        Kind::TopOnFirst(w) => {
+        Dynamics::TopOnFirst(w) => {
             integrate(Translating(a, Gravity::<0>(w)), whole, problem.end, tolerance)?
         }
-        Kind::TopOnSecond(w) => {
+        Dynamics::TopOnSecond(w) => {
             integrate(Translating(a, Gravity::<1>(w)), whole, problem.end, tolerance)?
         }
-        Kind::Fluid(b) => integrate(Translating(a, Mass(b)), whole, problem.end, tolerance)?,
+        Dynamics::Fluid(b) => integrate(Translating(a, Mass(b)), whole, problem.end, tolerance)?,
     };
     Ok(State {
         force: [y[7], y[8], y[9]],

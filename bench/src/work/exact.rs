@@ -4,13 +4,13 @@
 //! momentum, its integral of the third kind written as a linear part and the argument of a theta function (Jacobi 1849;
 //! van Zon and Schofield, J. Comput. Phys. 225 (2007) 145).
 
-use super::method::{Method, equal_steps};
-use super::problem::{Kind, Problem, State, Vector, cross, dot};
+use super::method::{Competitor, equal_steps};
+use super::problem::{Dynamics, Problem, State, Vector, cross, dot};
 use crate::timing::Failure;
 
 /// The solution evaluated once per unit of time, as a trajectory would be.
-pub fn method(problem: &Problem) -> Option<Method> {
-    (problem.kind == Kind::Free).then(|| Method {
+pub fn method(problem: &Problem) -> Option<Competitor> {
+    (problem.kind == Dynamics::Free).then(|| Competitor {
         name: "exact (Jacobi)".to_owned(),
         order: None,
         settings: vec![1.0],
@@ -22,7 +22,7 @@ pub fn method(problem: &Problem) -> Option<Method> {
 pub fn run(problem: &Problem, step: f64) -> Result<State, Failure> {
     let inertia = problem.inverse_inertia.map(f64::recip);
     let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    let motion = Motion::new(&inertia, &problem.momentum, &identity)?;
+    let motion = Polhode::new(&inertia, &problem.momentum, &identity)?;
     let (count, h) = equal_steps(step, problem.end);
     let mut last = motion.at(0.0);
     for number in 1..=count {
@@ -33,7 +33,7 @@ pub fn run(problem: &Problem, step: f64) -> Result<State, Failure> {
 
 /// One motion, ready to be evaluated at any time.
 #[derive(Clone, Debug)]
-struct Motion {
+struct Polhode {
     /// The axis about which the body turns for ever, that of dn; the middle one, of sn; the other, of cn.
     axes: [usize; 3],
     amplitude: Vector,
@@ -53,7 +53,7 @@ struct Motion {
     size: f64,
 }
 
-impl Motion {
+impl Polhode {
     /// The motion through a momentum and an attitude (matrix by rows).
     fn new(inertia: &Vector, momentum: &Vector, attitude: &[Vector; 3]) -> Result<Self, Failure> {
         let square = dot(momentum, momentum);

@@ -6,7 +6,7 @@ use crate::timing::Failure;
 /// The state at the end of a problem, by steps of this size or to this tolerance.
 pub type Run = fn(&Problem, f64) -> Result<State, Failure>;
 
-pub struct Method {
+pub struct Competitor {
     /// Its name, unique among the methods.
     pub name: String,
     /// The order of accuracy, where it has one and takes a fixed step.
@@ -16,7 +16,7 @@ pub struct Method {
     pub(super) run: Run,
 }
 
-impl Method {
+impl Competitor {
     /// A method of fixed steps about a time scale.
     pub fn stepping(name: String, order: u32, scale: f64, run: Run) -> Self {
         // Finer than the differences that count, or luck would decide them.

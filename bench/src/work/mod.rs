@@ -14,11 +14,11 @@ mod tests;
 use std::fmt::Write as _;
 
 use crate::timing::{Failure, figure};
-use method::Method;
+use method::Competitor;
 use problem::Problem;
 use sweep::Measurement;
 
-pub fn methods(problem: &Problem) -> Vec<Method> {
+pub fn methods(problem: &Problem) -> Vec<Competitor> {
     let mut methods = ours::methods(problem);
     methods.extend(smooth::methods(problem));
     methods.extend(dop853::method());

@@ -3,13 +3,14 @@
 //! E. Hairer and G. Vilmart, *Preprocessed discrete Moser–Veselov algorithm for the full dynamics of the rigid body*,
 //! J. Phys. A 39 (2006) 13225.
 
-use super::method::{Method, equal_steps};
-use super::problem::{Kind, Problem, Quaternion, State, Vector, cross, dot, matrix};
+use super::method::{Competitor, equal_steps};
+use super::problem::{Dynamics, Problem, Quaternion, State, Vector, cross, dot, matrix};
 use crate::timing::Failure;
 
-pub fn method(problem: &Problem) -> Option<Method> {
+pub fn method(problem: &Problem) -> Option<Competitor> {
     let name = "DMV10, Newton".to_owned();
-    (problem.kind == Kind::Free).then(|| Method::stepping(name, 10, problem.time_scale, run))
+    (problem.kind == Dynamics::Free)
+        .then(|| Competitor::stepping(name, 10, problem.time_scale, run))
 }
 
 fn run(problem: &Problem, step: f64) -> Result<State, Failure> {

@@ -2,8 +2,8 @@
 
 use coadjoint::{Phase, SE3, SO3, lie_poisson};
 
-use super::method::{Method, Run, equal_steps};
-use super::problem::{Kind, Problem, State, Vector, matrix};
+use super::method::{Competitor, Run, equal_steps};
+use super::problem::{Dynamics, Problem, State, Vector, matrix};
 use crate::timing::Failure;
 
 macro_rules! free {
@@ -57,7 +57,9 @@ macro_rules! top {
             }
 
             pub fn run(problem: &Problem, step: f64) -> Result<State, Failure> {
-                let Kind::$kind(weight) = problem.kind else { return Err("another top".into()) };
+                let Dynamics::$kind(weight) = problem.kind else {
+                    return Err("another top".into());
+                };
                 run!(problem, step, |h| Top::<f64>::new(h, problem.inverse_inertia, weight))
             }
         }
@@ -77,7 +79,7 @@ macro_rules! symmetric_top {
             }
 
             pub fn run(problem: &Problem, step: f64) -> Result<State, Failure> {
-                let (Kind::TopOnSecond(weight), [transverse, axial, other]) =
+                let (Dynamics::TopOnSecond(weight), [transverse, axial, other]) =
                     (problem.kind, problem.inverse_inertia)
                 else {
                     return Err("no such top".into());
@@ -107,7 +109,7 @@ macro_rules! fluid {
             }
 
             pub fn run(problem: &Problem, step: f64) -> Result<State, Failure> {
-                let Kind::Fluid(mass) = problem.kind else { return Err("no fluid".into()) };
+                let Dynamics::Fluid(mass) = problem.kind else { return Err("no fluid".into()) };
                 run!(problem, step, |h| Kirchhoff::<f64>::new(h, problem.inverse_inertia, mass))
             }
         }
@@ -133,9 +135,9 @@ fluid!(comoving_fluid_9, 9, comoving);
 
 /// Our methods for a problem: each truncation in the fixed and, where that is another, in the comoving frame. There a
 /// free body's steps follow the wobble and a top's the nutation, so the sweep begins with longer ones.
-pub fn methods(problem: &Problem) -> Vec<Method> {
+pub fn methods(problem: &Problem) -> Vec<Competitor> {
     let list: &[(u32, bool, f64, Run)] = match problem.kind {
-        Kind::Free => &[
+        Dynamics::Free => &[
             (7, false, 1.0, free_7::run),
             (9, false, 1.0, free_9::run),
             (13, false, 1.0, free_13::run),
@@ -144,17 +146,17 @@ pub fn methods(problem: &Problem) -> Vec<Method> {
             (11, true, 2.0, comoving_11::run),
             (13, true, 2.0, comoving_13::run),
         ],
-        Kind::TopOnFirst(_) => &[
+        Dynamics::TopOnFirst(_) => &[
             (5, false, 1.0, first_5::run),
             (7, false, 1.0, first_7::run),
             (9, false, 1.0, first_9::run),
         ],
-        Kind::TopOnSecond(_) => &[
+        Dynamics::TopOnSecond(_) => &[
             (7, false, 1.0, second_7::run),
             (7, true, 16.0, symmetric_7::run),
             (9, true, 16.0, symmetric_9::run),
         ],
-        Kind::Fluid(_) => &[
+        Dynamics::Fluid(_) => &[
             (7, false, 1.0, fluid_7::run),
             (7, true, 1.0, comoving_fluid_7::run),
             (9, true, 1.0, comoving_fluid_9::run),
@@ -164,7 +166,7 @@ pub fn methods(problem: &Problem) -> Vec<Method> {
     let method = |&(truncation, comoving, pace, run): &(u32, bool, f64, Run)| {
         let frame = if comoving { "comoving, " } else { "" };
         let name = format!("coadjoint, {frame}K = {truncation}");
-        Method::stepping(name, truncation + 1, pace * problem.time_scale, run)
+        Competitor::stepping(name, truncation + 1, pace * problem.time_scale, run)
     };
     list.iter().map(method).collect()
 }

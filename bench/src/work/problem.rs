@@ -63,7 +63,7 @@ pub fn matrix(q: &Quaternion) -> [Vector; 3] {
 
 /// The Hamiltonian: H = ½ Σ Πᵢ²/Iᵢ, and besides on se(3)\* …
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Kind {
+pub enum Dynamics {
     /// … nothing: a free body.
     Free,
     /// … w Γ₁: a top with its centre of mass on the first axis.
@@ -88,7 +88,7 @@ pub struct Problem {
     pub title: &'static str,
     /// 1/Iᵢ.
     pub inverse_inertia: Vector,
-    pub kind: Kind,
+    pub kind: Dynamics,
     /// Π at the start.
     pub momentum: Vector,
     /// Γ at the start.
@@ -165,10 +165,10 @@ fn problem(entry: &Entry) -> Result<Problem, Failure> {
     let optional = |texts: &Option<[String; 3]>| texts.as_ref().map_or(Ok([0.0; 3]), numbers);
     let weight = optional(&entry.linear)?;
     let kind = match (&entry.inverse_mass, weight) {
-        (Some(mass), _) => Kind::Fluid(numbers(mass)?),
-        (None, [w, 0.0, 0.0]) if w != 0.0 => Kind::TopOnFirst(w),
-        (None, [0.0, w, 0.0]) if w != 0.0 => Kind::TopOnSecond(w),
-        _ => Kind::Free,
+        (Some(mass), _) => Dynamics::Fluid(numbers(mass)?),
+        (None, [w, 0.0, 0.0]) if w != 0.0 => Dynamics::TopOnFirst(w),
+        (None, [0.0, w, 0.0]) if w != 0.0 => Dynamics::TopOnSecond(w),
+        _ => Dynamics::Free,
     };
     Ok(Problem {
         name: entry.name.clone(),

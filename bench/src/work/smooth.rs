@@ -4,8 +4,8 @@ use coadjoint::collocation::Collocation;
 use coadjoint::{LieGroup, Phase, SE3, SO3};
 use nalgebra::{Vector3, Vector6};
 
-use super::method::{Method, Run, equal_steps};
-use super::problem::{Kind, Problem, State, matrix};
+use super::method::{Competitor, Run, equal_steps};
+use super::problem::{Dynamics, Problem, State, matrix};
 use crate::timing::Failure;
 
 /// √(1 + Σ μᵢ²/Iᵢ) + μ₂³/10
@@ -35,15 +35,15 @@ pub fn six(q: &Vector6<f64>) -> Vector6<f64> {
 }
 
 /// The methods with 4, 5 and 6 nodes.
-pub fn methods(problem: &Problem) -> Vec<Method> {
+pub fn methods(problem: &Problem) -> Vec<Competitor> {
     let runs: [Run; 3] = match problem.kind {
-        Kind::Root | Kind::Spin => [body::<4>, body::<5>, body::<6>],
-        Kind::Six => [motion::<4>, motion::<5>, motion::<6>],
+        Dynamics::Root | Dynamics::Spin => [body::<4>, body::<5>, body::<6>],
+        Dynamics::Six => [motion::<4>, motion::<5>, motion::<6>],
         _ => return Vec::new(),
     };
     let method = |(nodes, run)| {
         let name = format!("collocation, {nodes} nodes");
-        Method::stepping(name, 2 * nodes, problem.time_scale, run)
+        Competitor::stepping(name, 2 * nodes, problem.time_scale, run)
     };
     (4_u32..).zip(runs).map(method).collect()
 }
@@ -52,7 +52,7 @@ pub fn methods(problem: &Problem) -> Vec<Method> {
 fn body<const M: usize>(problem: &Problem, step: f64) -> Result<State, Failure> {
     let start = Phase::<SO3>::at_identity(problem.momentum);
     let end = match problem.kind {
-        Kind::Root => walk::<_, M>(SO3::new(), root, start, problem.end, step)?,
+        Dynamics::Root => walk::<_, M>(SO3::new(), root, start, problem.end, step)?,
         _ => walk::<_, M>(SO3::new(), spin, start, problem.end, step)?,
     };
     let q = &end.group_element;
@@ -85,9 +85,9 @@ fn walk<G: LieGroup<Scalar = f64>, const M: usize>(
 /// The problems, whose references are made by 8 nodes in short steps.
 pub fn problems(only: &str) -> Result<Vec<Problem>, Failure> {
     let kinds = [
-        ("root", "√(1 + Σ μᵢ²/Iᵢ) + μ₂³/10", Kind::Root, [2.0, 0.5, 1.0]),
-        ("spin", "3/5 μ₀ + 3/10 exp(4/5 μ₂) + 1/5 exp(−μ₁/2)", Kind::Spin, [1.2, -0.5, 0.8]),
-        ("six", "Six variables with 1/√ and exp", Kind::Six, [0.8, -0.5, 0.6]),
+        ("root", "√(1 + Σ μᵢ²/Iᵢ) + μ₂³/10", Dynamics::Root, [2.0, 0.5, 1.0]),
+        ("spin", "3/5 μ₀ + 3/10 exp(4/5 μ₂) + 1/5 exp(−μ₁/2)", Dynamics::Spin, [1.2, -0.5, 0.8]),
+        ("six", "Six variables with 1/√ and exp", Dynamics::Six, [0.8, -0.5, 0.6]),
     ];
     let problem = |(name, title, kind, momentum)| -> Result<Problem, Failure> {
         let mut problem = Problem {
@@ -103,7 +103,7 @@ pub fn problems(only: &str) -> Result<Vec<Problem>, Failure> {
             time_scale: 0.3,
         };
         if problem.name.contains(only) {
-            let run = if kind == Kind::Six { motion::<8> } else { body::<8> };
+            let run = if kind == Dynamics::Six { motion::<8> } else { body::<8> };
             problem.reference = run(&problem, 0.05)?;
         }
         Ok(problem)

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use super::method::{Method, equal_steps};
+use super::method::{Competitor, equal_steps};
 use super::problem::Problem;
 use crate::timing::median;
 
@@ -31,7 +31,7 @@ pub struct Setting {
 }
 
 /// For each method its settings that are cheapest at some error, timed together.
-pub fn measure(problem: &Problem, methods: &[Method], quick: bool) -> Vec<Measurement> {
+pub fn measure(problem: &Problem, methods: &[Competitor], quick: bool) -> Vec<Measurement> {
     let longest = Duration::from_millis(if quick { 40 } else { 120 });
     let candidates: Vec<Setting> = methods
         .iter()
@@ -60,7 +60,12 @@ pub fn measure(problem: &Problem, methods: &[Method], quick: bool) -> Vec<Measur
 }
 
 /// Runs each setting as often as a rough time needs, from coarse to fine until finer brings nothing.
-fn try_settings(problem: &Problem, method: &Method, at: usize, longest: Duration) -> Vec<Setting> {
+fn try_settings(
+    problem: &Problem,
+    method: &Competitor,
+    at: usize,
+    longest: Duration,
+) -> Vec<Setting> {
     let mut tried: Vec<Setting> = Vec::new();
     let (mut best, mut since, mut count) = (f64::INFINITY, 0, 0);
     for &setting in &method.settings {

@@ -6,8 +6,8 @@ use std::time::Duration;
 
 use serde_json::Value;
 
-use super::method::{Method, equal_steps};
-use super::problem::{self, FILE, Figures, Kind, Problem, State};
+use super::method::{Competitor, equal_steps};
+use super::problem::{self, Dynamics, FILE, Figures, Problem, State};
 use super::sweep::{Setting, worth_timing};
 use super::{exact, methods};
 
@@ -18,7 +18,7 @@ fn named(name: &str) -> Problem {
 const SHORT: [&str; 5] = ["free-body-a", "free-body-b", "heavy-top", "kirchhoff", "kovalevskaya"];
 
 /// The last of our methods: the longest series in the best frame.
-fn best(problem: &Problem) -> Method {
+fn best(problem: &Problem) -> Competitor {
     methods(problem).into_iter().rfind(|method| method.name.starts_with("coadjoint")).unwrap()
 }
 
@@ -76,7 +76,7 @@ fn ours_and_dop853_reach_the_references() {
 const FLOOR: f64 = 1e-11;
 
 /// The slope of log error against log step, where neither higher orders nor rounding show.
-fn slope(method: &Method, problem: &Problem, order: f64, time: f64) -> f64 {
+fn slope(method: &Competitor, problem: &Problem, order: f64, time: f64) -> f64 {
     let mut points: Vec<(f64, f64)> = Vec::new();
     for k in 0..60 {
         let (_, h) = equal_steps(2.5 * time * 2f64.powf(-f64::from(k) / 5.0), problem.end);
@@ -110,7 +110,7 @@ fn every_method_with_a_step_has_its_order() {
             let time = longest / 4.0;
             let mut problem = Problem { end: 20.0 * time, ..whole.clone() };
             problem.reference = match whole.kind {
-                Kind::Free => exact::run(&problem, problem.end).unwrap(),
+                Dynamics::Free => exact::run(&problem, problem.end).unwrap(),
                 _ => best(&whole).run(&problem, time / 16.0).unwrap(),
             };
             let order = f64::from(order);

@@ -8,11 +8,15 @@ use coadjoint_run::number::shortest;
 use coadjoint_run::simulate::{LARGE, Schedule};
 use serde_json::{Value, json};
 
-use super::run::Outcome;
+use super::run::Completion;
 use crate::named::Format;
 
 /// Warnings, for programs and for people.
-pub(crate) fn warnings(outcome: &Outcome, steps: u64, engine: &Engine<'_>) -> Vec<(Value, String)> {
+pub(crate) fn warnings(
+    outcome: &Completion,
+    steps: u64,
+    engine: &Engine<'_>,
+) -> Vec<(Value, String)> {
     let ratio = outcome.journal.drift().ratio;
     let series = (ratio != 0.0).then(|| {
         let text = format!(
@@ -47,14 +51,14 @@ pub(crate) fn warnings(outcome: &Outcome, steps: u64, engine: &Engine<'_>) -> Ve
 
 /// The text to print.
 pub(crate) fn report(
-    outcome: &Outcome,
+    outcome: &Completion,
     (system, parameters): (&Derived, &[String]),
     &Schedule { start, step, steps, .. }: &Schedule,
     engine: &Engine<'_>,
     format: Format,
 ) -> String {
     let series = system.series().map(|series| &series.problem);
-    let Outcome { trajectories, resumed, first, list, journal, seconds } = outcome;
+    let Completion { trajectories, resumed, first, list, journal, seconds } = outcome;
     let (made_by, failed, redone) = (&journal.made_by, journal.rejected, journal.redone);
     let drift = journal.drift();
     let drifts = [

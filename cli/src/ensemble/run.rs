@@ -48,7 +48,7 @@ pub(crate) struct Job<'a, 's> {
 
 /// The outcome of a run.
 #[derive(Clone, Debug)]
-pub(crate) struct Outcome {
+pub(crate) struct Completion {
     /// Rows of the output.
     pub trajectories: u64,
     /// Rows already written by an earlier run that was stopped.
@@ -99,7 +99,7 @@ struct Run<'a, 's> {
 }
 
 /// Runs from the beginning, or from where an earlier run was stopped.
-pub(crate) fn run(job: Job<'_, '_>) -> Result<Outcome, CliError> {
+pub(crate) fn run(job: Job<'_, '_>) -> Result<Completion, CliError> {
     let begun = Instant::now();
     let files = Files::of(&job.options.out);
     // Before anything is read that another process may write.
@@ -121,7 +121,7 @@ pub(crate) fn run(job: Job<'_, '_>) -> Result<Outcome, CliError> {
     let Run { files, first, journal, .. } = run;
     let list = (journal.rejected > 0).then_some(files.list);
     let seconds = begun.elapsed().as_secs_f64();
-    Ok(Outcome { trajectories, resumed, first, list, journal, seconds })
+    Ok(Completion { trajectories, resumed, first, list, journal, seconds })
 }
 
 /// Removes a file that may be missing.

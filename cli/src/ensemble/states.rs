@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use coadjoint_learn::table::{Row, Table, csv_lines};
+use coadjoint_learn::table::{Cells, Table, csv_lines};
 use coadjoint_run::ensemble::{Found, Known, Rejected, Rows, Shape};
 use coadjoint_run::number::shortest;
 use rayon::prelude::*;
@@ -22,7 +22,7 @@ pub(crate) struct Piece {
     /// The states.
     pub rows: Rows,
     /// The rows as they were read, where cells are carried through.
-    cells: Vec<Row>,
+    cells: Vec<Cells>,
 }
 
 /// A file of states, read forwards.
@@ -96,7 +96,7 @@ impl States {
         let places = &self.found.places;
         let read = if self.table.is_text() {
             let carries = self.written.iter().any(|(_, own)| own.is_none());
-            let (mut row, mut read) = (Row::default(), 0);
+            let (mut row, mut read) = (Cells::default(), 0);
             while read < count && self.table.read(&mut row)? {
                 read += 1;
                 let mut bad =
@@ -195,7 +195,7 @@ impl States {
 fn lines<'a>(
     written: &[(String, Option<usize>)],
     rows: impl Iterator<Item = &'a [f64]>,
-    cells: &[Row],
+    cells: &[Cells],
 ) -> Vec<u8> {
     csv_lines(rows.enumerate().map(|(place, row)| {
         written.iter().enumerate().map(move |(cell, (_, own))| match own {

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use coadjoint_codegen::file;
 use coadjoint_learn::npy_header;
-use coadjoint_run::lattice::{Arrays, Lattice, News, Outcome, Plan, Record};
+use coadjoint_run::lattice::{Arrays, Conclusion, Itinerary, News, Record, Simulation};
 use coadjoint_run::number::shortest;
 use coadjoint_run::text_hash;
 use serde_json::{Value, json};
@@ -28,7 +28,7 @@ pub(super) fn run(options: &SimulateOptions) -> Result<bool, CliError> {
     let path = options.input.source(None).file;
     let source = load::text(&path)?;
     let phase = progress::phase("building the lattice");
-    let Some(lattice) = Lattice::read(&path, &source, &Arrays::new())? else { return Ok(false) };
+    let Some(lattice) = Simulation::read(&path, &source, &Arrays::new())? else { return Ok(false) };
     drop(phase);
     refuse(options)?;
     let mut used = vec![path.clone()];
@@ -156,8 +156,8 @@ fn refuse(options: &SimulateOptions) -> Result<(), CliError> {
 }
 
 /// Everything needed to repeat a run.
-fn header(lattice: &Lattice, path: &Path, plan: &Plan, every: u64) -> Header {
-    let Plan { method, schedule, .. } = plan;
+fn header(lattice: &Simulation, path: &Path, plan: &Itinerary, every: u64) -> Header {
+    let Itinerary { method, schedule, .. } = plan;
     let text = lattice.text();
     Header::of_entries(vec![
         ("program", json!(format!("coadjoint {}", env!("CARGO_PKG_VERSION")))),
@@ -179,8 +179,8 @@ fn header(lattice: &Lattice, path: &Path, plan: &Plan, every: u64) -> Header {
     ])
 }
 
-fn object(lattice: &Lattice, path: &Path, end: &Outcome, every: u64) -> Value {
-    let Outcome { plan, ends, lengths, error, .. } = end;
+fn object(lattice: &Simulation, path: &Path, end: &Conclusion, every: u64) -> Value {
+    let Conclusion { plan, ends, lengths, error, .. } = end;
     let moment = |Record { time, magnetisation, energy }: &Record| json!({ "time": time, "magnetisation": magnetisation, "energy": energy });
     let tried = plan.tried.iter().map(|(method, seconds)| json!({ "splitting": method.name(), "order": method.order(), "seconds": seconds }));
     json!({
@@ -200,8 +200,8 @@ fn change([from, to]: &[Record; 2]) -> f64 {
     squares.sum::<f64>().sqrt()
 }
 
-fn text(lattice: &Lattice, end: &Outcome) -> String {
-    let Outcome { plan, ends, lengths, error, .. } = end;
+fn text(lattice: &Simulation, end: &Conclusion) -> String {
+    let Conclusion { plan, ends, lengths, error, .. } = end;
     let (schedule, sites) = (&plan.schedule, lattice.sites());
     let mut out = String::new();
     let label = plan.method.label();

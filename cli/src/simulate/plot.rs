@@ -4,7 +4,7 @@ use std::path::Path;
 
 use coadjoint_codegen::file;
 use coadjoint_codegen::system::Units;
-use coadjoint_draw::run::{Picture, Recording, Series, render};
+use coadjoint_draw::run::{Channel, Picture, Recording, render};
 use serde_json::Value;
 
 use super::keep::Trajectory;
@@ -67,12 +67,12 @@ pub(crate) fn brief(value: f64) -> String {
 }
 
 fn curves(run: &Trajectory, units: &Units) -> Recording {
-    let momentum = |(i, name): (usize, &String)| Series {
+    let momentum = |(i, name): (usize, &String)| Channel {
         name: name.clone(),
         unit: units.coordinate(i).map(str::to_owned),
         values: run.samples.iter().map(|sample| sample.momentum[i]).collect(),
     };
-    let drift = |name: &str, which: usize| Series {
+    let drift = |name: &str, which: usize| Channel {
         name: name.to_owned(),
         unit: None,
         values: run.samples.iter().map(|sample| sample.drift.numbers()[which]).collect(),

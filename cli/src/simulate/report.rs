@@ -4,7 +4,9 @@ use std::fmt::Write;
 
 use coadjoint_codegen::system::Units;
 use coadjoint_run::number::shortest;
-use coadjoint_run::simulate::{Block, Crossing, Kind, Outcome, Unknown, Warning, matrix, split};
+use coadjoint_run::simulate::{
+    Block, Crossing, Outcome, Representation, Unknown, Warning, matrix, split,
+};
 use nalgebra::{DMatrix, Matrix3, Rotation3, UnitQuaternion};
 use serde_json::{Value, json};
 
@@ -264,16 +266,18 @@ fn lines(blocks: &[Block], entries: &[f64]) -> Vec<String> {
 fn said(block: &Block) -> String {
     let n = block.range.len();
     match block.kind {
-        Kind::Plane => "rotation of the plane: angle in radians".into(),
-        Kind::Rotation => "rotation, body to space: unit quaternion w, x, y, z".into(),
-        Kind::PlaneMotion => "motion of the plane: angle in radians; translation x, y".into(),
-        Kind::Motion => {
+        Representation::Plane => "rotation of the plane: angle in radians".into(),
+        Representation::Rotation => "rotation, body to space: unit quaternion w, x, y, z".into(),
+        Representation::PlaneMotion => {
+            "motion of the plane: angle in radians; translation x, y".into()
+        }
+        Representation::Motion => {
             "rigid motion, body to space: unit quaternion w, x, y, z; translation x, y, z".into()
         }
-        Kind::Quaternion => "unit quaternion w, x, y, z".into(),
-        Kind::Complex => format!("complex {0} × {0} matrix", n / 2),
-        Kind::Real => format!("{n} × {n} matrix"),
-        Kind::Adjoint => format!("{n} × {n} matrix of Ad_g"),
+        Representation::Quaternion => "unit quaternion w, x, y, z".into(),
+        Representation::Complex => format!("complex {0} × {0} matrix", n / 2),
+        Representation::Real => format!("{n} × {n} matrix"),
+        Representation::Adjoint => format!("{n} × {n} matrix of Ad_g"),
     }
 }
 
@@ -283,16 +287,16 @@ fn rows(block: &Block, g: &DMatrix<f64>) -> Vec<String> {
     };
     let angle = || g[(1, 0)].atan2(g[(0, 0)]);
     match block.kind {
-        Kind::Plane => vec![list(&[angle()])],
-        Kind::Rotation => vec![list(&quaternion(g))],
-        Kind::PlaneMotion => vec![list(&[angle()]), list(&[g[(0, 2)], g[(1, 2)]])],
-        Kind::Motion => {
+        Representation::Plane => vec![list(&[angle()])],
+        Representation::Rotation => vec![list(&quaternion(g))],
+        Representation::PlaneMotion => vec![list(&[angle()]), list(&[g[(0, 2)], g[(1, 2)]])],
+        Representation::Motion => {
             vec![list(&quaternion(g)), list(&[g[(0, 3)], g[(1, 3)], g[(2, 3)]])]
         }
         // U = w − i(xσ₁ + yσ₂ + zσ₃) as ((A, −B), (B, A)).
-        Kind::Quaternion => vec![list(&[g[(0, 0)], -g[(2, 1)], -g[(0, 1)], -g[(2, 0)]])],
+        Representation::Quaternion => vec![list(&[g[(0, 0)], -g[(2, 1)], -g[(0, 1)], -g[(2, 0)]])],
         _ if g.nrows() > WIDEST => vec!["too large to print: see --format json or --out".into()],
-        Kind::Complex => {
+        Representation::Complex => {
             let n = g.nrows() / 2;
             let entry = |i: usize, j: usize| {
                 let (re, im) = (g[(i, j)], g[(n + i, j)]);
@@ -302,7 +306,7 @@ fn rows(block: &Block, g: &DMatrix<f64>) -> Vec<String> {
             let row = |i| (0..n).map(|j| entry(i, j)).collect::<Vec<_>>().join(" ");
             (0..n).map(row).collect()
         }
-        Kind::Real | Kind::Adjoint => {
+        Representation::Real | Representation::Adjoint => {
             (0..g.nrows()).map(|i| list(&g.row(i).iter().copied().collect::<Vec<_>>())).collect()
         }
     }

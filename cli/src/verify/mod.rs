@@ -9,8 +9,8 @@ use coadjoint_codegen::file::beside;
 use coadjoint_codegen::lie::Chart;
 use coadjoint_codegen::problem::{FrameChoice, Method};
 use coadjoint_codegen::system::{Options, System};
-use coadjoint_learn::table::{Row, Table};
-use coadjoint_run::verify::{Follower, Found, KICKED, Sample, judge_of, unjudged};
+use coadjoint_learn::table::{Cells, Table};
+use coadjoint_run::verify::{Follower, Found, KICKED, Quota, judge_of, unjudged};
 use coadjoint_run::{Grid, RunError, read_varying, text_hash};
 use serde_json::Value;
 
@@ -136,7 +136,7 @@ fn judge(
     let rows = if counted { table.count()? } else { 0 };
     // The first row of a run is a start.
     let rows = if options.steps.is_some() { rows } else { rows.saturating_sub(1) };
-    follower.sample = options.sample.map(|wanted| Sample { wanted, of: rows });
+    follower.sample = options.sample.map(|wanted| Quota { wanted, of: rows });
     let share = follower.sample.map_or(1.0, |s| s.wanted.min(rows) as f64 / rows.max(1) as f64);
     let each = options.steps.map(|each| each as f64 * rows as f64);
     let steps = each.or_else(|| number("steps")).unwrap_or(rows as f64);
@@ -182,7 +182,7 @@ fn refused(output: &Path) -> Result<BTreeSet<u64>, CliError> {
     let list = beside(output, ".rejected.csv");
     let mut rows = BTreeSet::new();
     if list.exists() {
-        let (mut table, mut row) = (Table::open(&list)?, Row::default());
+        let (mut table, mut row) = (Table::open(&list)?, Cells::default());
         let place = table.names().iter().position(|name| name == "row");
         while table.read(&mut row)? {
             rows.extend(place.and_then(|place| row.number(place).ok()).map(|row| row as u64));

@@ -134,7 +134,7 @@ fn a_killed_run_ends_with_the_same_bytes() {
 fn parquet_has_the_numbers_of_arrays() {
     let rows = |folder: &Folder, name: &str| {
         let mut table = coadjoint_learn::table::Table::open(&folder.at(name)).unwrap();
-        let (names, mut row) = (table.names().join(","), coadjoint_learn::table::Row::default());
+        let (names, mut row) = (table.names().join(","), coadjoint_learn::table::Cells::default());
         let mut all = Vec::new();
         while table.read(&mut row).unwrap() {
             all.push(row.numbers());

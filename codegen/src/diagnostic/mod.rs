@@ -176,7 +176,7 @@ pub fn visible(text: &str) -> Cow<'_, str> {
 fn one(out: &mut String, diagnostic: &Diagnostic, file: &str, text: &str) -> std::fmt::Result {
     let mistake = &diagnostic.mistake;
     if let Span::Text { start, end } = diagnostic.span {
-        let place = Place::find(text, start, end);
+        let place = Location::find(text, start, end);
         writeln!(out, "{file}:{}:{}: error: {mistake}", place.line, place.column)?;
         if place.source.chars().count() <= WIDEST && !place.source.trim().is_empty() {
             let number = place.line.to_string();
@@ -194,14 +194,14 @@ fn one(out: &mut String, diagnostic: &Diagnostic, file: &str, text: &str) -> std
 }
 
 /// A range of bytes as line, column and width in characters, counted from 1.
-struct Place<'a> {
+struct Location<'a> {
     line: usize,
     column: usize,
     width: usize,
     source: &'a str,
 }
 
-impl<'a> Place<'a> {
+impl<'a> Location<'a> {
     fn find(text: &'a str, start: usize, end: usize) -> Self {
         let start = floor_boundary(text, start);
         let end = floor_boundary(text, end.max(start));
@@ -315,7 +315,7 @@ mod tests {
     fn places_are_counted_in_characters_from_one() {
         let text = "a\nΠx + ω\n";
         let start = text.find('ω').unwrap();
-        let place = Place::find(text, start, start + 'ω'.len_utf8());
+        let place = Location::find(text, start, start + 'ω'.len_utf8());
         assert_eq!((place.line, place.column, place.width), (2, 6, 1));
         assert_eq!(place.source, "Πx + ω");
     }

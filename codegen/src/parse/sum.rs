@@ -207,7 +207,7 @@ pub(super) fn pi() -> Rational {
 }
 
 /// The three arguments of a sum, as places in `text`.
-pub(super) struct Form {
+pub(super) struct Summation {
     /// The name of the index.
     pub index: String,
     /// The range of its values, unread.
@@ -220,7 +220,7 @@ pub(super) struct Form {
 
 /// Reads `(index, first..last, body)` from the opening parenthesis on; where that is not what
 /// stands there, the end of what does.
-pub(super) fn form(text: &str, open: usize) -> Result<Form, usize> {
+pub(super) fn form(text: &str, open: usize) -> Result<Summation, usize> {
     let mut depth = 0_usize;
     let mut commas = Vec::new();
     let mut end = text.len();
@@ -237,7 +237,7 @@ pub(super) fn form(text: &str, open: usize) -> Result<Form, usize> {
         }
     }
     match commas[..] {
-        [first, second] if text[..end].ends_with(')') => Ok(Form {
+        [first, second] if text[..end].ends_with(')') => Ok(Summation {
             index: text[open + 1..first].trim().to_owned(),
             values: first + 1..second,
             body: second + 1..end - 1,

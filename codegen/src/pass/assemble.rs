@@ -1,7 +1,7 @@
 //! The last step of every front end: checks, and the finished problem.
 
 use super::choice::Choice;
-use super::coefficient::{ONE, Table};
+use super::coefficient::{Interner, ONE};
 use super::frame;
 use super::polynomial::{Sum, polynomial};
 use super::program::{Kinked, Lowered, lower};
@@ -22,7 +22,7 @@ use crate::smooth::{Given, Hamiltonian, Smooth};
 
 /// An energy as a front end has read it: a Hamiltonian, or a potential.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Energy {
+pub(crate) struct Formula {
     /// The nodes of its expression. Coordinates are those of the momentum, or the entries of the group element's
     /// matrix, row by row.
     pub arena: Arena,
@@ -33,9 +33,9 @@ pub(crate) struct Energy {
     pub source: String,
 }
 
-impl Energy {
+impl Formula {
     /// It as a polynomial; `None` where something is wrong, which has then been reported.
-    fn polynomial(&self, table: &mut Table, diagnostics: &Diagnostics) -> Option<Sum> {
+    fn polynomial(&self, table: &mut Interner, diagnostics: &Diagnostics) -> Option<Sum> {
         let root = self.root.map(|(root, _)| root);
         let sum = polynomial(&self.arena, root, table, diagnostics);
         if let (Some(sum), Some((_, span))) = (&sum, self.root)
@@ -66,7 +66,7 @@ pub(crate) struct Draft {
     pub coordinates: Vec<String>,
     /// The place where the coordinates are named.
     pub coordinates_span: Span,
-    pub hamiltonian: Energy,
+    pub hamiltonian: Formula,
     /// The inputs of the Hamiltonian and the drive.
     pub signals: Vec<Signal>,
     /// The velocity and the torque beside the Hamiltonian, where there are any.
@@ -202,7 +202,7 @@ fn assemble_smooth(
         Some(_) => Lowered::default(),
         None => {
             let (root, place) = energy.root?;
-            let mut table = Table::new();
+            let mut table = Interner::new();
             let inputs: Vec<String> = signals.iter().map(|signal| signal.name.clone()).collect();
             let names = [&coordinates[..], &energy.scalar_names(), &inputs];
             let kinked = if breaks.is_empty() { Kinked::Nowhere } else { Kinked::InTime };
@@ -259,15 +259,15 @@ pub(crate) fn assemble(draft: Draft, diagnostics: &Diagnostics) -> Option<Proble
 
 /// An energy read as a polynomial.
 struct Read {
-    table: Table,
+    table: Interner,
     sum: Option<Sum>,
     /// The mistakes, if it is no polynomial.
     found: Vec<Diagnostic>,
 }
 
 impl Read {
-    fn new(energy: &Energy) -> Self {
-        let (mut table, found) = (Table::new(), Diagnostics::new());
+    fn new(energy: &Formula) -> Self {
+        let (mut table, found) = (Interner::new(), Diagnostics::new());
         let sum = energy.polynomial(&mut table, &found);
         Self { table, sum, found: found.list() }
     }
@@ -323,14 +323,14 @@ const POTENTIAL: [&str; 2] = ["potential", "the group element"];
 /// something is wrong, which has then been reported.
 #[cfg(feature = "system")]
 pub(crate) fn function(
-    energy: &Energy,
+    energy: &Formula,
     names: &[String],
     diagnostics: &Diagnostics,
 ) -> Option<(coadjoint_program::Program, Vec<f64>)> {
     let (root, _) = energy.root?;
     let names = [names, &[], &[]];
     let roots = (&[root][..], Kinked::Nowhere);
-    let lowered = lower(&energy.arena, roots, names, &mut Table::new(), diagnostics)?;
+    let lowered = lower(&energy.arena, roots, names, &mut Interner::new(), diagnostics)?;
     Some((lowered.value, values(&lowered.symbols)))
 }
 
@@ -347,7 +347,7 @@ pub(crate) enum OfSites {
 /// then been reported.
 #[cfg(feature = "system")]
 pub(crate) fn of_sites(
-    energy: &Energy,
+    energy: &Formula,
     coordinates: &[String],
     diagnostics: &Diagnostics,
 ) -> Option<OfSites> {
@@ -372,7 +372,7 @@ pub(crate) fn of_sites(
     }
     let names = [coordinates, &scalars, &[]];
     let lowered =
-        lower(&energy.arena, (&[root], Kinked::Nowhere), names, &mut Table::new(), diagnostics)?;
+        lower(&energy.arena, (&[root], Kinked::Nowhere), names, &mut Interner::new(), diagnostics)?;
     Some(OfSites::Programs(Box::new([lowered.value, lowered.gradient]), lowered.symbols))
 }
 
@@ -382,7 +382,7 @@ pub(crate) fn assemble_potential(
     name: String,
     algebra: Option<LieAlgebra>,
     declared: Option<((usize, usize), Span)>,
-    energy: &Energy,
+    energy: &Formula,
     diagnostics: &Diagnostics,
 ) -> Option<Potential> {
     let before = diagnostics.len();
@@ -420,7 +420,7 @@ pub(crate) fn assemble_potential(
 /// The programs of a potential, and their slots.
 fn smooth_potential(
     algebra: &LieAlgebra,
-    energy: &Energy,
+    energy: &Formula,
     diagnostics: &Diagnostics,
 ) -> Option<(Programs, Vec<Symbol>)> {
     let (entries, scalars) = (entries(algebra.matrix_size()), energy.scalar_names());
@@ -446,7 +446,7 @@ fn formula(
 ) -> Option<Lowered> {
     let found = Diagnostics::new();
     let kinked = if of == POTENTIAL { Kinked::Nowhere } else { Kinked::Anywhere };
-    let lowered = lower(arena, (roots, kinked), names, &mut Table::new(), &found);
+    let lowered = lower(arena, (roots, kinked), names, &mut Interner::new(), &found);
     for found in found.list() {
         diagnostics.report(found.span, found.mistake.in_formula(of));
     }
@@ -463,7 +463,7 @@ pub(crate) fn entries(size: usize) -> Vec<String> {
 #[derive(Debug)]
 pub(crate) struct Acting {
     /// The nodes of the expressions, of which none is an energy.
-    pub energy: Energy,
+    pub energy: Formula,
     /// The components of the velocity and of the torque, where they are given.
     pub roots: [Option<Vec<ExprId>>; 2],
 }
@@ -476,13 +476,13 @@ pub(crate) fn assemble_drive(
     coordinates: &[String],
     signals: &[Signal],
     read: Option<(Acting, Option<Vec<f64>>)>,
-    potential: Option<&Energy>,
+    potential: Option<&Formula>,
     diagnostics: &Diagnostics,
 ) -> Option<Drive> {
     let size = algebra.matrix_size();
     let (acting, damping) = read.map_or((None, None), |(acting, damping)| (Some(acting), damping));
     let mut parts = Ingredients { damping, ..Ingredients::default() };
-    let named = |energy: &Energy| format!("potential = {}", energy.source);
+    let named = |energy: &Formula| format!("potential = {}", energy.source);
     let sources = acting.iter().map(|own| own.energy.source.clone()).chain(potential.map(named));
     parts.source = sources.collect::<Vec<_>>().join(", ");
     if let Some(Acting { energy, roots }) =
@@ -516,7 +516,12 @@ pub(crate) fn assemble_drive(
 }
 
 /// The polynomial in `count` variables and the symbols, and the symbols.
-fn exact(sum: Sum, count: usize, table: &mut Table, names: &[String]) -> (Polynomial, Vec<Symbol>) {
+fn exact(
+    sum: Sum,
+    count: usize,
+    table: &mut Interner,
+    names: &[String],
+) -> (Polynomial, Vec<Symbol>) {
     // Symbols are numbered in the order of the terms they first occur in, highest terms first.
     let mut terms: Vec<(Vec<u32>, Rational, usize)> = sum
         .terms
@@ -559,7 +564,7 @@ fn exact(sum: Sum, count: usize, table: &mut Table, names: &[String]) -> (Polyno
 /// The value of an expression in numbers alone, exact where it is rational; reports one that has none.
 #[cfg(feature = "system")]
 pub(crate) fn constant(arena: &Arena, root: ExprId, diagnostics: &Diagnostics) -> Option<Rational> {
-    let mut table = Table::new();
+    let mut table = Interner::new();
     let value = polynomial(arena, Some(root), &mut table, diagnostics)?.as_constant()?;
     diagnostics.check(arena.span(root), table.value(&value))
 }
@@ -570,7 +575,7 @@ pub(crate) fn linear(
     root: ExprId,
     diagnostics: &Diagnostics,
 ) -> Option<Vec<(usize, Rational)>> {
-    let mut table = Table::new();
+    let mut table = Interner::new();
     let sum = polynomial(arena, Some(root), &mut table, diagnostics)?;
     let mut components = Vec::new();
     for (monomial, coefficient) in sum.terms {

@@ -62,7 +62,7 @@ enum Atom {
 
 /// The table of atoms and products seen so far.
 #[derive(Debug)]
-pub(super) struct Table {
+pub(super) struct Interner {
     atoms: Vec<(Atom, usize)>,
     atom_numbers: BTreeMap<Atom, usize>,
     /// Powers by atom, ascending.
@@ -70,7 +70,7 @@ pub(super) struct Table {
     product_numbers: BTreeMap<Vec<(usize, i32)>, Product>,
 }
 
-impl Table {
+impl Interner {
     pub(super) fn new() -> Self {
         Self {
             atoms: Vec::new(),

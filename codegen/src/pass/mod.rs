@@ -12,6 +12,6 @@ mod sums;
 pub(crate) use assemble::{
     Acting, OfSites, assemble_drive, assemble_given, constant, entries, function, of_sites,
 };
-pub(crate) use assemble::{Draft, Energy, assemble, assemble_either, assemble_potential, linear};
+pub(crate) use assemble::{Draft, Formula, assemble, assemble_either, assemble_potential, linear};
 pub(crate) use choice::Choice;
 pub use frame::in_other_frame;

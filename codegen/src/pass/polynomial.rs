@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use num_traits::{One, ToPrimitive, Zero};
 
-use super::coefficient::{Coefficient, Table};
+use super::coefficient::{Coefficient, Interner};
 use crate::cancel;
 use crate::diagnostic::{Diagnostics, Mistake, Span};
 use crate::expr::{Arena, ExprId, Node};
@@ -59,7 +59,7 @@ fn degree(monomial: &Monomial) -> u32 {
 pub(super) fn polynomial(
     arena: &Arena,
     root: Option<ExprId>,
-    table: &mut Table,
+    table: &mut Interner,
     diagnostics: &Diagnostics,
 ) -> Option<Sum> {
     let uses = match root {
@@ -78,7 +78,7 @@ pub(super) fn polynomial(
 }
 
 struct Pass<'a> {
-    table: &'a mut Table,
+    table: &'a mut Interner,
     diagnostics: &'a Diagnostics,
     values: Vec<Option<Sum>>,
     /// Uses still to come.

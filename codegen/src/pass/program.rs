@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use coadjoint_program::{Function as Elementary, Graph, Id, Program};
 use num_traits::{One, ToPrimitive};
 
-use super::coefficient::{Coefficient, Table};
+use super::coefficient::{Coefficient, Interner};
 use crate::cancel;
 use crate::diagnostic::{Diagnostics, Mistake, Span};
 use crate::expr::{Arena, ExprId, Function, Node};
@@ -107,7 +107,7 @@ pub(super) fn lower(
     arena: &Arena,
     (roots, kinked): (&[ExprId], Kinked),
     names: [&[String]; 3],
-    table: &mut Table,
+    table: &mut Interner,
     diagnostics: &Diagnostics,
 ) -> Option<Lowered> {
     let uses = arena.uses(roots);
@@ -210,7 +210,7 @@ fn reach(scales: &[(Scale, Id)], arguments: &Program) -> Program {
 struct Pass<'a> {
     /// The number of the input that is the time.
     time: usize,
-    table: &'a mut Table,
+    table: &'a mut Interner,
     diagnostics: &'a Diagnostics,
     graph: Graph,
     /// The slots of constants with parameters in them.

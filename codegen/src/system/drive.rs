@@ -10,7 +10,7 @@ use crate::expr::{Arena, ExprId};
 use crate::lie::LieAlgebra;
 use crate::number::nearest_float;
 use crate::parse::{Name, Names, components, text};
-use crate::pass::{Acting, Energy, entries};
+use crate::pass::{Acting, Formula, entries};
 use crate::signal::Signal;
 
 const DAMPING: &str = "damping = \"1/100\"";
@@ -96,7 +96,7 @@ pub(super) fn read(
         return None;
     }
     sources.extend(damping.iter().map(|rates| format!("damping = {rates:?}")));
-    let energy = Energy { arena, root: None, parameters: kept, source: sources.join(", ") };
+    let energy = Formula { arena, root: None, parameters: kept, source: sources.join(", ") };
     Some(Stated { acting: Acting { energy, roots }, damping })
 }
 

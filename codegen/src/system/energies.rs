@@ -8,7 +8,7 @@ use crate::diagnostic::Span;
 use crate::expr::{Arena, Node};
 use crate::lie::{LieAlgebra, catalogue};
 use crate::parse::{Name, Names, text};
-use crate::pass::{Energy, entries};
+use crate::pass::{Formula, entries};
 use crate::signal::Signal;
 
 const COORDINATES: &str = "coordinates = [\"x\", \"y\", \"z\"]";
@@ -22,7 +22,7 @@ pub(super) fn hamiltonian(
     coordinates: &[(String, Span)],
     parameters: &Parameters,
     inputs: &[(Signal, Span)],
-) -> Energy {
+) -> Formula {
     let mut names = Names::of_coordinates(coordinates, root.diagnostics);
     match algebra {
         Some(algebra) if algebra.dim() == coordinates.len() => {}
@@ -49,28 +49,28 @@ pub(super) fn hamiltonian(
         let (mut arena, place) = (Arena::new(), Span::Whole);
         let zero = text::parse("0", 0, &[], &names, &mut arena, root.diagnostics);
         let (root, source) = (Some((zero, place)), "0".to_owned());
-        return Energy { arena, root, parameters: kept, source };
+        return Formula { arena, root, parameters: kept, source };
     }
     if !root.has("hamiltonian") {
         root.missing("hamiltonian", HAMILTONIAN);
     }
     if coordinates.is_empty() {
         root.string("hamiltonian", HAMILTONIAN);
-        return Energy::default();
+        return Formula::default();
     }
     root.energy("hamiltonian", HAMILTONIAN, &names, kept).unwrap_or_default()
 }
 
 /// Reports inputs that none of these has.
-pub(super) fn check_inputs(root: &Table<'_>, inputs: &[(Signal, Span)], energies: &[&Energy]) {
+pub(super) fn check_inputs(root: &Table<'_>, inputs: &[(Signal, Span)], energies: &[&Formula]) {
     // Of one that could not be read it is not known.
-    let unread = |energy: &&Energy| energy.arena.iter().any(|(_, node, _)| *node == Node::Wrong);
+    let unread = |energy: &&Formula| energy.arena.iter().any(|(_, node, _)| *node == Node::Wrong);
     if energies.iter().any(unread) {
         return;
     }
     for (i, (signal, place)) in inputs.iter().enumerate() {
         let has =
-            |energy: &&Energy| energy.arena.iter().any(|(_, node, _)| *node == Node::Signal(i));
+            |energy: &&Formula| energy.arena.iter().any(|(_, node, _)| *node == Node::Signal(i));
         if !energies.iter().any(has) {
             let what = format!(
                 "the input `{}` does not occur in the Hamiltonian, a velocity or a torque",
@@ -125,7 +125,7 @@ pub(super) fn potential(
     root: &Table<'_>,
     algebra: Option<&LieAlgebra>,
     parameters: &Parameters,
-) -> Option<Energy> {
+) -> Option<Formula> {
     root.string("potential", POTENTIAL)?;
     let names = entries(algebra?.matrix_size());
     let entries: Vec<_> = names.into_iter().map(|name| (name, Span::Whole)).collect();

@@ -47,7 +47,7 @@ pub struct Lattice {
     /// The place of the shape or the edges.
     pub place: Span,
     /// The energy of a site; its tables have one number a site.
-    pub site: Energy,
+    pub site: Interaction,
     /// The bonds.
     pub bonds: Vec<Bond>,
     /// The step is by rotations of this family, or by collocation; `auto` where nothing is asked for.
@@ -90,16 +90,16 @@ pub struct Bond {
     /// The type of the edges of a file, where they have types.
     pub kind: Option<usize>,
     /// The energy; its tables have one number an edge.
-    pub energy: Energy,
+    pub energy: Interaction,
     /// The place of the bond.
     pub place: Span,
 }
 
 /// An energy of a site s, or of two sites a and b.
 #[derive(Clone, Debug, Default)]
-pub struct Energy {
+pub struct Interaction {
     /// Quadratic forms, with their factors.
-    pub terms: Vec<Term>,
+    pub terms: Vec<Coupling>,
     /// The part that is no quadratic form: its value, its gradient, and their slots.
     pub function: Option<Box<([Program; 2], Vec<f64>)>>,
     /// The tables that factors are made of.
@@ -108,7 +108,7 @@ pub struct Energy {
 
 /// factor·(f·s + s·M s) of a site, or factor·a·M b of two.
 #[derive(Clone, Debug, Default)]
-pub struct Term {
+pub struct Coupling {
     /// The factor: a product of powers of expressions in tables, and in the time after them. Empty for 1.
     pub factor: Vec<(ParameterExpr, u32)>,
     /// True if the factor depends on tables, and on time.
@@ -119,7 +119,7 @@ pub struct Term {
     pub matrix: [[f64; 3]; 3],
 }
 
-impl Term {
+impl Coupling {
     /// The factor, for the numbers of tables with the time after them.
     #[must_use]
     pub fn factor(&self, numbers: &[f64]) -> f64 {
@@ -196,7 +196,7 @@ fn system(document: &DeTable<'_>, text: &str, diagnostics: &Diagnostics) -> Opti
             let spin = [("", &coordinates), ("s", &coordinates)];
             energy(&lattice, "site", SITE, &spin, &root).unwrap_or_default()
         }
-        None => Energy::default(),
+        None => Interaction::default(),
     };
     let mut bonds = Vec::new();
     if let Some((list, _)) = lattice.array("bond", BOND) {
@@ -358,7 +358,10 @@ fn bond(table: &Table<'_>, listed: bool, coordinates: &[String; 3]) -> Option<Bo
                 return None;
             };
             let matrix = [x, y, z].map(|row| row.map(|entry| nearest_float(&entry)));
-            Energy { terms: vec![Term { matrix, ..Term::default() }], ..Energy::default() }
+            Interaction {
+                terms: vec![Coupling { matrix, ..Coupling::default() }],
+                ..Interaction::default()
+            }
         }
         (None, true) => {
             let spins = [("a", coordinates), ("b", coordinates)];
@@ -413,7 +416,7 @@ fn energy(
     example: &str,
     spins: &[(&str, &[String; 3])],
     owner: &Table<'_>,
-) -> Option<Energy> {
+) -> Option<Interaction> {
     let tables = tables(owner);
     // A spin without a name is the same one as that after it.
     let alone = spins[0].0.is_empty();
@@ -458,10 +461,10 @@ fn energy(
     };
     match of_sites(&found, &coordinates, table.diagnostics)? {
         OfSites::Quadratic(polynomial, symbols) => {
-            let mut terms: Vec<Term> = Vec::new();
+            let mut terms: Vec<Coupling> = Vec::new();
             for (factors, value) in polynomial.factors() {
                 let (own, factors) = split_at(&factors, coordinates.len());
-                let mut term = Term::default();
+                let mut term = Coupling::default();
                 let mut value = nearest_float(&value);
                 for &(variable, power) in factors {
                     let symbol = &symbols[variable as usize - coordinates.len()];
@@ -478,7 +481,7 @@ fn energy(
                     terms.push(term);
                     terms.len() - 1
                 });
-                let Term { field, matrix, .. } = &mut terms[at];
+                let Coupling { field, matrix, .. } = &mut terms[at];
                 match *own {
                     [] => {}
                     [(i, 1)] if alone => field[i as usize] += value,
@@ -495,7 +498,7 @@ fn energy(
                     }
                 }
             }
-            let held = |term: &Term| alone && !term.varies[0] && term.matrix == [[0.0; 3]; 3];
+            let held = |term: &Coupling| alone && !term.varies[0] && term.matrix == [[0.0; 3]; 3];
             if terms.iter().any(|term| term.varies[1] && !held(term)) {
                 refuse(
                     "`t` stands in the field on all sites alone, as in -B*cos(t)*z: not in a bond, before a square, nor beside a \
@@ -503,7 +506,7 @@ fn energy(
                 );
                 return None;
             }
-            Some(Energy { terms, function: None, tables: files })
+            Some(Interaction { terms, function: None, tables: files })
         }
         OfSites::Programs(programs, symbols) => {
             if symbols.iter().any(|symbol| depends(symbol) != [false; 2]) {
@@ -514,7 +517,7 @@ fn energy(
             }
             let slots = symbols.iter().map(|symbol| symbol.expr.evaluate(&[])).collect();
             let function = Some(Box::new((*programs, slots)));
-            Some(Energy { terms: Vec::new(), function, tables: files })
+            Some(Interaction { terms: Vec::new(), function, tables: files })
         }
     }
 }

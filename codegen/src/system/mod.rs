@@ -70,7 +70,7 @@ use crate::drive::Drive;
 use crate::lie::{LieAlgebra, catalogue};
 use crate::parse::Names;
 use crate::pass::{
-    Choice, Draft, Energy, assemble, assemble_drive, assemble_either, assemble_given,
+    Choice, Draft, Formula, assemble, assemble_drive, assemble_either, assemble_given,
     assemble_potential,
 };
 use crate::potential::Potential;
@@ -170,7 +170,7 @@ pub(crate) fn read_varying(
     varied: &[String],
 ) -> Result<System, Diagnostics> {
     let given = &Functions::default();
-    let kind = Kind {
+    let kind = Adapter {
         assemble: &assemble,
         gradient: |problem, _| initial::of_polynomial(problem),
         moves: |_| false,
@@ -214,7 +214,7 @@ pub fn read_given(
     };
     let quadratic = Hamiltonian::is_quadratic;
     let moves = |system: &Hamiltonian| system.smooth().is_some_and(Smooth::depends_on_time);
-    let kind = Kind { assemble: &assemble, gradient, moves, quadratic, given };
+    let kind = Adapter { assemble: &assemble, gradient, moves, quadratic, given };
     read_by(text, |document, diagnostics| {
         system((document, text), (options, varied), &kind, diagnostics)
     })
@@ -234,7 +234,7 @@ pub fn read_group(text: &str) -> Result<LieAlgebra, Diagnostics> {
     })
 }
 
-struct Kind<'a, H> {
+struct Adapter<'a, H> {
     /// Turns a draft into a system.
     assemble: &'a dyn Fn(Draft, &Diagnostics) -> Option<H>,
     /// Its gradient at the start, if it is linear.
@@ -283,7 +283,7 @@ fn read_by<T>(
 fn system<H>(
     (document, text): (&DeTable<'_>, &str),
     (options, varied): (Options, &[String]),
-    kind: &Kind<'_, H>,
+    kind: &Adapter<'_, H>,
     diagnostics: &Diagnostics,
 ) -> Option<System<H>> {
     let nothing = Names::default();
@@ -324,7 +324,7 @@ fn system<H>(
         None => energies::hamiltonian(&root, algebra.as_ref(), &coordinates, &parameters, &inputs),
         Some((name, _)) => {
             let parameters = parameters.all();
-            Energy { source: name.clone(), parameters, ..Energy::default() }
+            Formula { source: name.clone(), parameters, ..Formula::default() }
         }
     };
     let driven = drive::is_given(&root);

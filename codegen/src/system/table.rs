@@ -7,7 +7,7 @@ use crate::diagnostic::{Diagnostics, Mistake, Span};
 use crate::expr::Arena;
 use crate::number::{Rational, nearest_float};
 use crate::parse::{Names, fraction, rows, text};
-use crate::pass::{Energy, constant};
+use crate::pass::{Formula, constant};
 use crate::problem::Parameter;
 
 pub(super) type Value<'a> = Spanned<DeValue<'a>>;
@@ -258,17 +258,17 @@ impl<'a> Table<'a> {
         example: &str,
         names: &Names,
         parameters: Vec<Parameter>,
-    ) -> Option<Energy> {
+    ) -> Option<Formula> {
         let (text, place) = self.string(key, example)?;
-        Some(Energy { parameters, ..self.formula(text, place, names) })
+        Some(Formula { parameters, ..self.formula(text, place, names) })
     }
 
     /// The formula that the text of a value is, in these names.
-    pub(super) fn formula(&self, text: &str, place: Span, names: &Names) -> Energy {
+    pub(super) fn formula(&self, text: &str, place: Span, names: &Names) -> Formula {
         let (mut arena, offset) = (Arena::new(), self.offset(place, text));
         let root = text::parse(text, offset, &[], names, &mut arena, self.diagnostics);
         let root = Some((root, place));
-        Energy { arena, root, parameters: Vec::new(), source: text.to_owned() }
+        Formula { arena, root, parameters: Vec::new(), source: text.to_owned() }
     }
 
     /// The offset in the file of a string's content.

@@ -10,7 +10,7 @@ use super::reduce::{MomentumPairs, PairRows, PhasePair};
 use crate::error::{BadRow, LearnError, RowProblem};
 use crate::function::vector;
 use crate::group::DataGroup;
-use crate::table::{Row, Table, matrix, numbered, quaternion};
+use crate::table::{Cells, Table, matrix, numbered, quaternion};
 
 /// Opens a file of pairs that fits into memory: `.csv` with a header, `.npz` with named arrays, `.npy` with one matrix,
 /// `.parquet` (feature `parquet`).
@@ -48,7 +48,7 @@ fn names_of_matrix(table: &Table, dim: usize, size: usize) -> Result<Vec<String>
 fn columns(table: &mut Table, names: &[String]) -> Result<Vec<Vec<f64>>, LearnError> {
     let ours = |name: &str| ["mu_", "g_", "q_"].iter().any(|start| name.starts_with(start));
     let mut columns = vec![Vec::new(); names.len()];
-    let mut cells = Row::default();
+    let mut cells = Cells::default();
     while table.read(&mut cells)? {
         let row = table.number() as usize;
         if cells.len() != names.len() {

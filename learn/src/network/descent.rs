@@ -19,7 +19,7 @@ use std::path::Path;
 const FORMAT: &str = "coadjoint-checkpoint-4";
 
 /// The state between two evaluations of the loss: the stage of the method, and all losses so far.
-struct State {
+struct Iterate {
     stage: Stage,
     history: Vec<f64>,
 }
@@ -52,7 +52,7 @@ struct Header {
     descent: Option<bool>,
 }
 
-impl State {
+impl Iterate {
     fn new(weights: Vec<f64>) -> Self {
         let moments = [(); 2].map(|()| vec![0.0; weights.len()]);
         Self { stage: Stage::Adam { weights, moments }, history: Vec::new() }
@@ -263,9 +263,9 @@ pub(super) fn minimise(
     progress: &mut dyn FnMut(Progress),
 ) -> Result<(Vec<f64>, Vec<f64>), LearnError> {
     let path = options.checkpoint.as_deref();
-    let kept = path.map_or(Ok(None), |path| State::load(path, task))?;
-    let mut state = kept.unwrap_or_else(|| State::new(train.draw(options.seed)));
-    let save = |state: &State| path.map_or(Ok(()), |path| state.save(path, task));
+    let kept = path.map_or(Ok(None), |path| Iterate::load(path, task))?;
+    let mut state = kept.unwrap_or_else(|| Iterate::new(train.draw(options.seed)));
+    let save = |state: &Iterate| path.map_or(Ok(()), |path| state.save(path, task));
     let total = options.adam_steps + options.lbfgs_steps;
     let mut saved = state.history.len();
     loop {

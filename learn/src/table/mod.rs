@@ -44,18 +44,18 @@ enum Source {
     Npy(BufReader<File>, NpyHeader),
     Memory(Vec<f64>),
     #[cfg(feature = "parquet")]
-    Parquet(Box<self::parquet::Source>),
+    Parquet(Box<self::parquet::Cursor>),
 }
 
 /// A row as it was read.
 #[derive(Clone, Debug, Default)]
-pub struct Row {
+pub struct Cells {
     /// The cells, where they are text.
     record: ByteRecord,
     numbers: Vec<f64>,
 }
 
-impl Row {
+impl Cells {
     /// The number of cells; a row of CSV may have too few or too many.
     #[allow(clippy::len_without_is_empty)]
     pub fn len(&self) -> usize {
@@ -206,7 +206,7 @@ impl Table {
     #[cfg(feature = "parquet")]
     fn parquet(path: &Path) -> Result<Self, LearnError> {
         let file = file::open(path).map_err(LearnError::file(path))?;
-        let opened = self::parquet::Source::open(file);
+        let opened = self::parquet::Cursor::open(file);
         let (source, names, others) =
             opened.map_err(|error| LearnError::format(path, "Parquet", error))?;
         let source = Source::Parquet(Box::new(source));
@@ -321,7 +321,7 @@ impl Table {
     ///
     /// # Errors
     /// Fails if the file cannot be read.
-    pub fn read(&mut self, row: &mut Row) -> Result<bool, LearnError> {
+    pub fn read(&mut self, row: &mut Cells) -> Result<bool, LearnError> {
         let Self { path, source, width, next, .. } = self;
         row.numbers.clear();
         let more = match source {
@@ -364,7 +364,7 @@ impl Table {
             self.next += rows;
             return Ok(rows);
         }
-        let (mut row, mut rows) = (Row::default(), 0);
+        let (mut row, mut rows) = (Cells::default(), 0);
         while rows < count && self.read(&mut row)? {
             numbers.extend((0..self.width).map(|column| row.number(column).unwrap_or(f64::NAN)));
             rows += 1;

@@ -17,7 +17,7 @@ use ::parquet::schema::types::Type;
 const ROWS: usize = 1024;
 
 /// The rows of a file, row group by row group.
-pub(crate) struct Source {
+pub(crate) struct Cursor {
     reader: SerializedFileReader<File>,
     /// The columns that hold floats.
     columns: Vec<usize>,
@@ -31,7 +31,7 @@ pub(crate) struct Source {
     taken: usize,
 }
 
-impl Source {
+impl Cursor {
     /// The rows, the names of the columns of floats, and those of others.
     pub(crate) fn open(file: File) -> Result<(Self, Vec<String>, Vec<String>), ParquetError> {
         let reader = SerializedFileReader::new(file)?;

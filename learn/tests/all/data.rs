@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use coadjoint::SO3;
 use coadjoint::groups::{Cayley, Exponential};
 use coadjoint_learn::data::{PhasePair, Recording, Reduction, RowPolicy, TOLERANCE, open, reduce};
-use coadjoint_learn::table::Row;
+use coadjoint_learn::table::Cells;
 use coadjoint_learn::truth::{MomentumBox, Separable, phase_pairs};
 use coadjoint_learn::{LearnError, RowProblem, npy_header};
 
@@ -114,7 +114,7 @@ fn npz_and_npy_hold_the_same_data() {
 fn files_of_numpy_are_read() {
     let directory = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/numpy");
     let file = |name: &str| {
-        let (mut table, mut row) = (open(&directory.join(name)).unwrap(), Row::default());
+        let (mut table, mut row) = (open(&directory.join(name)).unwrap(), Cells::default());
         let mut rows = Vec::new();
         while table.read(&mut row).unwrap() {
             rows.push(row.numbers());

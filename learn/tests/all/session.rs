@@ -11,8 +11,8 @@ use coadjoint_learn::network::{Progress, TrainingOptions};
 use coadjoint_learn::polynomial::{Basis, PolynomialModel, Scaling, fit_polynomial};
 use coadjoint_learn::truth::{MomentumBox, Separable, phase_pairs};
 use coadjoint_learn::{
-    DataGroup, Generating, GroupChoice, Kind, LearnError, ModelFile, MomentumFunction, Request,
-    Source, Summary, evaluate, exact_polynomial, learn, remove_checkpoints,
+    DataGroup, Dataset, Generating, GroupChoice, Kind, LearnError, ModelFile, MomentumFunction,
+    Request, Summary, evaluate, exact_polynomial, learn, remove_checkpoints,
 };
 
 use crate::support::{WIDE, bump, csv_of};
@@ -121,7 +121,7 @@ fn learnt(
     data: &Path,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<(ModelFile, Summary), LearnError> {
-    learn(request, Source::files(data, None)?, progress)
+    learn(request, Dataset::files(data, None)?, progress)
 }
 
 /// On a bump no polynomial is exact; the choice names every kind with its figure.

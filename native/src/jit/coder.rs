@@ -24,14 +24,14 @@ const LARGE: f64 = 6_755_399_441_055_744.0;
 
 /// The representation of a number of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Form {
+pub(super) enum Width {
     /// A single number.
     Number,
     /// A number together with that of the next trajectory.
     Pair,
 }
 
-impl Form {
+impl Width {
     pub(super) fn kind(self) -> Type {
         match self {
             Self::Number => F64,
@@ -47,7 +47,7 @@ impl Form {
 /// Writes the body of a function.
 pub(super) struct Coder<'f> {
     pub(super) builder: FunctionBuilder<'f>,
-    pub(super) form: Form,
+    pub(super) form: Width,
     pub(super) frame: Frame,
     memory: StackSlot,
     /// Its address.
@@ -66,7 +66,7 @@ impl<'f> Coder<'f> {
     /// the parameters.
     pub(super) fn new(
         mut builder: FunctionBuilder<'f>,
-        form: Form,
+        form: Width,
         frame: Frame,
     ) -> (Self, Vec<Value>) {
         let entry = builder.create_block();
@@ -111,8 +111,8 @@ impl<'f> Coder<'f> {
     /// A constant, in every lane.
     pub(super) fn number(&mut self, value: f64) -> Value {
         match self.form {
-            Form::Number => self.float(value),
-            Form::Pair => {
+            Width::Number => self.float(value),
+            Width::Pair => {
                 let bytes = [value.to_bits().to_le_bytes(); 2].concat();
                 let constant =
                     self.builder.func.dfg.constants.insert(ConstantData::from(&bytes[..]));
@@ -130,8 +130,8 @@ impl<'f> Coder<'f> {
         let offset = (i * F64.bytes() as usize) as i32;
         let value = self.builder.ins().load(F64, sound(), self.slots, offset);
         match self.form {
-            Form::Number => value,
-            Form::Pair => self.builder.ins().splat(F64X2, value),
+            Width::Number => value,
+            Width::Pair => self.builder.ins().splat(F64X2, value),
         }
     }
 
@@ -143,13 +143,13 @@ impl<'f> Coder<'f> {
 
     fn select(&mut self, [a, b, then, otherwise]: [Value; 4]) -> Value {
         match self.form {
-            Form::Pair => {
+            Width::Pair => {
                 let mask = self.builder.ins().fcmp(FloatCC::LessThanOrEqual, a, b);
                 self.choose(mask, then, otherwise)
             }
             // By masks, too: a selection of numbers is a branch on some processors, and which coordinate is the
             // largest is nothing they can predict.
-            Form::Number => {
+            Width::Number => {
                 let [a, b, then, otherwise] =
                     [a, b, then, otherwise].map(|value| self.builder.ins().splat(F64X2, value));
                 let mask = self.builder.ins().fcmp(FloatCC::LessThanOrEqual, a, b);
@@ -161,7 +161,7 @@ impl<'f> Coder<'f> {
 
     /// Numbers as words of bits.
     fn words(&mut self, a: Value) -> Value {
-        let kind = if self.form == Form::Pair { I64X2 } else { I64 };
+        let kind = if self.form == Width::Pair { I64X2 } else { I64 };
         self.builder.ins().bitcast(kind, MemFlagsData::new(), a)
     }
 

@@ -12,7 +12,7 @@ mod steps;
 use coadjoint_program::{Kernel, Trajectories};
 
 use crate::Entry;
-use crate::jit::coder::Form;
+use crate::jit::coder::Width;
 use crate::jit::host::{assemble, isa};
 
 pub use host::JitError;
@@ -25,8 +25,8 @@ pub use host::JitError;
 pub fn compile(kernel: &Kernel, trajectories: Trajectories) -> Result<Entry, JitError> {
     let isa = isa()?;
     let config = isa.frontend_config();
-    let one = || assemble(&isa, steps::build(kernel, Form::Number, config)?);
-    let pairs = || assemble(&isa, steps::build(kernel, Form::Pair, config)?);
+    let one = || assemble(&isa, steps::build(kernel, Width::Number, config)?);
+    let pairs = || assemble(&isa, steps::build(kernel, Width::Pair, config)?);
     let (advance, lanes) = match trajectories {
         Trajectories::One => (Some(one()?), None),
         Trajectories::Lanes => (None, Some(pairs()?)),

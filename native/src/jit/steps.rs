@@ -10,7 +10,7 @@ use cranelift_codegen::ir::{
 use cranelift_codegen::isa::TargetFrontendConfig;
 use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext, Variable as Register};
 
-use crate::jit::coder::{Coder, Form, Frame};
+use crate::jit::coder::{Coder, Frame, Width};
 use crate::jit::host::JitError;
 
 /// Writes the loop.
@@ -29,8 +29,8 @@ pub(super) struct Loop<'f, 'k> {
 impl<'f, 'k> Loop<'f, 'k> {
     pub(super) fn new(mut coder: Coder<'f>, kernel: &'k Kernel) -> Self {
         let (count, flag) = match coder.form {
-            Form::Number => (I64, I8),
-            Form::Pair => (I64X2, I64X2),
+            Width::Number => (I64, I8),
+            Width::Pair => (I64X2, I64X2),
         };
         let builder = &mut coder.builder;
         let kind = |(variable, _)| if variable == Variable::Flow { I64 } else { count };
@@ -51,8 +51,8 @@ impl<'f, 'k> Loop<'f, 'k> {
     /// A count in all lanes.
     fn spread(&mut self, value: Value) -> Value {
         match self.coder.form {
-            Form::Number => value,
-            Form::Pair => self.coder.builder.ins().splat(I64X2, value),
+            Width::Number => value,
+            Width::Pair => self.coder.builder.ins().splat(I64X2, value),
         }
     }
 
@@ -136,7 +136,7 @@ impl<'f, 'k> Loop<'f, 'k> {
                 let done = self.coder.builder.ins().isub(done, count);
                 self.set(Variable::Done, done);
             }
-            Statement::Note if self.coder.form == Form::Number => self.note(),
+            Statement::Note if self.coder.form == Width::Number => self.note(),
             Statement::Clock | Statement::Note => {}
             Statement::RefuseStep | Statement::RefuseState => {
                 let live = self.coder.builder.use_var(self.live);
@@ -153,7 +153,7 @@ impl<'f, 'k> Loop<'f, 'k> {
                 let condition = self.condition(condition);
                 let mut any = condition;
                 let mut lanes = None;
-                if self.coder.form == Form::Pair {
+                if self.coder.form == Width::Pair {
                     let within = mask.map(|of| self.coder.builder.ins().band(of, condition));
                     let within = within.unwrap_or(condition);
                     any = self.coder.builder.ins().vany_true(within);
@@ -196,8 +196,8 @@ impl<'f, 'k> Loop<'f, 'k> {
     fn number_of(&mut self, counts: Value) -> Value {
         let ins = |this: &mut Self, count| this.coder.builder.ins().fcvt_from_uint(F64, count);
         match self.coder.form {
-            Form::Number => ins(self, counts),
-            Form::Pair => {
+            Width::Number => ins(self, counts),
+            Width::Pair => {
                 let [first, second] = [0, 1].map(|lane| {
                     let count = self.coder.builder.ins().extractlane(counts, lane);
                     ins(self, count)
@@ -242,8 +242,8 @@ impl<'f, 'k> Loop<'f, 'k> {
 
     fn not(&mut self, condition: Value) -> Value {
         match self.coder.form {
-            Form::Number => self.coder.builder.ins().icmp_imm_u(IntCC::Equal, condition, 0),
-            Form::Pair => self.coder.builder.ins().bnot(condition),
+            Width::Number => self.coder.builder.ins().icmp_imm_u(IntCC::Equal, condition, 0),
+            Width::Pair => self.coder.builder.ins().bnot(condition),
         }
     }
 
@@ -285,11 +285,11 @@ impl<'f, 'k> Loop<'f, 'k> {
 /// [`LanesFunction`](crate::LanesFunction)'s for pairs.
 pub(super) fn build(
     kernel: &Kernel,
-    form: Form,
+    form: Width,
     config: TargetFrontendConfig,
 ) -> Result<Function, JitError> {
     let mut signature = Signature::new(config.default_call_conv);
-    let (params, returns) = if form == Form::Number { (5, 1) } else { (6, 0) };
+    let (params, returns) = if form == Width::Number { (5, 1) } else { (6, 0) };
     signature.params = vec![AbiParam::new(I64); params];
     signature.returns = vec![AbiParam::new(I64); returns];
     let mut function = Function::with_name_signature(UserFuncName::user(0, 0), signature);

@@ -14,8 +14,8 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::poisson::map;
-use crate::outcome::{Curve, Fallible, Options, Report, Table, row};
-use crate::state::{RIGID_BODY, Steps, exact_momentum};
+use crate::outcome::{Config, Curve, Fallible, Report, Tabulation, row};
+use crate::state::{RIGID_BODY, Timestep, exact_momentum};
 
 /// The time T up to which S is fitted.
 const TIME: f64 = 0.5;
@@ -102,7 +102,7 @@ fn series(truncation: usize) -> Fallible<GeneratingSeries> {
     Ok(derive(&problem.algebra, Chart::Exponential, &problem.hamiltonian, truncation, limit)?)
 }
 
-pub fn run(options: &Options) -> Fallible<Report> {
+pub fn run(options: &Config) -> Fallible<Report> {
     let mut report = options.report("hamilton-jacobi");
     let mut rng = ChaCha8Rng::seed_from_u64(options.seed(2));
     let tests: Vec<Vector3<f64>> =
@@ -116,7 +116,7 @@ pub fn run(options: &Options) -> Fallible<Report> {
     };
     let title = format!("p in [-1, 1]³, t in (0, {TIME}); errors at t = {TIME}, 100 points");
     let columns = "degree | powers of t | residual mse | rms of dS − series K=11 | rms of the map, least squares | rms of the map, series";
-    let mut table = Table::new(title, columns);
+    let mut table = Tabulation::new(title, columns);
     let mut residuals = Curve::over("hamilton-jacobi", "iteration", (0..=20).map(f64::from));
     let fits = options.pick(&[(2, 1), (4, 2), (6, 3), (8, 4)][..], &[(2, 1), (4, 2)]);
     let mut errors =
@@ -125,7 +125,7 @@ pub fn run(options: &Options) -> Fallible<Report> {
     for &(degree, count) in fits {
         let powers: Vec<i32> = (0..count).map(|a| 2 * a + 1).collect();
         let (model, history) = solve(degree, &powers, options.pick(3000, 600), options.seed(1))?;
-        let steps = Steps::new(RIGID_BODY, Chart::Exponential, 2 * count as usize - 1)?;
+        let steps = Timestep::new(RIGID_BODY, Chart::Exponential, 2 * count as usize - 1)?;
         let learned = map(&model);
         let (mut slopes, mut ours, mut theirs) = (0.0, 0.0, 0.0);
         for mu in &tests {

@@ -18,7 +18,7 @@ use serde_json::Value;
 
 use super::poisson::map;
 use super::type_two;
-use crate::outcome::{CHECKPOINT, Curve, Fallible, Options, Report, Table, row};
+use crate::outcome::{CHECKPOINT, Config, Curve, Fallible, Report, Tabulation, row};
 use crate::state::{Errors, START, State, exact};
 
 const COLUMNS: &str = "model | mse x | mse momentum | mse group | max x | max momentum | max group | unsolved | paper's mse";
@@ -33,7 +33,7 @@ fn model_row(name: impl Into<Value>, figures: &Figures, paper: Option<f64>) -> V
 
 /// Pairs to fit and to test, with their reductions in a chart, and how networks are trained on them.
 struct Task<'a, G: DataGroup> {
-    options: &'a Options,
+    options: &'a Config,
     group: G,
     train: ReducedData,
     tests: PairRows<G>,
@@ -48,7 +48,7 @@ struct Task<'a, G: DataGroup> {
 impl<'a, G: DataGroup> Task<'a, G> {
     /// The task of these pairs; networks have the seed 0 and no name.
     fn new<C: Chart<G>>(
-        options: &'a Options,
+        options: &'a Config,
         group: &G,
         train: &PairRows<G>,
         tests: PairRows<G>,
@@ -83,7 +83,7 @@ impl<'a, G: DataGroup> Task<'a, G> {
         truth: &impl MomentumFunction,
         step: f64,
         paper: Option<f64>,
-        table: &mut Table,
+        table: &mut Tabulation,
     ) -> Fallible<()> {
         let mut enter = |name: &str, function: &dyn MomentumFunction, paper: Option<f64>| {
             table.rows.push(model_row(name, &self.figures::<C>(function), paper));
@@ -101,7 +101,7 @@ impl<'a, G: DataGroup> Task<'a, G> {
     }
 
     /// Polynomials of the degrees that the samples determine.
-    fn polynomials<C: Chart<G>>(&self, degrees: &[usize], remark: &str, table: &mut Table) {
+    fn polynomials<C: Chart<G>>(&self, degrees: &[usize], remark: &str, table: &mut Tabulation) {
         for &degree in degrees.iter().filter(|d| Basis::size(self.group.dim(), **d) <= 1000) {
             if let Ok(model) = fit_polynomial(&self.train, degree, 0.0) {
                 let name = format!("polynomial degree {degree}{remark}");
@@ -111,7 +111,11 @@ impl<'a, G: DataGroup> Task<'a, G> {
     }
 
     /// A Gaussian process of at most this number of samples.
-    fn gaussian_process<C: Chart<G>>(&self, largest: usize, table: &mut Table) -> Fallible<()> {
+    fn gaussian_process<C: Chart<G>>(
+        &self,
+        largest: usize,
+        table: &mut Tabulation,
+    ) -> Fallible<()> {
         eprintln!("  Gaussian process");
         let process = fit_gaussian_process(&self.train, largest)?;
         table.rows.push(model_row("Gaussian process", &self.figures::<C>(&process), None));
@@ -147,7 +151,7 @@ fn enter(curve: &mut Curve, name: &str, columns: [&str; 2], looks: &[[f64; 3]]) 
 
 /// Samples to fit and to test from one set of pairs: with symmetry, and without.
 fn samples(
-    options: &Options,
+    options: &Config,
     momenta: MomentumBox,
     count: usize,
     seed: u64,
@@ -164,14 +168,14 @@ fn samples(
 }
 
 /// The first figure of section 5.2: training with and without symmetry, and a learned trajectory.
-pub fn learned(options: &Options) -> Fallible<Report> {
+pub fn learned(options: &Config) -> Fallible<Report> {
     let mut report = options.report("learned");
     training(options, &mut report)?;
     trajectory(options, &mut report)?;
     Ok(report)
 }
 
-fn training(options: &Options, report: &mut Report) -> Fallible<()> {
+fn training(options: &Config, report: &mut Report) -> Fallible<()> {
     let count = options.pick(500, 200);
     let training = TrainingOptions {
         widths: options.pick(vec![500, 500], vec![64, 64]),
@@ -182,7 +186,7 @@ fn training(options: &Options, report: &mut Report) -> Fallible<()> {
         ..TrainingOptions::default()
     };
     let title = format!("losses of Adam, Δt = {LEARNED_STEP}, {count} samples in [0, 6]³, Cayley");
-    let mut table = Table::new(title, "model | first test loss | last loss | last test loss");
+    let mut table = Tabulation::new(title, "model | first test loss | last loss | last test loss");
     let mut curve = Curve::default();
     let models = [
         ("with symmetry", ["train", "test"]),
@@ -210,7 +214,7 @@ fn follow(count: usize, step: impl Fn(&Phase<SO3>) -> Option<Phase<SO3>>) -> Vec
     phases.take(count + 1).map(|phase| State::of(&SO3::new(), &phase)).collect()
 }
 
-fn trajectory(options: &Options, report: &mut Report) -> Fallible<()> {
+fn trajectory(options: &Config, report: &mut Report) -> Fallible<()> {
     let steps = options.pick(5000, 1000);
     let wide = MomentumBox { low: -3.0, high: 3.0 };
     let training = TrainingOptions {
@@ -236,7 +240,7 @@ fn trajectory(options: &Options, report: &mut Report) -> Fallible<()> {
         "largest errors over {steps} steps of {LEARNED_STEP} from (2, 0.5, 1); networks 64-64, 500 samples in [-3, 3]³"
     );
     let columns = "model | steps made | relative energy | momentum J | distance";
-    let mut table = Table::new(title, columns);
+    let mut table = Tabulation::new(title, columns);
     let mut curve = Curve::over("trajectory", "t", (0..=steps).map(|i| i as f64 * LEARNED_STEP));
     let whole = ours.len() == exact.len();
     for (name, key, states) in
@@ -255,7 +259,7 @@ fn trajectory(options: &Options, report: &mut Report) -> Fallible<()> {
 }
 
 /// Robustness against noise: 1000 samples, step 0.15, Gaussian noise of variance 0.05.
-pub fn noise(options: &Options) -> Fallible<Report> {
+pub fn noise(options: &Config) -> Fallible<Report> {
     let mut report = options.report("noise");
     let (group, body) = (SO3::new(), Separable::paper());
     let (step, samples) = (0.15, options.pick(1000, 200));
@@ -279,7 +283,7 @@ pub fn noise(options: &Options) -> Fallible<Report> {
         let title = format!(
             "trained {label} on {count} samples ({dropped} rows dropped), Δt = {step}; 100 noise-free tests"
         );
-        let mut table = Table::new(title, COLUMNS);
+        let mut table = Tabulation::new(title, COLUMNS);
         let mut enter_row = |name: &str, function: &dyn MomentumFunction| {
             table.rows.push(model_row(
                 name,
@@ -329,7 +333,7 @@ const TABLE_ONE: [(f64, usize, f64, f64); 4] = [
 ];
 
 /// Table 1: learning with symmetry against the baseline without it.
-pub fn table_one(options: &Options) -> Fallible<Report> {
+pub fn table_one(options: &Config) -> Fallible<Report> {
     let mut report = options.report("table-1");
     let (group, body) = (SO3::new(), Separable::paper());
     for (number, &(step, samples, paper, paper_without)) in TABLE_ONE.iter().enumerate() {
@@ -345,7 +349,7 @@ pub fn table_one(options: &Options) -> Fallible<Report> {
         let (train, tests) = (pairs(count, 1), pairs(100, 2));
         let title =
             format!("Δt = {step}, {count} samples, momenta in [0, 6]³, 100 test points, Cayley");
-        let mut table = Table::new(title, COLUMNS);
+        let mut table = Tabulation::new(title, COLUMNS);
         let exponential = Task::new::<Exponential>(options, &group, &train, tests.clone())?;
         let cayley = Task::new::<Cayley>(options, &group, &train, tests)?;
         let label = format!("table-1.{number}");
@@ -369,7 +373,7 @@ fn baseline(
     task: &Task<'_, SO3>,
     train: &PairRows<SO3>,
     paper: f64,
-    table: &mut Table,
+    table: &mut Tabulation,
 ) -> Fallible<()> {
     eprintln!("  without symmetry");
     let (points, gradients) = type_two::data(train)?;
@@ -394,7 +398,7 @@ fn baseline(
 }
 
 /// Truths on which the linear model has something to lose.
-pub fn harder(options: &Options) -> Fallible<Report> {
+pub fn harder(options: &Config) -> Fallible<Report> {
     let mut report = options.report("harder-truths");
     let (group, body) = (SO3::new(), vec![1.0 / 1.5, 0.5, 0.4]);
     let quartic = Separable { quartic: vec![0.3, 0.1, 0.2], ..Separable::quadratic(body.clone()) };
@@ -409,8 +413,9 @@ pub fn harder(options: &Options) -> Fallible<Report> {
         learn_harder(options, &group, &bump, ("Gaussian bump H on so(3)*", 0.4, 80))?,
         learn_harder(options, &SE3::new(), &top, ("heavy top on se(3)*", 0.1, 60))?,
     ];
-    let over =
-        |table: &Table, name: &str| table.number(name, 1) / table.number("Gaussian process", 1);
+    let over = |table: &Tabulation, name: &str| {
+        table.number(name, 1) / table.number("Gaussian process", 1)
+    };
     let least = report.tables.iter().map(|t| over(t, "x = 0")).fold(f64::INFINITY, f64::min);
     let linear = over(&report.tables[3], "cross-validated");
     report.judge("harder-truths", "", &[least, linear]);
@@ -418,11 +423,11 @@ pub fn harder(options: &Options) -> Fallible<Report> {
 }
 
 fn learn_harder<G: DataGroup>(
-    options: &Options,
+    options: &Config,
     group: &G,
     truth: &impl MomentumFunction,
     (name, step, first_seed): (&str, f64, u64),
-) -> Fallible<Table> {
+) -> Fallible<Tabulation> {
     let count = options.pick(500, 150);
     eprintln!("  {name}, Δt = {step}, {count} samples");
     let wide = MomentumBox { low: -2.0, high: 2.0 };
@@ -432,7 +437,7 @@ fn learn_harder<G: DataGroup>(
     let task = Task::new::<Exponential>(options, group, &pairs(count, 1), pairs(100, 2))?;
     let task = Task { seed: seed(3), label: format!("harder-truths.{first_seed}"), ..task };
     let title = format!("{name}, Δt = {step}, {count} samples, momenta in [-2, 2]^n, exponential");
-    let mut table = Table::new(title, COLUMNS);
+    let mut table = Tabulation::new(title, COLUMNS);
     task.begin::<Exponential>(truth, step, None, &mut table)?;
     task.polynomials::<Exponential>(&[2, 4, 6, 8], "", &mut table);
     let selection = select_polynomial(&task.train, 2..=10, seed(4))?;

@@ -7,9 +7,9 @@ mod reduction_error;
 mod series;
 mod type_two;
 
-use crate::outcome::{CHECKPOINT, Fallible, Options, Report};
+use crate::outcome::{CHECKPOINT, Config, Fallible, Report};
 
-type Run = fn(&Options) -> Fallible<Report>;
+type Run = fn(&Config) -> Fallible<Report>;
 
 /// The experiments, in the order in which `all` runs them.
 pub const EXPERIMENTS: [(&str, Run); 12] = [
@@ -29,7 +29,7 @@ pub const EXPERIMENTS: [(&str, Run); 12] = [
 
 /// Runs the experiment `name`, or `all` in turn. With a folder to write to, an interrupted run goes on where it stopped:
 /// `all` reads back the experiments that are done, and networks of tables go on from their last checkpoint.
-pub fn run(name: &str, options: &Options) -> Fallible<Vec<Report>> {
+pub fn run(name: &str, options: &Config) -> Fallible<Vec<Report>> {
     let chosen: Vec<_> = EXPERIMENTS.iter().filter(|one| name == "all" || one.0 == name).collect();
     if chosen.is_empty() {
         let names = EXPERIMENTS.map(|one| one.0).join(", ");

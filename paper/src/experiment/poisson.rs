@@ -10,7 +10,7 @@ use coadjoint_learn::truth::{MomentumBox, Separable, momentum_pairs, phase_pairs
 use coadjoint_learn::{Generating, MomentumFunction, Scaled, drifts, evaluate_momenta};
 use nalgebra::Vector3;
 
-use crate::outcome::{Curve, Fallible, Options, Report, Table, row};
+use crate::outcome::{Config, Curve, Fallible, Report, Tabulation, row};
 use crate::state::{Errors, START, State, exact_momenta, exact_momentum, momenta};
 
 /// Step, samples, and the paper's mean squared and largest errors.
@@ -29,7 +29,7 @@ pub fn map<M: MomentumFunction>(function: M) -> Generating<SO3, Exponential, M> 
 }
 
 /// Table 2: Poisson maps from momenta alone, and their trajectories.
-pub fn table_two(options: &Options) -> Fallible<Report> {
+pub fn table_two(options: &Config) -> Fallible<Report> {
     let mut report = options.report("table-2");
     let (group, body) = (SO3::new(), Separable::paper());
     for (number, &(step, samples, paper, largest)) in
@@ -41,7 +41,7 @@ pub fn table_two(options: &Options) -> Fallible<Report> {
         let pairs = |count, k| momentum_pairs(&group, MomentumBox::UNIT, count, seed(k), flow);
         let (train, test) = (pairs(samples, 1), pairs(100, 2));
         let title = format!("Δt = {step}, {samples} samples, momenta in [-1, 1]³, 100 test points");
-        let mut table = Table::new(title, "model | mse momentum | max momentum | unsolved");
+        let mut table = Tabulation::new(title, "model | mse momentum | max momentum | unsolved");
         table.rows.push(row!["paper", paper, largest, ()]);
         let mut enter = |name: String, function: &dyn MomentumFunction| {
             let found = evaluate_momenta(&map(function), &test);
@@ -68,7 +68,7 @@ pub fn table_two(options: &Options) -> Fallible<Report> {
 
 /// Long trajectories of learned Poisson maps.
 fn trajectories(
-    options: &Options,
+    options: &Config,
     step: f64,
     models: &[(String, PolynomialModel)],
     report: &mut Report,
@@ -101,14 +101,14 @@ fn trajectories(
 const HAMILTONIAN_STEPS: [f64; 5] = [0.4, 0.2, 0.1, 0.05, 0.025];
 
 /// The remark on learning H through the Lie–Poisson variational integrator.
-pub fn hamiltonian(options: &Options) -> Fallible<Report> {
+pub fn hamiltonian(options: &Config) -> Fallible<Report> {
     let mut report = options.report("hamiltonian");
     let (group, body) = (SO3::new(), Separable::paper());
     let wide = MomentumBox { low: -2.5, high: 2.5 };
     let samples = options.pick(500, 150);
     let title = format!("H_red from {samples} pairs in [-2.5, 2.5]³");
     let columns = "dt | degree | rms of dH - dH_true | slope | energy drift of the map, 1000 steps";
-    let mut table = Table::new(title, columns);
+    let mut table = Tabulation::new(title, columns);
     let mut curve = Curve::over("hamiltonian", "dt", HAMILTONIAN_STEPS);
     let mut furthest: f64 = 0.0;
     for degree in [2, 4] {
@@ -141,7 +141,7 @@ pub fn hamiltonian(options: &Options) -> Fallible<Report> {
 }
 
 /// Forward Euler made geometric: section 5.4.
-pub fn geometrize(options: &Options) -> Fallible<Report> {
+pub fn geometrize(options: &Config) -> Fallible<Report> {
     let mut report = options.report("geometrize");
     let (group, body) = (SO3::new(), Separable::paper());
     let (step, samples, steps) = (0.1, options.pick(1000, 200), options.pick(2000, 500));
@@ -155,7 +155,7 @@ pub fn geometrize(options: &Options) -> Fallible<Report> {
     let title =
         format!("{steps} steps of {step} from (2, 0.5, 1); {samples} pairs in [-2.5, 2.5]³");
     let columns = "method | fit mse | Casimir drift | energy drift | distance to the exact flow";
-    let mut table = Table::new(title, columns);
+    let mut table = Tabulation::new(title, columns);
     let mut curve = Curve::over("geometrize", "t", (0..=steps).map(|i| i as f64 * step));
     let exact = exact_momenta(START, step, steps);
     let mut enter = |name: &str, fit: Option<f64>, states: &[State]| {

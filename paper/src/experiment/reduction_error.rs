@@ -5,9 +5,9 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use crate::outcome::{Curve, Fallible, Options, Report, Table, row};
+use crate::outcome::{Config, Curve, Fallible, Report, Tabulation, row};
 
-pub fn run(options: &Options) -> Fallible<Report> {
+pub fn run(options: &Config) -> Fallible<Report> {
     let mut report = options.report("reduction-error");
     let mut rng = ChaCha8Rng::seed_from_u64(options.seed(1));
     let mut vector = || Vector3::from_fn(|_, _| StandardNormal.sample(&mut rng));
@@ -41,7 +41,7 @@ pub fn run(options: &Options) -> Fallible<Report> {
     }
     let columns = "e | error of g′⁻¹g″ | slope | largest ratio to the bound | error of g′⁻¹α″ | slope | largest ratio to the bound";
     let mut table =
-        Table::new(format!("mean over {pairs} random pairs perturbed by a size e"), columns);
+        Tabulation::new(format!("mean over {pairs} random pairs perturbed by a size e"), columns);
     let (mut furthest, mut largest): (f64, f64) = (0.0, 0.0);
     for (k, (size, sum)) in sizes.iter().zip(&sums).enumerate() {
         let before = sums.get(k.wrapping_sub(1));

@@ -6,11 +6,13 @@ use coadjoint_learn::truth::Separable;
 use coadjoint_program::Program;
 use serde_json::Value;
 
-use crate::outcome::{Curve, Fallible, Options, Report, Table, row};
-use crate::state::{Errors, RIGID_BODY, START, State, Steps, exact, exact_phases, largest, rk45};
+use crate::outcome::{Config, Curve, Fallible, Report, Tabulation, row};
+use crate::state::{
+    Errors, RIGID_BODY, START, State, Timestep, exact, exact_phases, largest, rk45,
+};
 
 /// The simulation figure: K = 3, 5, 7, momentum against RK45, distance over time.
-pub fn simulation(options: &Options) -> Fallible<Report> {
+pub fn simulation(options: &Config) -> Fallible<Report> {
     let mut report = options.report("simulation");
     let (h, count) = (0.2, options.pick(5000, 500));
     let exact = exact(START, h, count);
@@ -20,7 +22,7 @@ pub fn simulation(options: &Options) -> Fallible<Report> {
     let title =
         format!("largest errors over {count} steps of {h}, start (2, 0.5, 1) at the identity");
     let columns = "method | energy | momentum J | distance | distance at the end";
-    let mut table = Table::new(title, columns);
+    let mut table = Tabulation::new(title, columns);
     // Enters a run, and gives its energy errors, its largest error of J and its last distance.
     let mut enter = |name: &str, states: &[State]| {
         let mut along = Errors::of(states, &exact);
@@ -39,7 +41,7 @@ pub fn simulation(options: &Options) -> Fallible<Report> {
     for (chart, name) in [(Chart::Cayley, "Cayley"), (Chart::Exponential, "exp")] {
         let mut before = f64::INFINITY;
         for truncation in [3, 5, 7] {
-            let steps = Steps::new(RIGID_BODY, chart, truncation)?;
+            let steps = Timestep::new(RIGID_BODY, chart, truncation)?;
             let (states, _) = steps.walk(h, count, &START).ok_or("a step was refused")?;
             let (energy, momentum, end) = enter(&format!("{name} K={truncation}"), &states);
             ratio = ratio.max(largest(&energy) / before);
@@ -79,7 +81,7 @@ const SINGLE: [f64; 10] = [0.025, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.6, 0.8, 1.2]
 const READABLE: std::ops::Range<f64> = 1e-12..5e-2;
 
 /// The error after `count` steps; NaN where a step is refused.
-fn error(steps: &Steps, h: f64, count: usize, start: &[f64], exact: &State) -> f64 {
+fn error(steps: &Timestep, h: f64, count: usize, start: &[f64], exact: &State) -> f64 {
     let end = steps.walk(h, count, start).and_then(|(mut states, _)| states.pop());
     end.map_or(f64::NAN, |end| end.largest_difference(exact))
 }
@@ -92,7 +94,7 @@ fn order(steps: &[f64], errors: &[f64]) -> Option<f64> {
 }
 
 /// The order of each truncation, and the two charts beside each other, by K and step size.
-pub fn orders(options: &Options) -> Fallible<Report> {
+pub fn orders(options: &Config) -> Fallible<Report> {
     let mut report = options.report("orders");
     let counts = options.pick(&ORDERS_COUNTS[..], &ORDERS_COUNTS[..11]);
     let sizes: Vec<f64> = counts.iter().map(|&n| ORDERS_DURATION / n as f64).collect();
@@ -100,9 +102,9 @@ pub fn orders(options: &Options) -> Fallible<Report> {
     let mut single = Curve::over("charts", "h", SINGLE);
     let title = format!("order of accuracy measured over T = {ORDERS_DURATION}; K + 1 is expected");
     let columns = "K | K + 1 | free body, Cayley | free body, exp | heavy top, exp";
-    let mut orders = Table::new(title, columns);
+    let mut orders = Tabulation::new(title, columns);
     let columns = "step | Cayley | exp | Cayley over exp";
-    let mut charts = Table::new("error of one step of the free body", columns);
+    let mut charts = Tabulation::new("error of one step of the free body", columns);
     let (mut furthest, mut gain): (f64, f64) = (0.0, f64::NAN);
     let end = exact(START, ORDERS_DURATION, 1).remove(1);
     let after: Vec<State> = SINGLE.iter().map(|&h| exact(START, h, 1).remove(1)).collect();
@@ -111,7 +113,7 @@ pub fn orders(options: &Options) -> Fallible<Report> {
     let end_of_top = State::of(&se3, &exact_phases(&se3, &top, start, ORDERS_DURATION, 1)[1]);
     for truncation in [1, 3, 5, 7, 9] {
         let mut cells = row![truncation as f64, truncation as f64 + 1.0];
-        let mut measure = |name: &str, steps: &Steps, start: &[f64], exact: &State| {
+        let mut measure = |name: &str, steps: &Timestep, start: &[f64], exact: &State| {
             let runs = counts.iter().zip(&sizes);
             let errors: Vec<f64> = runs.map(|(&n, &h)| error(steps, h, n, start, exact)).collect();
             let found = order(&sizes, &errors);
@@ -122,7 +124,7 @@ pub fn orders(options: &Options) -> Fallible<Report> {
         };
         let mut ones = Vec::new();
         for (name, chart) in [("cayley", Chart::Cayley), ("exp", Chart::Exponential)] {
-            let steps = Steps::new(RIGID_BODY, chart, truncation)?;
+            let steps = Timestep::new(RIGID_BODY, chart, truncation)?;
             measure(name, &steps, &START, &end);
             let errors = SINGLE.iter().zip(&after);
             let errors: Vec<f64> = errors.map(|(&h, to)| error(&steps, h, 1, &START, to)).collect();
@@ -130,7 +132,7 @@ pub fn orders(options: &Options) -> Fallible<Report> {
             ones.push(errors);
         }
         if truncation <= 7 {
-            let steps = Steps::new(HEAVY_TOP, Chart::Exponential, truncation)?;
+            let steps = Timestep::new(HEAVY_TOP, Chart::Exponential, truncation)?;
             measure("top", &steps, &TOP, &end_of_top);
         } else {
             cells.push(Value::Null);
@@ -162,7 +164,7 @@ const FIELD: usize = 3 + 9 + 27;
 const COMBINE: usize = 12 * 2 * (21 + 7) + 12 * 5;
 
 /// Work against precision, the work counted and not timed: the same on every machine.
-pub fn work(options: &Options) -> Fallible<Report> {
+pub fn work(options: &Config) -> Fallible<Report> {
     let mut report = options.report("work");
     let end = exact(START, WORK_DURATION, 1).remove(1);
     let mut curve = Curve { name: "work".into(), ..Curve::default() };
@@ -170,7 +172,7 @@ pub fn work(options: &Options) -> Fallible<Report> {
     let mut names = Vec::new();
     for (chart, name) in [(Chart::Exponential, "exp"), (Chart::Cayley, "Cayley")] {
         for truncation in [3, 5, 7, 9] {
-            let steps = Steps::new(RIGID_BODY, chart, truncation)?;
+            let steps = Timestep::new(RIGID_BODY, chart, truncation)?;
             let programs = &steps.kernel().programs;
             let cost = |program: &Program| program.cost().total() as f64;
             let step = cost(&programs.guess) + cost(&programs.accept) + cost(&programs.transport);
@@ -199,7 +201,7 @@ pub fn work(options: &Options) -> Fallible<Report> {
     let title = format!(
         "arithmetic operations per unit of time for an error of (R, Π) at T = {WORK_DURATION}"
     );
-    let mut table = Table::new(title, "method | 1e-4 | 1e-6 | 1e-8 | 1e-10 | 1e-12");
+    let mut table = Tabulation::new(title, "method | 1e-4 | 1e-6 | 1e-8 | 1e-10 | 1e-12");
     for (at, name) in names.iter().enumerate() {
         let cheapest = |bound: f64| {
             let good = curve.rows.iter().filter(|row| row[0] == at as f64 && row[2] <= bound);

@@ -4,9 +4,9 @@
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
-use coadjoint_draw::run::{Picture, Recording, Series};
+use coadjoint_draw::run::{Channel, Picture, Recording};
 use coadjoint_paper::experiment::{EXPERIMENTS, run};
-use coadjoint_paper::outcome::{Options, Report};
+use coadjoint_paper::outcome::{Config, Report};
 use coadjoint_paper::page::{page, sections};
 use coadjoint_paper::text::figures;
 
@@ -22,18 +22,18 @@ const CHEAP: [&str; 8] = [
 ];
 
 fn outcome(name: &str) -> Report {
-    run(name, &Options { quick: true, ..Options::default() }).unwrap().remove(0)
+    run(name, &Config { quick: true, ..Config::default() }).unwrap().remove(0)
 }
 
 /// A spinning body, and something on five coordinates whose momentum drifts.
 fn gallery() -> Vec<Picture> {
     let times: Vec<f64> = (0..400).map(|i| f64::from(i) * 0.05).collect();
-    let series = |name: &str, of: &dyn Fn(f64) -> f64| Series {
+    let series = |name: &str, of: &dyn Fn(f64) -> f64| Channel {
         name: name.into(),
         unit: Some("kg m²/s".into()),
         values: times.iter().map(|&t| of(t)).collect(),
     };
-    let picture = |name: &str, momentum: Vec<Series>, drift: f64| {
+    let picture = |name: &str, momentum: Vec<Channel>, drift: f64| {
         let drifts = vec![series("energy", &|t| 1e-9 * t), series("spatial momentum", &|_| drift)];
         let run = Recording { label: "K = 7, exp".into(), times: times.clone(), momentum, drifts };
         let settings = vec!["group <SO3>".into(), "K = 7".into()];

@@ -32,7 +32,7 @@ pub(super) fn starts(dim: usize) -> usize {
 const ATTEMPTS: i32 = 8;
 
 /// A state of the run.
-struct Place {
+struct Waypoint {
     time: f64,
     /// The matrix of the group element, row by row.
     element: Vec<f64>,
@@ -43,7 +43,7 @@ struct Place {
 
 /// The run of the file, as far as it is looked at; without places where the file gives no start.
 pub(super) struct Course {
-    places: Vec<Place>,
+    places: Vec<Waypoint>,
     /// The largest drift of the spatial momentum as `simulate` measures it, and after how many steps; none where it is not
     /// known or cannot be measured.
     pub(super) drift: Option<(f64, u64)>,
@@ -87,7 +87,7 @@ impl Course {
                 let found = torque.torque(&phase.group_element, time);
                 found.map_or(0.0, |torque| torque.amax())
             });
-            course.places.push(Place { time, element, momentum: state.mu.clone(), force });
+            course.places.push(Waypoint { time, element, momentum: state.mu.clone(), force });
             if n == count || motion.advance(&mut state, n, 1).is_err() {
                 break;
             }
@@ -158,13 +158,14 @@ impl Course {
 
     /// The states of the run where the torque is largest, of which a step turns the momentum by more than rounding.
     pub(super) fn forced(&self, group: &Tables, step: f64, count: usize) -> Vec<Start> {
-        let acts = |place: &&Place| {
+        let acts = |place: &&Waypoint| {
             let size = place.momentum.iter().fold(0.0_f64, |size, mu| size.max(mu.abs()));
             (step * place.force).abs() > 1e-10 * size
         };
-        let mut places: Vec<&Place> = self.places.iter().filter(acts).collect();
+        let mut places: Vec<&Waypoint> = self.places.iter().filter(acts).collect();
         places.sort_by(|a, b| b.force.total_cmp(&a.force));
-        let start = |place: &&Place| (phase_of(group, &place.element, &place.momentum), place.time);
+        let start =
+            |place: &&Waypoint| (phase_of(group, &place.element, &place.momentum), place.time);
         places.iter().take(count).map(start).collect()
     }
 

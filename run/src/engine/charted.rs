@@ -13,7 +13,7 @@ use coadjoint_learn::{Generating, ModelFile};
 
 use super::collocation::collocated;
 use super::compiled::{Compiled, Solved};
-use super::method::{Flow, Method};
+use super::method::{Flow, Propagator};
 use super::motion::Motion;
 use super::series::Series;
 use super::space::{Group, Space, Tables, moved_in};
@@ -63,19 +63,20 @@ impl Charted {
     ) -> Result<Motion<'a>, StepError> {
         let compiled = compiled.map(|own| own.anew(grid.step, parameters)).transpose()?;
         let (exponential, cayley) = (self.exponential.clone(), self.cayley.clone());
-        let method = Box::new(move |parameters: &[f64]| -> Result<Box<dyn Method<'a> + 'a>, _> {
-            Ok(match (origin, cayley.clone()) {
-                (Origin::Collocation(smooth), _) => {
-                    collocated(smooth, &exponential, grid.step, parameters)?
-                }
-                (Origin::Series(integrator), None) => {
-                    Box::new(Series::<_, Exponential>::new(integrator, exponential.clone()))
-                }
-                (Origin::Series(integrator), Some(group)) => {
-                    Box::new(Series::<_, Cayley>::new(integrator, group))
-                }
-            })
-        });
+        let method =
+            Box::new(move |parameters: &[f64]| -> Result<Box<dyn Propagator<'a> + 'a>, _> {
+                Ok(match (origin, cayley.clone()) {
+                    (Origin::Collocation(smooth), _) => {
+                        collocated(smooth, &exponential, grid.step, parameters)?
+                    }
+                    (Origin::Series(integrator), None) => {
+                        Box::new(Series::<_, Exponential>::new(integrator, exponential.clone()))
+                    }
+                    (Origin::Series(integrator), Some(group)) => {
+                        Box::new(Series::<_, Cayley>::new(integrator, group))
+                    }
+                })
+            });
         let (space, own) = (self.space(compiled), parameters.to_vec());
         Motion::new(space, grid, own, method, Some(origin))
     }
@@ -90,12 +91,13 @@ impl Charted {
         grid: Grid,
     ) -> Result<Motion<'a>, StepError> {
         let (exponential, cayley) = (self.exponential.clone(), self.cayley.clone());
-        let method = Box::new(move |_: &[f64]| -> Result<Box<dyn Method<'a> + 'a>, StepError> {
-            Ok(match cayley.clone() {
-                None => Box::new(Learned::<_, Exponential>::new(model, exponential.clone())),
-                Some(group) => Box::new(Learned::<_, Cayley>::new(model, group)),
-            })
-        });
+        let method =
+            Box::new(move |_: &[f64]| -> Result<Box<dyn Propagator<'a> + 'a>, StepError> {
+                Ok(match cayley.clone() {
+                    None => Box::new(Learned::<_, Exponential>::new(model, exponential.clone())),
+                    Some(group) => Box::new(Learned::<_, Cayley>::new(model, group)),
+                })
+            });
         Motion::new(self.space(None), grid, Vec::new(), method, None)
     }
 }
@@ -113,7 +115,7 @@ impl<'a, G, C> Learned<'a, G, C> {
     }
 }
 
-impl<'a, G, C> Method<'a> for Learned<'a, G, C>
+impl<'a, G, C> Propagator<'a> for Learned<'a, G, C>
 where
     G: Group + Clone + 'a,
     C: Chart<G> + Send + Sync + 'a,

@@ -11,7 +11,7 @@ use nalgebra::DVector;
 
 use super::compiled::Solved;
 use super::drive::Actuator;
-use super::method::{Flow, Method};
+use super::method::{Flow, Propagator};
 use super::space::Tables;
 use crate::error::kept;
 
@@ -24,7 +24,7 @@ pub(super) fn collocated<'a>(
     group: &Arc<Tables>,
     size: f64,
     parameters: &[f64],
-) -> Result<Box<dyn Method<'a> + 'a>, StepError> {
+) -> Result<Box<dyn Propagator<'a> + 'a>, StepError> {
     let symbols = smooth.symbols_at(parameters);
     if let Some(value) = symbols.into_iter().find(|value| !value.is_finite()) {
         return Err(StepError::InvalidParameter { name: "of the Hamiltonian", value });
@@ -47,7 +47,7 @@ fn at_nodes<'a, const M: usize>(
     group: &Arc<Tables>,
     size: f64,
     parameters: &[f64],
-) -> Result<Box<dyn Method<'a> + 'a>, StepError> {
+) -> Result<Box<dyn Propagator<'a> + 'a>, StepError> {
     if smooth.drive.is_none() {
         return Ok(Box::new(Collocated::<M, ()>::new(smooth, group, size, parameters, ())?));
     }
@@ -119,7 +119,7 @@ impl<'a, const M: usize, D: Drive<Tables> + Clone> Collocated<'a, M, D> {
     }
 }
 
-impl<'a, const M: usize, D> Method<'a> for Collocated<'a, M, D>
+impl<'a, const M: usize, D> Propagator<'a> for Collocated<'a, M, D>
 where
     D: Drive<Tables> + Clone + Send + Sync + 'a,
 {

@@ -84,13 +84,13 @@ impl Numbers {
 /// The compiled programs of one integrator, for later runs: programs do not depend on the size of a step.
 #[derive(Default)]
 pub(crate) struct Kept {
-    programs: OnceLock<Arc<Programs>>,
+    programs: OnceLock<Arc<Executable>>,
     codes: Codes,
 }
 
 /// The programs of one integrator.
 #[derive(Debug)]
-pub(crate) struct Programs {
+pub(crate) struct Executable {
     step: Step,
     observation: Observation,
     convergence: OnceLock<Convergence>,
@@ -98,7 +98,7 @@ pub(crate) struct Programs {
     varied: Mutex<Vec<Arc<Varied>>>,
 }
 
-impl Programs {
+impl Executable {
     fn build(origin: &Origin) -> Result<Arc<Self>, step::StepError> {
         let step = origin.step(Precision::Double)?;
         let observation = Observation::new(&step);
@@ -118,10 +118,10 @@ impl Kept {
     ///
     /// # Errors
     /// The reason for which there are none.
-    pub(crate) fn programs(&self, origin: &Origin) -> Result<Arc<Programs>, step::StepError> {
+    pub(crate) fn programs(&self, origin: &Origin) -> Result<Arc<Executable>, step::StepError> {
         match self.programs.get() {
             Some(programs) => Ok(programs.clone()),
-            None => Programs::build(origin)
+            None => Executable::build(origin)
                 .map(|programs| self.programs.get_or_init(|| programs).clone()),
         }
     }
@@ -143,7 +143,7 @@ pub(crate) struct Folded {
 /// Steps as straight-line programs.
 #[derive(Clone)]
 pub(crate) struct Compiled {
-    programs: Arc<Programs>,
+    programs: Arc<Executable>,
     folded: Folded,
     code: Arc<Running>,
     /// True if a comoving frame moves: then each step is a block of its own, so that bits do not depend on how a run is

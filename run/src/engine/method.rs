@@ -10,7 +10,7 @@ pub(super) type Flow<'a> =
     Box<dyn Fn(&mut Phase<Tables>, f64) -> Result<Solved, StepError> + Send + Sync + 'a>;
 
 /// A way to make flows without programs: where programs refuse a step, and where a system has none.
-pub(super) trait Method<'a>: Send + Sync {
+pub(super) trait Propagator<'a>: Send + Sync {
     /// The flow of this length, for these values of the parameters that are kept.
     ///
     /// # Errors
@@ -40,7 +40,7 @@ pub(super) trait Method<'a>: Send + Sync {
     }
 
     /// This method in the comoving frame, where there is one and the choice is left.
-    fn comoving(&self) -> Option<Box<dyn Method<'_> + '_>> {
+    fn comoving(&self) -> Option<Box<dyn Propagator<'_> + '_>> {
         None
     }
 

@@ -11,7 +11,7 @@ use coadjoint_codegen::step::Origin;
 use super::breaks::Breaks;
 use super::compiled::{Compiled, Folded, Numbers, Solved, Solves};
 use super::kick::Torque;
-use super::method::{Flow, Method, advise};
+use super::method::{Flow, Propagator, advise};
 use super::space::{Space, Tables};
 use super::tangent::{Carried, Read, Reading, Tangents};
 use crate::backend::Backend;
@@ -19,7 +19,7 @@ use crate::grid::Grid;
 
 /// Makes the method for these values of the parameters that are kept.
 pub(super) type Maker<'a> =
-    Box<dyn Fn(&[f64]) -> Result<Box<dyn Method<'a> + 'a>, StepError> + Send + Sync + 'a>;
+    Box<dyn Fn(&[f64]) -> Result<Box<dyn Propagator<'a> + 'a>, StepError> + Send + Sync + 'a>;
 
 /// The kicks between the flows of a step.
 #[derive(Debug)]
@@ -67,7 +67,7 @@ fn lengths(kicks: Option<&Kicks>, size: f64) -> Vec<f64> {
 /// Sizes of steps whose coefficients are kept, beside that of the grid.
 const MOST_OTHERS: usize = 16;
 
-/// Moves states by steps of one size: by programs where there are any, else by its [`Method`], which also makes the steps that
+/// Moves states by steps of one size: by programs where there are any, else by its [`Propagator`], which also makes the steps that
 /// programs refuse.
 pub(crate) struct Motion<'a> {
     space: Space,
@@ -76,7 +76,7 @@ pub(crate) struct Motion<'a> {
     parameters: Vec<f64>,
     maker: Maker<'a>,
     /// The method for these values, once it was needed.
-    method: OnceLock<Box<dyn Method<'a> + 'a>>,
+    method: OnceLock<Box<dyn Propagator<'a> + 'a>>,
     kicked: Option<Kicked<'a>>,
     /// The step without programs, once one was needed.
     map: OnceLock<Map<'a>>,
@@ -131,7 +131,7 @@ impl<'a> Motion<'a> {
     }
 
     /// The method for these values of the parameters.
-    fn method(&self) -> Result<&dyn Method<'a>, StepError> {
+    fn method(&self) -> Result<&dyn Propagator<'a>, StepError> {
         if let Some(method) = self.method.get() {
             return Ok(&**method);
         }
@@ -140,7 +140,7 @@ impl<'a> Motion<'a> {
     }
 
     /// The step of this size by a method.
-    fn map<'m>(&self, method: &dyn Method<'m>, size: f64) -> Result<Map<'m>, StepError> {
+    fn map<'m>(&self, method: &dyn Propagator<'m>, size: f64) -> Result<Map<'m>, StepError> {
         let flow = |length| method.flow(&self.space.group, length, &self.parameters);
         let flows: Result<_, _> = lengths(self.kicks(), size).into_iter().map(flow).collect();
         Ok(Map { size, flows: flows? })

@@ -19,7 +19,7 @@ use coadjoint_program::WIDTH;
 use nalgebra::{DMatrix, DVector};
 
 use super::compiled::{Compiled, STEEP, Solved, refusal};
-use super::method::{Flow, Method};
+use super::method::{Flow, Propagator};
 use super::space::{Group, Tables, moved_in};
 
 /// The series of a polynomial, on a group with its chart.
@@ -42,7 +42,7 @@ impl<'a, G, C> Series<'a, G, C> {
     }
 }
 
-impl<'a, G, C> Method<'a> for Series<'a, G, C>
+impl<'a, G, C> Propagator<'a> for Series<'a, G, C>
 where
     G: Group + Clone + 'a,
     C: Chart<G> + Send + Sync + 'a,
@@ -84,7 +84,7 @@ where
         })
     }
 
-    fn comoving(&self) -> Option<Box<dyn Method<'_> + '_>> {
+    fn comoving(&self) -> Option<Box<dyn Propagator<'_> + '_>> {
         let make = || {
             let other = in_other_frame(&self.integrator.problem)?;
             other.comoving.as_ref()?;

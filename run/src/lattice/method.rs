@@ -4,14 +4,14 @@ use coadjoint::lattice::{Family, Order};
 
 /// The method of steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Method {
+pub enum Algorithm {
     /// Exact rotations.
     Rotations(Family, Order),
     /// Gauss's method with this number of nodes, 1 to 4.
     Gauss(usize),
 }
 
-impl Method {
+impl Algorithm {
     /// The order of accuracy.
     #[must_use]
     pub fn order(self) -> u32 {

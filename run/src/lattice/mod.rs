@@ -16,9 +16,9 @@ use crate::asked::Accuracy;
 use crate::error::RunError;
 use crate::grid::Grid;
 use crate::simulate::Schedule;
-pub use method::Method;
+pub use method::Algorithm;
 pub use problem::Arrays;
-use problem::{Files, Misplaced, Problem, Spins, StartError, Tables};
+use problem::{Contents, Files, Magnet, Misplaced, Spins, StartError};
 
 /// Halvings of a step after which a tolerance counts as not met.
 const MOST_HALVINGS: u32 = 8;
@@ -29,25 +29,25 @@ const TRUNCATION: usize = 5;
 
 /// A lattice and its spins, ready to run.
 #[derive(Debug)]
-pub struct Lattice {
+pub struct Simulation {
     /// The system file.
     path: PathBuf,
     source: String,
     text: text::Lattice,
-    problem: Problem,
-    cut: Problem,
+    problem: Magnet,
+    cut: Magnet,
     start: Vec<[f64; 3]>,
 }
 
 /// The method and the steps of a run.
 #[derive(Clone, Debug)]
-pub struct Plan {
+pub struct Itinerary {
     /// The method of all steps.
-    pub method: Method,
+    pub method: Algorithm,
     /// The steps.
     pub schedule: Schedule,
     /// The methods that were tried for `auto`, with the seconds that each takes on the cut for equal errors.
-    pub tried: Vec<(Method, f64)>,
+    pub tried: Vec<(Algorithm, f64)>,
     /// The estimated error at the end, where the step was chosen by it.
     pub error: Option<f64>,
 }
@@ -67,7 +67,7 @@ pub struct Record {
 #[derive(Clone, Copy, Debug)]
 pub enum News<'a> {
     /// The method and the steps are known.
-    Begin(&'a Plan),
+    Begin(&'a Itinerary),
     /// A moment to record.
     Record(Record),
     /// This number of steps is made.
@@ -76,9 +76,9 @@ pub enum News<'a> {
 
 /// The end of a run.
 #[derive(Clone, Debug)]
-pub struct Outcome {
+pub struct Conclusion {
     /// The method and the steps.
-    pub plan: Plan,
+    pub plan: Itinerary,
     /// The spins at the end.
     pub spins: Vec<[f64; 3]>,
     /// The moments at the start and at the end.
@@ -89,7 +89,7 @@ pub struct Outcome {
     pub error: Option<f64>,
 }
 
-impl Lattice {
+impl Simulation {
     /// The lattice of a text, which is called `path` and names its files relative to it, unless arrays of these names are given;
     /// `None` of a system without `[lattice]`.
     ///
@@ -104,10 +104,10 @@ impl Lattice {
             RunError::Input(text::Lattice::mistake(place, &what).render(&name, source))
         };
         let files = Files { system: path, given };
-        let tables = Tables::read(files, &text).map_err(placed)?;
-        let problem = Problem::whole(&text, &tables).map_err(placed)?;
+        let tables = Contents::read(files, &text).map_err(placed)?;
+        let problem = Magnet::whole(&text, &tables).map_err(placed)?;
         let graph = problem.lattice.graph();
-        let cut = Problem::cut(&text, &tables, graph).map_err(placed)?;
+        let cut = Magnet::cut(&text, &tables, graph).map_err(placed)?;
         let start = problem::start(files, &text, graph);
         let start = start.map_err(|error| StartError::placed(error, path, placed))?;
         let (path, source) = (path.to_owned(), source.to_owned());
@@ -153,7 +153,7 @@ impl Lattice {
     }
 
     /// The methods that the file leaves open, at an order or, where none is asked for, at some.
-    fn candidates(&self, orders: &[Order]) -> Result<Vec<Method>, RunError> {
+    fn candidates(&self, orders: &[Order]) -> Result<Vec<Algorithm>, RunError> {
         let refuse = |what: String| RunError::of(&self.path)(what);
         let nodes = self.text.truncation.unwrap_or(TRUNCATION).div_ceil(2);
         let quadratic = self.problem.is_quadratic();
@@ -162,8 +162,8 @@ impl Lattice {
             shift.map(|shift| Family::Axes { shift }).map_err(RunError::of(&self.path))
         };
         let families = match self.text.splitting {
-            "collocation" => return Ok(vec![Method::Gauss(nodes)]),
-            "auto" if !quadratic => return Ok(vec![Method::Gauss(nodes)]),
+            "collocation" => return Ok(vec![Algorithm::Gauss(nodes)]),
+            "auto" if !quadratic => return Ok(vec![Algorithm::Gauss(nodes)]),
             "auto" => vec![axes()?, Family::Bonds],
             name if !quadratic => {
                 return Err(refuse(format!(
@@ -177,7 +177,7 @@ impl Lattice {
         };
         let all = orders
             .iter()
-            .flat_map(|order| families.iter().map(|family| Method::Rotations(*family, *order)));
+            .flat_map(|order| families.iter().map(|family| Algorithm::Rotations(*family, *order)));
         let (mut admitted, mut reason) = (Vec::new(), None);
         for method in all {
             match self.cut.steps(method, 1.0) {
@@ -195,7 +195,7 @@ impl Lattice {
     ///
     /// # Errors
     /// Steps and times that make no sense, families that do not admit the energy, a tolerance that is not met.
-    pub fn plan(&self, asked: &Accuracy) -> Result<Plan, RunError> {
+    pub fn plan(&self, asked: &Accuracy) -> Result<Itinerary, RunError> {
         let run = &self.text.run;
         let tolerance = asked.tolerance.or(run.tolerance.filter(|_| asked.step.is_none()));
         let orders = match (self.text.truncation, tolerance) {
@@ -219,7 +219,7 @@ impl Lattice {
         let failed =
             |error: LatticeError| RunError::Run { time: start, step: 0, what: error.to_string() };
         if let (&[method], Some(step)) = (&candidates[..], step) {
-            return Ok(Plan { method, schedule: of(step)?, tried: Vec::new(), error: None });
+            return Ok(Itinerary { method, schedule: of(step)?, tried: Vec::new(), error: None });
         }
         // A fifth of a radian, and up to ten of these.
         let speed = self.cut.speed(start, &spins).map_err(failed)?;
@@ -250,8 +250,8 @@ impl Lattice {
         let wanted = tolerance.map_or(first, |tolerance| tolerance * part);
         // The ratio of the step with the error wanted to the step tried.
         let ratio =
-            |method: Method, error: f64| (wanted / error).powf(1.0 / f64::from(method.order()));
-        let mut tried: Vec<(Method, f64)> = found
+            |method: Algorithm, error: f64| (wanted / error).powf(1.0 / f64::from(method.order()));
+        let mut tried: Vec<(Algorithm, f64)> = found
             .iter()
             .map(|&(method, error, seconds)| (method, seconds / ratio(method, error)))
             .collect();
@@ -261,7 +261,7 @@ impl Lattice {
             tried.clear();
         }
         if let Some(step) = step {
-            return Ok(Plan { method, schedule: of(step)?, tried, error: None });
+            return Ok(Itinerary { method, schedule: of(step)?, tried, error: None });
         }
         let (tolerance, error) = (
             tolerance.unwrap_or(0.0),
@@ -279,7 +279,7 @@ impl Lattice {
             if let (Some(coarse), Some(fine)) = (&coarse, &fine) {
                 let error = error_of(method, coarse, fine);
                 if error <= tolerance {
-                    return Ok(Plan { method, schedule, tried, error: Some(error) });
+                    return Ok(Itinerary { method, schedule, tried, error: Some(error) });
                 }
                 if error < ROUNDING && error > 0.5 * before {
                     break;
@@ -299,16 +299,16 @@ impl Lattice {
     /// stop.
     ///
     /// # Errors
-    /// As [`Lattice::plan`]; steps that cannot be made; [`RunError::Halted`] where it was told to stop.
+    /// As [`Simulation::plan`]; steps that cannot be made; [`RunError::Halted`] where it was told to stop.
     pub fn run(
         &self,
         asked: &Accuracy,
         every: Option<u64>,
         estimate: bool,
         told: &mut dyn FnMut(News<'_>) -> bool,
-    ) -> Result<Outcome, RunError> {
+    ) -> Result<Conclusion, RunError> {
         let plan = self.plan(asked)?;
-        let Plan { method, schedule, .. } = &plan;
+        let Itinerary { method, schedule, .. } = &plan;
         let halted = |n: u64| RunError::Halted { time: schedule.time(n), step: n };
         let failed = |n: u64| {
             move |error: LatticeError| RunError::Run {
@@ -359,12 +359,12 @@ impl Lattice {
             None if estimate => self.estimate(&plan, &spins).ok(),
             None => None,
         };
-        Ok(Outcome { plan, spins, ends: [first, last], lengths, error })
+        Ok(Conclusion { plan, spins, ends: [first, last], lengths, error })
     }
 
     /// The error at the end, by a run beside it in longer steps, on the cut.
-    fn estimate(&self, plan: &Plan, end: &Spins) -> Result<f64, LatticeError> {
-        let Plan { method, schedule, .. } = plan;
+    fn estimate(&self, plan: &Itinerary, end: &Spins) -> Result<f64, LatticeError> {
+        let Itinerary { method, schedule, .. } = plan;
         let run = |step: f64, steps: u64| {
             let start = self.cut_of(&self.start);
             self.of_cut((*method, step), start, schedule.start, steps).map(|(end, _)| end)
@@ -382,7 +382,7 @@ impl Lattice {
     /// The spins of the cut after some steps of this size from a time, and the seconds that these took.
     fn of_cut(
         &self,
-        (method, step): (Method, f64),
+        (method, step): (Algorithm, f64),
         mut spins: Spins,
         start: f64,
         steps: u64,
@@ -408,7 +408,7 @@ fn length(spin: &[f64; 3]) -> f64 {
 }
 
 /// The error of spins after steps of some size, by those after steps of half of it.
-fn error_of(method: Method, coarse: &Spins, fine: &Spins) -> f64 {
+fn error_of(method: Algorithm, coarse: &Spins, fine: &Spins) -> f64 {
     distance(coarse, fine) / (1.0 - 0.5_f64.powi(method.order() as i32))
 }
 

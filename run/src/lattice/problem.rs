@@ -5,12 +5,12 @@ use std::path::Path;
 
 use coadjoint::lattice::{Boundary, GaussStep, Graph, Lattice, LatticeError, RotationStep};
 use coadjoint_codegen::diagnostic::Span;
-use coadjoint_codegen::system::lattice::{self as text, Energy, File, Start, Term};
+use coadjoint_codegen::system::lattice::{self as text, Coupling, File, Interaction, Start};
 use coadjoint_learn::table::array;
 use coadjoint_program::Program;
 use nalgebra::{Matrix3, Vector3};
 
-use super::method::Method;
+use super::method::Algorithm;
 use crate::error::RunError;
 
 /// Sites along each axis of a cut, on which steps are chosen and errors are estimated.
@@ -43,18 +43,19 @@ fn at<E: ToString>(place: Span) -> impl Fn(E) -> Misplaced {
 
 /// The content of the files of a text.
 #[derive(Debug)]
-pub(super) struct Tables {
+pub(super) struct Contents {
     site: Vec<Vec<f64>>,
     bonds: Vec<Vec<Vec<f64>>>,
     /// Edges with their types.
     edges: Vec<([usize; 2], usize)>,
 }
 
-impl Tables {
+impl Contents {
     /// Reads all files, which are named relative to that of the system.
     pub(super) fn read(files: Files<'_>, text: &text::Lattice) -> Placed<Self> {
         let column = |file: &File| numbers(files, file).map(|(_, numbers)| numbers);
-        let columns = |energy: &Energy| energy.tables.iter().map(column).collect::<Placed<_>>();
+        let columns =
+            |energy: &Interaction| energy.tables.iter().map(column).collect::<Placed<_>>();
         let edges = match &text.edges {
             Some(file) => {
                 let (shape, numbers) = numbers(files, file)?;
@@ -106,7 +107,7 @@ fn numbers(files: Files<'_>, file: &File) -> Placed<(Vec<usize>, Vec<f64>)> {
 
 /// An energy that is no quadratic form, of some sites each.
 #[derive(Debug)]
-struct Function {
+struct Cluster {
     /// The sites of each copy, one after the other.
     sites: Vec<usize>,
     /// The spins that it depends on.
@@ -115,7 +116,7 @@ struct Function {
     slots: Vec<f64>,
 }
 
-impl Function {
+impl Cluster {
     /// The results of a program for all copies.
     fn run(&self, program: usize, spins: &[[f64; 3]]) -> Vec<f64> {
         let number = |row: usize, i: usize| match i / 3 {
@@ -128,7 +129,7 @@ impl Function {
 }
 
 /// A field that depends on time.
-type Driven = Vec<(Term, usize)>;
+type Driven = Vec<(Coupling, usize)>;
 
 fn field(driven: &Driven, time: f64) -> [f64; 3] {
     let mut sum = [0.0; 3];
@@ -142,9 +143,9 @@ fn field(driven: &Driven, time: f64) -> [f64; 3] {
 
 /// Spins on a graph with their energy.
 #[derive(Debug)]
-pub(super) struct Problem {
+pub(super) struct Magnet {
     pub lattice: Lattice,
-    functions: Vec<Function>,
+    functions: Vec<Cluster>,
     driven: Driven,
     /// The sites of the whole lattice that these are; none where they are all.
     pub cut: Option<Vec<usize>>,
@@ -155,7 +156,7 @@ fn matrix(rows: &[[f64; 3]; 3]) -> Matrix3<f64> {
 }
 
 /// The factors of a term, by those of the tables.
-fn factors(term: &Term, tables: &[Vec<f64>], rows: usize) -> Vec<f64> {
+fn factors(term: &Coupling, tables: &[Vec<f64>], rows: usize) -> Vec<f64> {
     let mut numbers = vec![f64::NAN; tables.len() + 1];
     let factor = |row: usize| {
         numbers.iter_mut().zip(tables).for_each(|(number, table)| *number = table[row]);
@@ -165,7 +166,7 @@ fn factors(term: &Term, tables: &[Vec<f64>], rows: usize) -> Vec<f64> {
 }
 
 /// Refuses tables that do not have this number of entries, or not the shape that a table of sites may have.
-fn check(energy: &Energy, tables: &[Vec<f64>], count: usize, of: &str) -> Placed<()> {
+fn check(energy: &Interaction, tables: &[Vec<f64>], count: usize, of: &str) -> Placed<()> {
     for (file, table) in energy.tables.iter().zip(tables) {
         if table.len() != count {
             let (path, found) = (&file.path, table.len());
@@ -178,9 +179,9 @@ fn check(energy: &Energy, tables: &[Vec<f64>], count: usize, of: &str) -> Placed
     Ok(())
 }
 
-impl Problem {
+impl Magnet {
     /// The whole lattice of a text.
-    pub(super) fn whole(text: &text::Lattice, tables: &Tables) -> Placed<Self> {
+    pub(super) fn whole(text: &text::Lattice, tables: &Contents) -> Placed<Self> {
         let graph = match &text.edges {
             Some(file) => {
                 let edges: Vec<_> = tables.edges.iter().map(|(edge, _)| *edge).collect();
@@ -211,7 +212,7 @@ impl Problem {
 
     /// The problem on at most 16 cells an axis, or on as many sites of a graph by edges as a cube of these has. A lattice that has no
     /// more, or a bond too long for the cut, is left whole.
-    pub(super) fn cut(text: &text::Lattice, tables: &Tables, whole: &Graph) -> Placed<Self> {
+    pub(super) fn cut(text: &text::Lattice, tables: &Contents, whole: &Graph) -> Placed<Self> {
         let shape: Vec<usize> = text.shape.iter().map(|length| (*length).min(CUT)).collect();
         let small =
             if text.edges.is_some() { whole.sites() <= MOST_OF_CUT } else { shape == text.shape };
@@ -287,10 +288,10 @@ impl Problem {
             let driven = driven.clone();
             lattice = lattice.driven(move |time| field(&driven, time));
         }
-        let mut function = |energy: &Energy, sites: Vec<usize>, spins: usize| {
+        let mut function = |energy: &Interaction, sites: Vec<usize>, spins: usize| {
             if let Some(function) = &energy.function {
                 let (programs, slots) = (**function).clone();
-                functions.push(Function { sites, spins, programs, slots });
+                functions.push(Cluster { sites, spins, programs, slots });
             }
         };
         function(&text.site, (0..sites).collect(), 1);
@@ -368,21 +369,21 @@ impl Problem {
     /// Steps of this size.
     pub(super) fn steps(
         &self,
-        method: Method,
+        method: Algorithm,
         step: f64,
-    ) -> Result<Box<dyn Steps + '_>, LatticeError> {
+    ) -> Result<Box<dyn Evolve + '_>, LatticeError> {
         match method {
-            Method::Rotations(family, order) => {
+            Algorithm::Rotations(family, order) => {
                 Ok(Box::new(self.lattice.rotations(family, order, step)?))
             }
-            Method::Gauss(1) => self.gauss::<1>(step),
-            Method::Gauss(2) => self.gauss::<2>(step),
-            Method::Gauss(3) => self.gauss::<3>(step),
-            Method::Gauss(_) => self.gauss::<4>(step),
+            Algorithm::Gauss(1) => self.gauss::<1>(step),
+            Algorithm::Gauss(2) => self.gauss::<2>(step),
+            Algorithm::Gauss(3) => self.gauss::<3>(step),
+            Algorithm::Gauss(_) => self.gauss::<4>(step),
         }
     }
 
-    fn gauss<const M: usize>(&self, step: f64) -> Result<Box<dyn Steps + '_>, LatticeError> {
+    fn gauss<const M: usize>(&self, step: f64) -> Result<Box<dyn Evolve + '_>, LatticeError> {
         let gradient = |spins: &[[f64; 3]], out: &mut [[f64; 3]]| {
             out.fill([0.0; 3]);
             self.further(spins, out);
@@ -393,18 +394,18 @@ impl Problem {
 }
 
 /// Steps of one size.
-pub(super) trait Steps {
+pub(super) trait Evolve {
     /// Advances spins by some steps from this time on.
     fn advance(&mut self, spins: &mut Spins, time: f64, steps: u64) -> Result<(), LatticeError>;
 }
 
-impl Steps for RotationStep {
+impl Evolve for RotationStep {
     fn advance(&mut self, spins: &mut Spins, time: f64, steps: u64) -> Result<(), LatticeError> {
         self.advance_from(spins, time, steps)
     }
 }
 
-impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> Steps for GaussStep<M, F> {
+impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> Evolve for GaussStep<M, F> {
     fn advance(&mut self, spins: &mut Spins, time: f64, steps: u64) -> Result<(), LatticeError> {
         self.advance_from(spins, time, steps)
     }

@@ -9,7 +9,7 @@ use crate::number::maximum;
 
 /// The kind of a block of a group element's matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum Representation {
     /// A rotation of the plane.
     Plane,
     /// A rotation of space.
@@ -34,7 +34,7 @@ pub struct Block {
     /// Its rows and columns.
     pub range: Range<usize>,
     /// The kind of its entries.
-    pub kind: Kind,
+    pub kind: Representation,
     /// The leading rows and columns that are an orthogonal or unitary matrix; 0 if none are.
     pub orthogonal: usize,
 }
@@ -67,24 +67,29 @@ pub(crate) fn blocks(algebra: &LieAlgebra, size: usize) -> Vec<Block> {
     if end == size {
         return found;
     }
-    let kind = if algebra.basis().is_some() { Kind::Real } else { Kind::Adjoint };
+    let kind =
+        if algebra.basis().is_some() { Representation::Real } else { Representation::Adjoint };
     vec![Block { range: 0..size, kind, orthogonal: 0 }]
 }
 
-fn kind(factor: &LieAlgebra) -> Kind {
-    let Some(basis) = factor.basis() else { return Kind::Adjoint };
+fn kind(factor: &LieAlgebra) -> Representation {
+    let Some(basis) = factor.basis() else { return Representation::Adjoint };
     let is = |name: &str| catalogue::lookup(name).is_ok_and(|known| known.basis() == Some(basis));
     let (n, rows) = (factor.dim(), factor.matrix_size());
     let half = rows / 2;
     match (n, rows) {
-        (1, 2) if is("SO2") => Kind::Plane,
-        (3, 3) if is("SO3") => Kind::Rotation,
-        (3, 3) if is("SE2") => Kind::PlaneMotion,
-        (6, 4) if is("SE3") => Kind::Motion,
-        (3, 4) if is("SU2") => Kind::Quaternion,
-        _ if rows % 2 == 0 && n + 1 == half * half && is(&format!("SU{half}")) => Kind::Complex,
-        _ if rows % 2 == 0 && n == half * half && is(&format!("U{half}")) => Kind::Complex,
-        _ => Kind::Real,
+        (1, 2) if is("SO2") => Representation::Plane,
+        (3, 3) if is("SO3") => Representation::Rotation,
+        (3, 3) if is("SE2") => Representation::PlaneMotion,
+        (6, 4) if is("SE3") => Representation::Motion,
+        (3, 4) if is("SU2") => Representation::Quaternion,
+        _ if rows % 2 == 0 && n + 1 == half * half && is(&format!("SU{half}")) => {
+            Representation::Complex
+        }
+        _ if rows % 2 == 0 && n == half * half && is(&format!("U{half}")) => {
+            Representation::Complex
+        }
+        _ => Representation::Real,
     }
 }
 
@@ -100,11 +105,11 @@ pub(crate) fn off_group(blocks: &[Block], entries: &[f64]) -> Option<f64> {
 }
 
 /// The leading rows and columns of elements of a factor's group that are an orthogonal or unitary matrix.
-fn orthogonal(kind: Kind, factor: &LieAlgebra) -> usize {
+fn orthogonal(kind: Representation, factor: &LieAlgebra) -> usize {
     let rows = factor.matrix_size();
     let all = |basis: &[RationalMatrix]| basis.iter().all(RationalMatrix::is_antisymmetric);
     match kind {
-        Kind::PlaneMotion | Kind::Motion => rows - 1,
+        Representation::PlaneMotion | Representation::Motion => rows - 1,
         _ if factor.basis().is_some_and(all) => rows,
         _ => 0,
     }

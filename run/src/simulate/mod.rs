@@ -17,7 +17,7 @@ mod unknown;
 
 pub(crate) use setup::start;
 
-pub use blocks::{Block, Kind, matrix, split};
+pub use blocks::{Block, Representation, matrix, split};
 pub use estimate::LARGE;
 pub(crate) use estimate::{Maker, error_of};
 pub use event::{Crossing, Direction, Event};
@@ -29,5 +29,5 @@ pub use single::{Ongoing, Single};
 pub(crate) use sink::DRIFTS;
 pub use sink::{Begun, Halt, Record, Resume, Sink};
 pub(crate) use slow::many;
-pub use tally::{DriftFields, Moment, Solver, Steep, Warning};
+pub use tally::{DriftFields, Effort, Moment, Steep, Warning};
 pub use unknown::Unknown;

@@ -8,7 +8,7 @@ use super::blocks::{Block, off_group};
 use super::event::Crossing;
 use super::orbit::Orbit;
 use super::sink::Begun;
-use super::tally::{Measured, Moment, Solver, Steep, Tally, Warning};
+use super::tally::{Effort, Measured, Moment, Steep, Tally, Warning};
 use super::unknown::Unknown;
 use crate::backend::Used;
 use crate::engine::{Numbers, STEEP, Solved, Space};
@@ -52,7 +52,7 @@ pub struct Outcome {
     /// The events that occurred, in the order of time.
     pub events: Vec<Crossing>,
     /// Statistics of the solves, if there is one of ours in each step.
-    pub solver: Option<Solver>,
+    pub solver: Option<Effort>,
     /// An estimate of the error at the end, the larger of the relative errors of μ and of the matrix of g in Euclidean norms;
     /// or why there is none.
     pub estimated_error: Result<f64, Unknown>,

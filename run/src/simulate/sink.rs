@@ -134,12 +134,13 @@ impl Sink for () {}
 
 #[cfg(test)]
 mod tests {
-    use super::super::blocks::Kind;
+    use super::super::blocks::Representation;
     use super::*;
 
     #[test]
     fn columns_have_the_names_of_the_file_and_none_twice() {
-        let blocks = [0..1, 1..2].map(|range| Block { range, kind: Kind::Real, orthogonal: 0 });
+        let blocks =
+            [0..1, 1..2].map(|range| Block { range, kind: Representation::Real, orthogonal: 0 });
         let names = |list: &[&str]| list.iter().map(|&name| name.to_owned()).collect::<Vec<_>>();
         let (scales, coordinates) = (Scales::default(), names(&["mu[0]", "energy", "x"]));
         let whole = Begun {

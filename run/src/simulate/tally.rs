@@ -25,7 +25,7 @@ pub(crate) struct Measured {
 
 /// The solves of a run.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
-pub struct Solver {
+pub struct Effort {
     /// The most Newton iterations, or evaluations of the fixed point, of a step.
     pub most_iterations: u64,
     /// The largest residual left, relative to the momentum.
@@ -53,7 +53,7 @@ pub(crate) struct Tally {
     /// From these times on drifts cannot be measured: of the spatial momentum, the Casimirs, the energy.
     pub unmeasured: [Option<f64>; 3],
     /// Statistics of the solves, if residuals were measured.
-    pub solver: Option<Solver>,
+    pub solver: Option<Effort>,
     /// The first step before which the last terms of the series had a ratio worth a warning.
     pub steep: Option<Steep>,
 }

@@ -5,10 +5,10 @@
 //! a deviation made on the way may grow, and the bounds of the single steps, times that growth, are what rounding
 //! may do. This is measured, not proven.
 
-use coadjoint_codegen::judge::{Branch, End, Inside, Motion, RightSolution, Setting, Stop};
+use coadjoint_codegen::judge::{Branch, Enclosure, End, Inside, RightSolution, Setting, Stop};
 use nalgebra::DVector;
 
-use super::states::{State, condition};
+use super::states::{Reading, condition};
 use crate::number::maximum;
 
 /// The unit roundoff of what is judged.
@@ -46,7 +46,7 @@ impl From<Stop> for Trouble {
 
 /// A motion that is judged.
 pub(crate) struct Judged {
-    motion: Motion,
+    motion: Enclosure,
     /// Rows of the group's matrices.
     size: usize,
     twins: Option<Twins>,
@@ -55,7 +55,7 @@ pub(crate) struct Judged {
 /// Motions beside one that is judged.
 struct Twins {
     /// With the least distance of each so far, relative to the momentum.
-    motions: Vec<(Motion, f64)>,
+    motions: Vec<(Enclosure, f64)>,
     /// The sums of what rounding may do in each step, relative to momentum and element.
     momentum: f64,
     element: f64,
@@ -68,7 +68,7 @@ impl Judged {
     /// From this momentum, over `steps` steps, in a group whose matrices have `size` rows.
     pub(crate) fn new(mu: &[f64], steps: u64, size: usize) -> Self {
         let twins = (steps > PROVEN).then(|| Twins::new(mu));
-        Self { motion: Motion::new(mu), size, twins }
+        Self { motion: Enclosure::new(mu), size, twins }
     }
 
     /// One step by its right solution, which must lie inside the chart and be of a series that means something.
@@ -113,8 +113,8 @@ impl Judged {
     /// Fails if that is so much that nothing can be said.
     pub(crate) fn deviations(
         &self,
-        before: &State,
-        after: &State,
+        before: &Reading,
+        after: &Reading,
     ) -> Result<(f64, Option<f64>), String> {
         let elements = before.element.as_ref().zip(after.element.as_ref());
         let Some(twins) = &self.twins else {
@@ -155,7 +155,7 @@ impl Twins {
             });
             let shift = direction.scale(BESIDE * size / direction.norm());
             let moved: Vec<f64> = mu.iter().zip(shift.iter()).map(|(mu, s)| mu + s).collect();
-            (Motion::new(&moved), BESIDE)
+            (Enclosure::new(&moved), BESIDE)
         };
         let motions = if size > 0.0 { vec![beside(0), beside(1)] } else { Vec::new() };
         Self { motions, momentum: 0.0, element: 0.0, growth: 1.0, turned: 1.0 }
@@ -167,7 +167,7 @@ impl Twins {
         &mut self,
         setting: &mut Setting<'_>,
         (right, end, before): (&RightSolution, &End, f64),
-        motion: &Motion,
+        motion: &Enclosure,
         size: usize,
     ) -> Result<(), Stop> {
         let own = end.element.iter().map(|g| g.to_f64() * g.to_f64()).sum::<f64>().sqrt();
@@ -190,7 +190,7 @@ impl Twins {
 }
 
 /// The element of a motion from the identity, row by row.
-fn element(motion: &Motion, size: usize) -> Vec<f64> {
+fn element(motion: &Enclosure, size: usize) -> Vec<f64> {
     motion.element_from(nalgebra::DMatrix::<f64>::identity(size, size).as_slice())
 }
 

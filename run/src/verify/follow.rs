@@ -13,7 +13,7 @@ use coadjoint_learn::table::Table;
 use super::course::{Judged, Trouble};
 use super::found::Found;
 use super::said::Said;
-use super::states::{Columns, Invariants, Measured, State, next, refused};
+use super::states::{Columns, Invariants, Measured, Reading, next, refused};
 use crate::ensemble::Shape;
 use crate::error::RunError;
 use crate::grid::Grid;
@@ -35,14 +35,14 @@ pub fn judge_of(file: &Path, hamiltonian: &Hamiltonian) -> Result<Judge, RunErro
 
 /// The number of rows of a file that stand for all of them: evenly spread, the last among them.
 #[derive(Clone, Copy, Debug)]
-pub struct Sample {
+pub struct Quota {
     /// The number of rows judged.
     pub wanted: u64,
     /// The number of rows to choose from.
     pub of: u64,
 }
 
-impl Sample {
+impl Quota {
     /// True if it has row `number`, counted from 1.
     fn holds(self, number: u64) -> bool {
         let before = |number: u64| {
@@ -64,7 +64,7 @@ pub struct Follower<'a> {
     /// All parameters of the system's file, after which no column may be named.
     pub parameters: &'a [Parameter],
     /// The rows that are judged, where these are not all.
-    pub sample: Option<Sample>,
+    pub sample: Option<Quota>,
     /// Is told how many steps have been judged.
     pub told: &'a dyn Fn(u64),
 }
@@ -172,7 +172,7 @@ impl<'a> Follower<'a> {
             let start = self.invariants.at(made.0, before.state(&start));
             let end = self.invariants.at(self.grid.time(steps), after.state(&end));
             // An ensemble refuses a row by NaN in all that the state is made of.
-            let State { momentum, element } = &end.state;
+            let Reading { momentum, element } = &end.state;
             let lost = momentum.iter().all(|value| value.is_nan())
                 && element.as_ref().is_none_or(|g| g.iter().any(|value| value.is_nan()));
             if lost && listed.contains(&number) {

@@ -11,7 +11,7 @@ mod states;
 use coadjoint_codegen::smooth::Hamiltonian;
 use coadjoint_codegen::system::System;
 
-pub use follow::{Follower, Sample, judge_of};
+pub use follow::{Follower, Quota, judge_of};
 pub use found::Found;
 
 /// The reason for which runs with kicks are not judged.

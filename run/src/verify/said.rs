@@ -4,7 +4,7 @@ use coadjoint_codegen::smooth::{Facts, Hamiltonian};
 use coadjoint_learn::table::Table;
 
 use super::found::Found;
-use super::states::{Columns, Invariants, Measured, State};
+use super::states::{Columns, Invariants, Measured, Reading};
 use crate::engine::identity;
 use crate::grid::Grid;
 use crate::number::shortest;
@@ -53,7 +53,7 @@ impl Said {
         let others = table.value("at").or(table.value("events")).is_some();
         let momentum = table.values("initial_momentum");
         let momentum = momentum.filter(|momentum| momentum.len() == algebra.dim());
-        let start = momentum.map(|momentum| State { momentum, element: None });
+        let start = momentum.map(|momentum| Reading { momentum, element: None });
         let start = start.map(|state| invariants.at(grid.start, state));
         Self { start, end, every: number("every"), others, grid, last: None }
     }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use coadjoint_codegen::problem::Parameter;
 use coadjoint_codegen::smooth::{Facts, Hamiltonian};
 use coadjoint_codegen::step;
-use coadjoint_learn::table::{Row, Table};
+use coadjoint_learn::table::{Cells, Table};
 use nalgebra::{DMatrix, Quaternion, UnitQuaternion};
 
 use crate::engine::{Numbers, Space, group_of};
@@ -18,12 +18,12 @@ use crate::simulate::DRIFTS;
 const DRIFT: f64 = 64.0 * f64::EPSILON;
 
 /// A state of a file: the momentum and, where it is given, the matrix of the element, row by row.
-pub(crate) struct State {
+pub(crate) struct Reading {
     pub momentum: Vec<f64>,
     pub element: Option<Vec<f64>>,
 }
 
-impl State {
+impl Reading {
     /// All its numbers.
     pub(crate) fn numbers(&self) -> impl Iterator<Item = f64> {
         self.momentum.iter().chain(self.element.iter().flatten()).copied()
@@ -67,7 +67,7 @@ impl Columns {
     }
 
     /// The state of a row.
-    pub(crate) fn state(&self, row: &[f64]) -> State {
+    pub(crate) fn state(&self, row: &[f64]) -> Reading {
         let numbers = self.found.places.iter().map(|place| place.map_or(0.0, |place| row[place]));
         let mut momentum: Vec<f64> = numbers.collect();
         let attitude = momentum.split_off(self.found.layout.shape.dim);
@@ -80,13 +80,13 @@ impl Columns {
                 Some(rotation.transpose().matrix().as_slice().to_vec())
             }
         };
-        State { momentum, element }
+        Reading { momentum, element }
     }
 }
 
 /// The next row of a table, if there is one.
 pub(crate) fn next(table: &mut Table) -> Result<Option<Vec<f64>>, RunError> {
-    let mut row = Row::default();
+    let mut row = Cells::default();
     if !table.read(&mut row)? {
         return Ok(None);
     }
@@ -100,7 +100,7 @@ pub(crate) fn next(table: &mut Table) -> Result<Option<Vec<f64>>, RunError> {
 
 /// A state, what is conserved there, and how large the numbers are that this is made of.
 pub(crate) struct Measured {
-    pub state: State,
+    pub state: Reading,
     pub start: step::Start,
     /// The sizes of what rounding of the state moves: the spatial momentum, where an element with an inverse is given, each
     /// Casimir, and the energy.
@@ -153,7 +153,7 @@ impl Invariants {
     }
 
     /// A state and what is conserved there.
-    pub(crate) fn at(&self, time: f64, state: State) -> Measured {
+    pub(crate) fn at(&self, time: f64, state: Reading) -> Measured {
         let (functions, mu) = (&self.functions, &state.momentum);
         let numbers = |g: &Vec<f64>| Numbers { g: g.clone(), mu: mu.clone() };
         let spatial = state.element.as_ref().map(|g| self.space.spatial_momentum(&numbers(g)));

@@ -55,7 +55,7 @@ pub(super) enum Ending<V> {
 }
 
 /// The Hessian and the momentum in the middle about which changes of rates are linear.
-struct Model<'a, V: Coordinates<f64>, const M: usize> {
+struct Linearisation<'a, V: Coordinates<f64>, const M: usize> {
     hessian: V::Matrix,
     p: V,
     nodes: &'a Nodes<M>,
@@ -209,7 +209,7 @@ where
 
     /// The linear model about the momentum `p`, where its Hessian is finite and not too large.
     #[inline(always)]
-    fn model(&self, p: &G::Vector) -> Option<Model<'static, G::Vector, M>> {
+    fn model(&self, p: &G::Vector) -> Option<Linearisation<'static, G::Vector, M>> {
         let dim = p.dim();
         if dim > LARGEST_MODEL {
             return None;
@@ -222,11 +222,11 @@ where
                 poison = hessian[(i, j)].times_plus(0.0, poison);
             }
         }
-        (poison == 0.0).then(|| Model { hessian, p: p.clone(), nodes: &Self::NODES })
+        (poison == 0.0).then(|| Linearisation { hessian, p: p.clone(), nodes: &Self::NODES })
     }
 }
 
-impl<V: Coordinates<f64>, const M: usize> Model<'_, V, M> {
+impl<V: Coordinates<f64>, const M: usize> Linearisation<'_, V, M> {
     /// The largest sum of a row of h·H″·∂P/∂x, where P = μ + ½ad\*_x μ to first order.
     fn gain<G: LieGroup<Scalar = f64, Vector = V>>(&self, group: &G) -> f64 {
         let dim = self.p.dim();

@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 
 use coadjoint_geometry::angle::Length;
 use coadjoint_geometry::group::Group;
-use coadjoint_geometry::row::Row;
+use coadjoint_geometry::row::Tuple;
 use nalgebra::SVector;
 
 use crate::group::element_error::{ElementError, finite};
@@ -97,17 +97,17 @@ fn array<T: Scalar, const N: usize>(x: &SVector<T, N>) -> [T; N] {
 
 /// Rows as numbers.
 #[inline(always)]
-fn nodes<T: Scalar, const M: usize, const N: usize>(x: &[[T; M]; N]) -> [Row<T, M>; N] {
-    let mut numbers = [Row([T::of(0.0); M]); N];
+fn nodes<T: Scalar, const M: usize, const N: usize>(x: &[[T; M]; N]) -> [Tuple<T, M>; N] {
+    let mut numbers = [Tuple([T::of(0.0); M]); N];
     for i in 0..N {
-        numbers[i] = Row(x[i]);
+        numbers[i] = Tuple(x[i]);
     }
     numbers
 }
 
 /// The rows of numbers.
 #[inline(always)]
-fn rows<T: Scalar, const M: usize, const N: usize>(x: [Row<T, M>; N]) -> [[T; M]; N] {
+fn rows<T: Scalar, const M: usize, const N: usize>(x: [Tuple<T, M>; N]) -> [[T; M]; N] {
     let mut rows = [[T::of(0.0); M]; N];
     for i in 0..N {
         rows[i] = x[i].0;

@@ -7,7 +7,7 @@ use num_traits::{One, Zero};
 use crate::hamilton_jacobi::{DeriveError, TermLimit};
 use crate::lie::{Chart, CubicEntry, LieAlgebra, cubic};
 use crate::number::{BernoulliWeights, Rational, integer, ratio};
-use crate::poly::{Arithmetic, Polynomial, Product, SumError, sum_of_products};
+use crate::poly::{Arithmetic, Multiplication, Polynomial, SumError, sum_of_products};
 
 /// Selects a map of the algebra or its transpose.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -205,7 +205,7 @@ impl Work {
             let pairs = left.len().saturating_mul(right.len());
             let cost = left.words().saturating_mul(right.words());
             count = count.saturating_add(pairs.saturating_mul(cost));
-            list.push(Product { factor: factor.clone(), left, right });
+            list.push(Multiplication { factor: factor.clone(), left, right });
         }
         self.charge(count)?;
         let sum = sum_of_products(self.variables, &list, self.limit.terms, self.arithmetic);
@@ -254,11 +254,11 @@ type Term = (Vec<(u32, u32)>, Rational);
 
 /// Polynomials in the momenta evaluated on a series, in nested (Horner) form with shared parts.
 pub(crate) struct Composition {
-    nodes: Vec<Node>,
+    nodes: Vec<Vertex>,
     roots: Vec<usize>,
 }
 
-struct Node {
+struct Vertex {
     /// The part without momenta: a polynomial in the symbols.
     constant: Polynomial,
     /// (momentum a, node of the cofactor): the node is constant + Σ_a μ_a · cofactor.
@@ -314,7 +314,7 @@ impl Composition {
             branches.push((a, self.insert(dimension, variables, part, known)));
         }
         let constant = Polynomial::from_factors(variables, constant);
-        self.nodes.push(Node { constant, branches, series: Vec::new() });
+        self.nodes.push(Vertex { constant, branches, series: Vec::new() });
         known.insert(terms, self.nodes.len() - 1);
         self.nodes.len() - 1
     }

@@ -34,7 +34,7 @@ const SAME: f64 = 1e-9;
 const APART: f64 = 1e-6;
 
 /// F(x) = x − s G(x), G(x), whether G contracts next to x, and what solves with ∂F/∂x, with the sign of its determinant.
-struct Model {
+struct Probe {
     residual: DMatrix<f64>,
     value: DMatrix<f64>,
     contracts: bool,
@@ -48,7 +48,7 @@ enum Jacobian {
     Factors(LU<f64, Dyn, Dyn>),
 }
 
-impl Model {
+impl Probe {
     fn solve(&self, right: &DMatrix<f64>) -> Result<DMatrix<f64>, JudgeError> {
         let solution = match &self.jacobian {
             Jacobian::Inverse(inverse) => Some(inverse * right),
@@ -76,7 +76,7 @@ impl Model {
 }
 
 impl Step<'_> {
-    fn model(&self, x: &DMatrix<f64>, s: f64) -> Result<Model, JudgeError> {
+    fn model(&self, x: &DMatrix<f64>, s: f64) -> Result<Probe, JudgeError> {
         let n = x.nrows();
         let value = self.right_side(x)?;
         let slope = self.slope(x, &value)?;
@@ -87,11 +87,11 @@ impl Step<'_> {
         }
         if contracts {
             let jacobian = Jacobian::Inverse(inverse(slope));
-            return Ok(Model { residual, value, contracts, jacobian, sign: 1.0 });
+            return Ok(Probe { residual, value, contracts, jacobian, sign: 1.0 });
         }
         let factors = (DMatrix::identity(n, n) - slope).lu();
         let sign = factors.determinant().signum();
-        Ok(Model { residual, value, contracts, jacobian: Jacobian::Factors(factors), sign })
+        Ok(Probe { residual, value, contracts, jacobian: Jacobian::Factors(factors), sign })
     }
 
     /// The solution that iteration from the first guess leads to, where G contracts at 0, there and half way: then it is the
@@ -155,7 +155,7 @@ impl Step<'_> {
         s: f64,
         moved: f64,
         sign: f64,
-    ) -> Option<(DMatrix<f64>, Model)> {
+    ) -> Option<(DMatrix<f64>, Probe)> {
         let mut last = 0.25 * moved;
         // On the way a few digits will do; at its end rounding's size.
         let enough = if s < 1.0 { 1e-5 } else { 1e-12 };

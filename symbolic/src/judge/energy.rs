@@ -15,7 +15,7 @@ use crate::smooth::Smooth;
 
 /// H(t, μ), its inputs included.
 #[derive(Clone, Debug)]
-pub(super) struct Energy {
+pub(super) struct Expression {
     smooth: Box<Smooth>,
     /// Marks the nodes that H needs, functions being single operations.
     needed: Vec<bool>,
@@ -26,7 +26,7 @@ pub(super) struct Energy {
 /// A node's value, and its derivatives by other nodes.
 type Entry<T> = (T, [(usize, T); 3]);
 
-impl Energy {
+impl Expression {
     /// # Errors
     /// [`JudgeError::Given`] of a function that has no formula.
     pub(super) fn new(smooth: &Smooth) -> Result<Self, JudgeError> {

@@ -7,7 +7,7 @@
 use nalgebra::{DMatrix, Dyn};
 use num_traits::{One, Zero};
 
-use super::energy::Energy;
+use super::energy::Expression;
 use super::geometry::Geometry;
 use super::linear::{Real, column, derivative, size};
 use super::{DoubleDouble, JudgeError};
@@ -15,7 +15,7 @@ use super::{DoubleDouble, JudgeError};
 /// Gauss's method and a Hamiltonian.
 #[derive(Clone, Debug)]
 pub(super) struct Collocation {
-    pub(super) energy: Energy,
+    pub(super) energy: Expression,
     /// cᵢ − ½, the times of the nodes.
     times: Vec<DoubleDouble>,
     /// bᵢ in the first row, and aᵢⱼ − bⱼ/2 in row i + 1.
@@ -73,7 +73,7 @@ fn beta(degree: usize) -> Vec<DoubleDouble> {
 
 impl Collocation {
     /// Collocation with this many nodes, and J_R up to the power `degree` of x.
-    pub(super) fn new(energy: Energy, nodes: usize, degree: usize) -> Option<Self> {
+    pub(super) fn new(energy: Expression, nodes: usize, degree: usize) -> Option<Self> {
         let (times, half) = (half_roots(nodes), DoubleDouble::from(0.5));
         let power = |x: DoubleDouble, k: usize| (0..k).fold(DoubleDouble::one(), |p, _| p * x);
         let powers = DMatrix::from_fn(nodes, nodes, |k, j| power(times[j], k));

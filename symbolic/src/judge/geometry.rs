@@ -23,13 +23,13 @@ static RECIPROCALS: LazyLock<Vec<DoubleDouble>> = LazyLock::new(|| {
 
 /// A table entry: three or four indices and a value.
 #[derive(Clone, Debug)]
-struct Entry<const N: usize> {
+struct Nonzero<const N: usize> {
     at: [usize; N],
     value: DoubleDouble,
 }
 
-fn entry<const N: usize>(at: [usize; N], value: &Rational) -> Entry<N> {
-    Entry { at, value: Wide::rational(value).scaled(0) }
+fn entry<const N: usize>(at: [usize; N], value: &Rational) -> Nonzero<N> {
+    Nonzero { at, value: Wide::rational(value).scaled(0) }
 }
 
 /// Entries (row, column, value) of a sparse matrix; those of one place are added.
@@ -55,11 +55,11 @@ pub(super) struct Geometry {
     pub(super) units: Vec<f64>,
     pub(super) chart: Chart,
     /// \[e_i, e_j\] contains c·e_k.
-    structure: Vec<Entry<3>>,
+    structure: Vec<Nonzero<3>>,
     /// xξx contains x_a x_b ξ_c·v along e_d.
-    cubic: Vec<Entry<4>>,
+    cubic: Vec<Nonzero<4>>,
     /// e_i has v at (row, column).
-    basis: Vec<Entry<3>>,
+    basis: Vec<Nonzero<3>>,
     /// Rows of a group element's matrix.
     pub(super) size: usize,
     /// a with ‖ad_x‖ ≤ a|x|, Euclidean.
@@ -102,7 +102,8 @@ impl Geometry {
 
     /// ad_xᵀ.
     fn ad<T: Real>(&self, x: &DMatrix<T>) -> Sparse<T> {
-        let of = |entry: &Entry<3>| (entry.at[1], entry.at[2], T::of(entry.value) * x[entry.at[0]]);
+        let of =
+            |entry: &Nonzero<3>| (entry.at[1], entry.at[2], T::of(entry.value) * x[entry.at[0]]);
         self.structure.iter().map(of).collect()
     }
 
@@ -114,7 +115,7 @@ impl Geometry {
     /// The matrix Σ xᵢ eᵢ.
     pub(super) fn matrix_of<T: Real>(&self, x: &DMatrix<T>) -> DMatrix<T> {
         let mut matrix = DMatrix::zeros(self.size, self.size);
-        for Entry { at: [i, row, column], value } in &self.basis {
+        for Nonzero { at: [i, row, column], value } in &self.basis {
             matrix[(*row, *column)] += T::of(*value) * x[*i];
         }
         matrix
@@ -181,7 +182,7 @@ impl Geometry {
         for (row, column, value) in self.ad(x) {
             matrix[(row, column)] -= value * T::from(0.5);
         }
-        for Entry { at: [a, b, argument, result], value } in &self.cubic {
+        for Nonzero { at: [a, b, argument, result], value } in &self.cubic {
             matrix[(*argument, *result)] -= T::of(*value) * x[*a] * x[*b] * T::from(0.25);
         }
         matrix
@@ -276,12 +277,12 @@ fn exponential_matrix(matrix: DMatrix<DoubleDouble>) -> Result<DMatrix<DoubleDou
     Ok((0..halvings).fold(sum, |root, _| &root * &root))
 }
 
-fn values<const N: usize>(entries: &[Entry<N>]) -> Vec<DoubleDouble> {
+fn values<const N: usize>(entries: &[Nonzero<N>]) -> Vec<DoubleDouble> {
     entries.iter().map(|entry| entry.value).collect()
 }
 
 /// The smaller of two bounds on ‖ad_x‖/|x|: √Σc², and by rows and columns for each unit vector.
-fn bracket_norm(dim: usize, structure: &[Entry<3>]) -> f64 {
+fn bracket_norm(dim: usize, structure: &[Nonzero<3>]) -> f64 {
     // ‖ad_x‖₂² ≤ ‖ad_x‖₁ ‖ad_x‖_∞, each at most √(Σᵢ (its sum for eᵢ)²) |x| by Cauchy's inequality.
     let sums = |row: usize| {
         let mut sums = DMatrix::<f64>::zeros(dim, dim);

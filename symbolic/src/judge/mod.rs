@@ -50,7 +50,7 @@ pub use branch::Branch;
 pub use domain::Inside;
 pub use double_double::DoubleDouble;
 pub use error::JudgeError;
-pub use motion::{Motion, Stop};
+pub use motion::{Enclosure, Stop};
 pub use point::{Point, Residual};
 pub use step::{End, RightSolution, Step};
 
@@ -61,7 +61,7 @@ use crate::hamilton_jacobi::{GeneratingSeries, TermLimit, derive};
 use crate::lie::{Chart, LieAlgebra};
 use crate::problem::Problem;
 use crate::smooth::{Hamiltonian, Smooth};
-use energy::Energy;
+use energy::Expression;
 use gauss::{Collocation, Stage};
 use geometry::Geometry;
 use linear::{column, size};
@@ -139,7 +139,7 @@ impl Judge {
         let geometry = Geometry::new(&smooth.algebra, Chart::Exponential)?;
         let nodes = smooth.nodes();
         let degree = if nodes == 1 { 1 } else { 2 * nodes - 2 };
-        let collocation = Collocation::new(Energy::new(smooth)?, nodes, degree);
+        let collocation = Collocation::new(Expression::new(smooth)?, nodes, degree);
         let law = Definition::Collocation(Box::new(collocation.ok_or(JudgeError::OutOfRange)?));
         Ok(Self { geometry, law })
     }

@@ -17,7 +17,7 @@ pub enum Stop {
 
 /// The state of a motion, with bounds on the distance to which rounding may have taken another motion from it.
 #[derive(Clone, Debug)]
-pub struct Motion {
+pub struct Enclosure {
     momentum: DMatrix<DoubleDouble>,
     scale: i64,
     /// The product of the steps' elements; none before the first step.
@@ -26,7 +26,7 @@ pub struct Motion {
     element_bound: f64,
 }
 
-impl Motion {
+impl Enclosure {
     /// A motion that starts from a momentum.
     pub fn new(mu: &[f64]) -> Self {
         let momentum = column(mu.iter().map(|&m| DoubleDouble::from(m)));

@@ -18,15 +18,15 @@ type Powers = Vec<(usize, u32)>;
 /// S = Σ t^k S_k(p), ready for a step size.
 #[derive(Clone, Debug)]
 pub(super) struct Series {
-    terms: Vec<Term>,
-    plan: Arc<Plan>,
+    terms: Vec<Addend>,
+    plan: Arc<Chain>,
     /// The last order, where the series has the one two before it too.
     last: Option<u32>,
 }
 
 /// One term of S before a step size, parameters and a scale of the momentum are put in.
 #[derive(Clone, Debug)]
-struct Term {
+struct Addend {
     value: Wide,
     /// k of t^k.
     order: u32,
@@ -57,10 +57,10 @@ impl Series {
                     monomials.push(momenta);
                     monomials.len() - 1
                 });
-                terms.push(Term { value: Wide::rational(&value), order, symbols, monomial });
+                terms.push(Addend { value: Wide::rational(&value), order, symbols, monomial });
             }
         }
-        Self { terms, plan: Arc::new(Plan::new((factors, units), &monomials)), last }
+        Self { terms, plan: Arc::new(Chain::new((factors, units), &monomials)), last }
     }
 
     /// S(σq)/σ with σ = 2^scale, whose gradient in q is ∂S/∂p at p = σq.
@@ -97,7 +97,7 @@ impl Series {
 /// S of one step size, one set of parameters and one scale of the momentum.
 #[derive(Clone, Debug)]
 pub(super) struct Folded {
-    plan: Arc<Plan>,
+    plan: Arc<Chain>,
     exact: Vec<DoubleDouble>,
     /// Sums of the terms' absolute values.
     size: Vec<f64>,
@@ -151,7 +151,7 @@ impl Folded {
 
 /// A plan that evaluates the derivatives of some monomials, with one multiplication for each product of powers.
 #[derive(Clone, Debug, Default)]
-struct Plan {
+struct Chain {
     /// The direct factor of each coordinate.
     factors: Vec<usize>,
     /// The degree of each monomial.
@@ -180,7 +180,7 @@ fn without(powers: &[(usize, u32)], i: usize) -> Powers {
     lowered.filter(|power| power.1 > 0).collect()
 }
 
-impl Plan {
+impl Chain {
     fn new((factors, units): (&[usize], &[f64]), monomials: &[Powers]) -> Self {
         let mut plan = Self { factors: factors.to_vec(), ..Self::default() };
         let mut known = BTreeMap::new();

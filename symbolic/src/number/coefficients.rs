@@ -10,14 +10,14 @@ use crate::number::Rational;
 ///
 /// Machine integers are used exactly when everything fits, so equal lists are represented equally.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) enum Coefficients {
+pub(crate) enum Fractions {
     /// Numerators of at most `bits` ≤ 127 bits.
     Small { numerators: Vec<i128>, denominator: i128, bits: u32 },
     /// Anything else.
     Big { numerators: Vec<BigInt>, denominator: BigInt },
 }
 
-impl Coefficients {
+impl Fractions {
     pub(crate) fn empty() -> Self {
         Self::Small { numerators: Vec::new(), denominator: 1, bits: 0 }
     }

@@ -2,7 +2,7 @@
 
 mod coefficients;
 
-pub(crate) use coefficients::{Coefficients, bits, lcm};
+pub(crate) use coefficients::{Fractions, bits, lcm};
 
 /// An exact rational number, always in lowest terms with a positive denominator.
 pub type Rational = num_rational::BigRational;

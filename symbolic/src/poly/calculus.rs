@@ -1,8 +1,8 @@
 //! Sums, products, powers and derivatives.
 
-use crate::number::{Coefficients, Rational, integer};
+use crate::number::{Fractions, Rational, integer};
 use crate::poly::polynomial::{Factors, Keys, Packing, Polynomial};
-use crate::poly::product::{Arithmetic, Product, sum_of_products};
+use crate::poly::product::{Arithmetic, Multiplication, sum_of_products};
 use num_traits::{One, Zero};
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -68,12 +68,12 @@ impl Polynomial {
 
     fn differentiated(&self, keys: Keys, places: &[usize], exponents: &[u32]) -> Self {
         let chosen = match &self.values {
-            Coefficients::Small { numerators, denominator, bits } => Coefficients::Small {
+            Fractions::Small { numerators, denominator, bits } => Fractions::Small {
                 numerators: places.iter().map(|&place| numerators[place]).collect(),
                 denominator: *denominator,
                 bits: *bits,
             },
-            Coefficients::Big { numerators, denominator } => Coefficients::Big {
+            Fractions::Big { numerators, denominator } => Fractions::Big {
                 numerators: places.iter().map(|&place| numerators[place].clone()).collect(),
                 denominator: denominator.clone(),
             },
@@ -113,9 +113,9 @@ impl Polynomial {
         let variables =
             terms.iter().flat_map(|(_, a, b)| [a.variables(), b.variables()]).max().unwrap_or(0);
         let wide = terms.map(|(f, a, b)| (f, a.widened(variables), b.widened(variables)));
-        let products: Vec<Product<'_>> = wide
+        let products: Vec<Multiplication<'_>> = wide
             .iter()
-            .map(|(factor, left, right)| Product { factor: integer(*factor), left, right })
+            .map(|(factor, left, right)| Multiplication { factor: integer(*factor), left, right })
             .collect();
         match sum_of_products(variables, &products, usize::MAX, Arithmetic::Exact) {
             Ok(sum) => sum,

@@ -6,4 +6,4 @@ mod product;
 
 pub(crate) use polynomial::Factors;
 pub use polynomial::{Numeric, Polynomial, product as monomial_product, split_at};
-pub(crate) use product::{Arithmetic, Product, SumError, sum_of_products};
+pub(crate) use product::{Arithmetic, Multiplication, SumError, sum_of_products};

@@ -8,7 +8,7 @@ use coadjoint_program::{Graph, Id};
 use num_traits::{One, ToPrimitive, Zero};
 
 use crate::cancel;
-use crate::number::{Coefficients, Rational};
+use crate::number::{Fractions, Rational};
 
 /// A sparse polynomial in a fixed number of variables with exact rational coefficients.
 ///
@@ -38,7 +38,7 @@ pub struct Polynomial {
     /// No term has a greater total degree.
     pub(super) bound: u32,
     pub(super) keys: Keys,
-    pub(super) values: Coefficients,
+    pub(super) values: Fractions,
 }
 
 /// The monomials of a polynomial, descending.
@@ -78,7 +78,7 @@ impl Polynomial {
             Some(_) => Keys::Packed(Vec::new()),
             None => Keys::Sparse(Vec::new()),
         };
-        Self { variables, bound: 0, keys, values: Coefficients::empty() }
+        Self { variables, bound: 0, keys, values: Fractions::empty() }
     }
 
     /// A constant polynomial.
@@ -128,7 +128,7 @@ impl Polynomial {
         sums.retain(|_, value| !value.is_zero());
         let bound = sums.keys().map(|key| degree(&key.0)).max().unwrap_or(0);
         let values: Vec<Rational> = sums.values().cloned().collect();
-        let values = Coefficients::from_rationals(&values);
+        let values = Fractions::from_rationals(&values);
         let keys = sums.into_keys().map(|key| key.0);
         let keys = match Self::packing(variables, bound) {
             Some(packing) => Keys::Packed(keys.map(|key| packing.pack(&key.0)).collect()),
@@ -142,7 +142,7 @@ impl Polynomial {
         Packing::new(variables).filter(|packing| packing.holds(bound))
     }
 
-    pub(super) fn assemble(variables: usize, bound: u32, keys: Keys, values: Coefficients) -> Self {
+    pub(super) fn assemble(variables: usize, bound: u32, keys: Keys, values: Fractions) -> Self {
         Self { variables, bound, keys, values }
     }
 
@@ -187,7 +187,7 @@ impl Polynomial {
     /// The number of 64-bit words of the largest numerator; one for machine integers.
     pub(crate) fn words(&self) -> usize {
         match &self.values {
-            Coefficients::Small { .. } => 1,
+            Fractions::Small { .. } => 1,
             large => usize::try_from(large.bits() / 64 + 1).unwrap_or(usize::MAX),
         }
     }

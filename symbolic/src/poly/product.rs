@@ -5,7 +5,7 @@ use num_integer::Integer;
 use num_traits::{One, ToPrimitive, Zero};
 
 use crate::cancel;
-use crate::number::{Coefficients, Rational, bits, lcm};
+use crate::number::{Fractions, Rational, bits, lcm};
 use crate::poly::polynomial::{Factors, Key, Keys, Polynomial};
 
 /// Reasons for which a sum is not computed.
@@ -67,11 +67,11 @@ impl Numerator for Rounded {
 /// the largest possible sum is bounded beforehand; big integers are used where it might not fit.
 pub(crate) fn sum_of_products(
     variables: usize,
-    products: &[Product<'_>],
+    products: &[Multiplication<'_>],
     limit: usize,
     arithmetic: Arithmetic,
 ) -> Result<Polynomial, SumError> {
-    let used: Vec<&Product<'_>> = products
+    let used: Vec<&Multiplication<'_>> = products
         .iter()
         .filter(|p| !p.left.is_zero() && !p.right.is_zero() && !p.factor.is_zero())
         .collect();
@@ -102,25 +102,25 @@ pub(crate) fn sum_of_products(
 }
 
 fn run<K: Key>(
-    products: &[&Product<'_>],
+    products: &[&Multiplication<'_>],
     small: Option<SmallPlan>,
     keys: &[(&[K], &[K])],
     (limit, arithmetic): (usize, Arithmetic),
-) -> Result<(Vec<K>, Coefficients), usize> {
+) -> Result<(Vec<K>, Fractions), usize> {
     if let Some(plan) = small {
         let lists: Vec<(i128, &[i128], &[i128])> = products
             .iter()
             .zip(&plan.factors)
             .filter_map(|(p, factor)| match (&p.left.values, &p.right.values) {
                 (
-                    Coefficients::Small { numerators: a, .. },
-                    Coefficients::Small { numerators: b, .. },
+                    Fractions::Small { numerators: a, .. },
+                    Fractions::Small { numerators: b, .. },
                 ) => Some((*factor, a.as_slice(), b.as_slice())),
                 _ => None,
             })
             .collect();
         let (keys, values) = accumulate::<K, i128>(keys, &lists, limit)?;
-        return Ok((keys, Coefficients::small(values, plan.denominator)));
+        return Ok((keys, Fractions::small(values, plan.denominator)));
     }
     if arithmetic == Arithmetic::Rounded {
         let rounded = |side: &Polynomial| -> Option<Vec<Rounded>> {
@@ -128,13 +128,14 @@ fn run<K: Key>(
         };
         let operands = products.iter().map(|p| Some((rounded(p.left)?, rounded(p.right)?)));
         if let Some(operands) = operands.collect::<Option<Vec<_>>>() {
-            let factor = |p: &&Product<'_>| Rounded::new(p.factor.to_f64().unwrap_or(f64::NAN));
+            let factor =
+                |p: &&Multiplication<'_>| Rounded::new(p.factor.to_f64().unwrap_or(f64::NAN));
             let lists = products.iter().zip(&operands);
             let lists: Vec<(Rounded, &[Rounded], &[Rounded])> =
                 lists.map(|(p, (a, b))| (factor(p), a.as_slice(), b.as_slice())).collect();
             let (keys, sums) = accumulate::<K, Rounded>(keys, &lists, limit)?;
             let sums: Vec<f64> = sums.into_iter().map(|rounded| rounded.sum).collect();
-            if let Some(values) = Coefficients::of_f64s(&sums) {
+            if let Some(values) = Fractions::of_f64s(&sums) {
                 return Ok((keys, values));
             }
         }
@@ -150,7 +151,7 @@ fn run<K: Key>(
         .map(|((a, b), factor)| (factor.clone(), a.as_slice(), b.as_slice()))
         .collect();
     let (keys, values) = accumulate::<K, BigInt>(keys, &lists, limit)?;
-    Ok((keys, Coefficients::big(values, plan.denominator)))
+    Ok((keys, Fractions::big(values, plan.denominator)))
 }
 
 /// The arithmetic of one kind of number.
@@ -204,7 +205,7 @@ pub(super) fn accumulate<K: Key, N: Numerator>(
     limit: usize,
 ) -> Result<(Vec<K>, Vec<N>), usize> {
     let expected = keys.iter().map(|(a, b)| a.len() + b.len()).max().unwrap_or(0);
-    let mut table = Table::new(expected);
+    let mut table = IndexSet::new(expected);
     let mut sums: Vec<N> = Vec::with_capacity(expected);
     let mut index = 0;
     while index < keys.len() {
@@ -248,7 +249,7 @@ fn sort<K: Key, N: Numerator>(keys: Vec<K>, sums: Vec<N>) -> (Vec<K>, Vec<N>) {
 }
 
 /// A summand factor · left · right.
-pub(crate) struct Product<'a> {
+pub(crate) struct Multiplication<'a> {
     pub(crate) factor: Rational,
     pub(crate) left: &'a Polynomial,
     pub(crate) right: &'a Polynomial,
@@ -261,14 +262,12 @@ pub(super) struct SmallPlan {
 }
 
 impl SmallPlan {
-    pub(super) fn new(products: &[&Product<'_>]) -> Option<Self> {
+    pub(super) fn new(products: &[&Multiplication<'_>]) -> Option<Self> {
         let mut denominator = 1_i128;
         let mut parts = Vec::with_capacity(products.len());
         for product in products {
-            let (
-                Coefficients::Small { denominator: a, .. },
-                Coefficients::Small { denominator: b, .. },
-            ) = (&product.left.values, &product.right.values)
+            let (Fractions::Small { denominator: a, .. }, Fractions::Small { denominator: b, .. }) =
+                (&product.left.values, &product.right.values)
             else {
                 return None;
             };
@@ -280,7 +279,7 @@ impl SmallPlan {
         let mut largest = 0_u128;
         for (product, part) in products.iter().zip(parts) {
             let factor = (denominator / part).checked_mul(product.factor.numer().to_i128()?)?;
-            let (Coefficients::Small { bits: a, .. }, Coefficients::Small { bits: b, .. }) =
+            let (Fractions::Small { bits: a, .. }, Fractions::Small { bits: b, .. }) =
                 (&product.left.values, &product.right.values)
             else {
                 return None;
@@ -305,7 +304,7 @@ struct LargePlan {
 }
 
 impl LargePlan {
-    fn new(products: &[&Product<'_>]) -> Self {
+    fn new(products: &[&Multiplication<'_>]) -> Self {
         let mut denominator = BigInt::one();
         let mut parts = Vec::with_capacity(products.len());
         for product in products {
@@ -317,7 +316,7 @@ impl LargePlan {
             }
             parts.push(part);
         }
-        let factor = |(product, part): (&&Product<'_>, BigInt)| {
+        let factor = |(product, part): (&&Multiplication<'_>, BigInt)| {
             product.factor.numer() * (&denominator / part)
         };
         let factors = products.iter().zip(parts).map(factor).collect();
@@ -328,13 +327,13 @@ impl LargePlan {
 const EMPTY: u32 = u32::MAX;
 
 /// Monomials in order of insertion, found by hashing.
-pub(crate) struct Table<K> {
+pub(crate) struct IndexSet<K> {
     pub(crate) keys: Vec<K>,
     slots: Vec<u32>,
     shift: u32,
 }
 
-impl<K: Key> Table<K> {
+impl<K: Key> IndexSet<K> {
     /// A table with room for about `expected` monomials.
     pub(crate) fn new(expected: usize) -> Self {
         let bits = usize::BITS - expected.clamp(8, 1 << 20).leading_zeros() + 1;

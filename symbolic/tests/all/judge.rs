@@ -1,7 +1,7 @@
 //! The judge against exact references: end states of motions, and steps that are wrong on purpose.
 
 use coadjoint_symbolic::hamilton_jacobi::{TermLimit, derive};
-use coadjoint_symbolic::judge::{Branch, DoubleDouble, Inside, Judge, Motion};
+use coadjoint_symbolic::judge::{Branch, DoubleDouble, Enclosure, Inside, Judge};
 use coadjoint_symbolic::lie::{Chart, catalogue::lookup};
 use coadjoint_symbolic::number::Rational;
 use coadjoint_symbolic::number::ratio;
@@ -58,14 +58,14 @@ fn motions_reach_the_references_end_states() {
         let mut setting = judge.at(step, &[]).unwrap();
         let vector =
             |key: &str| entry[key].as_array().unwrap().iter().map(number).collect::<Vec<_>>();
-        let mut motion = Motion::new(&vector("momentum0"));
+        let mut motion = Enclosure::new(&vector("momentum0"));
         let size = (1..).find(|n| n * n >= algebra.basis().unwrap()[0].rows().pow(2)).unwrap();
         let unit: Vec<f64> =
             (0..size * size).map(|at| f64::from(u8::from(at / size == at % size))).collect();
         let mut element = unit.clone();
         for _ in 0..steps {
             let before = motion.momentum();
-            let mut one = Motion::new(&before);
+            let mut one = Enclosure::new(&before);
             one.step(&mut setting, None, UNIT).unwrap();
             motion.step(&mut setting, None, UNIT).unwrap();
             // The product of rounded elements, for the comparison only.

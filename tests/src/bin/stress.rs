@@ -7,7 +7,7 @@
 
 use std::process::ExitCode;
 
-use coadjoint_tests::stress::{Options, report, run, times};
+use coadjoint_tests::stress::{Campaign, report, run, times};
 
 fn main() -> ExitCode {
     match options() {
@@ -33,8 +33,8 @@ fn main() -> ExitCode {
     }
 }
 
-fn options() -> Result<Options, String> {
-    let mut options = Options {
+fn options() -> Result<Campaign, String> {
+    let mut options = Campaign {
         steps: 100_000,
         seed: 1,
         only: String::new(),

@@ -66,16 +66,16 @@ impl<V: Coordinates<f64>> Energy<V> for Drawn {
 }
 
 /// The programs of a kernel, for any values of the numbers of a [`Drawn`].
-struct Programs {
+struct Routine {
     step: Step,
     observation: Observation,
 }
 
 /// By the name of the group and the number of nodes.
-type Known = BTreeMap<(&'static str, usize), Arc<Programs>>;
+type Known = BTreeMap<(&'static str, usize), Arc<Routine>>;
 
 /// Those on a group of the catalogue, by its name and a number of nodes, once they were asked for.
-fn programs(group: &'static str, nodes: usize) -> Arc<Programs> {
+fn programs(group: &'static str, nodes: usize) -> Arc<Routine> {
     static KNOWN: LazyLock<Mutex<Known>> = LazyLock::new(Mutex::default);
     let mut known = KNOWN.lock().expect("a whole map");
     let build = || {
@@ -95,14 +95,14 @@ fn programs(group: &'static str, nodes: usize) -> Arc<Programs> {
             panic!("a root is no polynomial")
         };
         let step = Origin::Collocation(smooth).step(Precision::Double).expect("a kernel");
-        Arc::new(Programs { observation: Observation::new(&step), step })
+        Arc::new(Routine { observation: Observation::new(&step), step })
     };
     Arc::clone(known.entry((group, nodes)).or_insert_with(build))
 }
 
 /// A kernel's steps, by the interpreter.
 struct Interpreted {
-    programs: Arc<Programs>,
+    programs: Arc<Routine>,
     slots: Vec<f64>,
     element: Vec<f64>,
 }

@@ -7,7 +7,7 @@ use coadjoint_codegen::lie::{Chart, LieAlgebra};
 use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::poly::Polynomial;
 
-use super::family::Energy::{Body, Squares, Tensor, Top};
+use super::family::Distribution::{Body, Squares, Tensor, Top};
 use super::family::{Family, Instance, Maker, Recipe};
 use super::random::Random;
 use super::runtime::{

@@ -13,12 +13,12 @@ use super::runtime::{Steps, Terms};
 use super::verdict::Tally;
 
 /// A Hamiltonian, up to its parameters, with its exact series and its judge.
-pub struct Model {
+pub struct Template {
     pub judge: Judge,
-    pub draw: Box<dyn Fn(&mut Random) -> System + Send + Sync>,
+    pub draw: Box<dyn Fn(&mut Random) -> Realisation + Send + Sync>,
 }
 
-pub struct System {
+pub struct Realisation {
     pub text: String,
     pub velocity: Vec<Polynomial>,
     /// Whether H is homogeneous quadratic, so that |μ| may be of any size.
@@ -55,7 +55,7 @@ type Judged = Box<dyn Fn(u64, &mut Tally) + Send + Sync>;
 
 pub struct Family {
     pub name: String,
-    pub models: Vec<Model>,
+    pub models: Vec<Template>,
     /// How far log₁₀|μ| goes to either side of 0.
     pub decades: f64,
     /// How many of all instances are of this family, relative to the others: where steps take long, few.
@@ -76,7 +76,7 @@ impl Family {
 
 /// How the Hamiltonians of a family are drawn.
 #[derive(Clone, Copy, Debug)]
-pub enum Energy {
+pub enum Distribution {
     /// A free rigid body: a triangle of inertias with ratios to 10.
     Body,
     /// A body with a full tensor of inertia.
@@ -107,29 +107,29 @@ pub fn inertias(random: &mut Random) -> [i64; 3] {
     }
 }
 
-pub fn energy(kind: Energy, dim: usize, random: &mut Random) -> (Polynomial, Option<f64>) {
+pub fn energy(kind: Distribution, dim: usize, random: &mut Random) -> (Polynomial, Option<f64>) {
     let mut least = None;
     let product =
         |i: usize, j: usize, n: i64, d: i64| (vec![(i as u32, 1), (j as u32, 1)], ratio(n, d));
     let mut terms = Vec::new();
     match kind {
-        Energy::Body | Energy::Top | Energy::Tensor => {
+        Distribution::Body | Distribution::Top | Distribution::Tensor => {
             let inertia = inertias(random);
             terms.extend((0..dim.min(3)).map(|i| product(i, i, 32, inertia[i])));
-            if matches!(kind, Energy::Body) {
+            if matches!(kind, Distribution::Body) {
                 // H = ½ Σ μᵢ²/Iᵢ
                 least = inertia.iter().min().map(|&least| least as f64 / 64.0);
             }
-            if matches!(kind, Energy::Tensor) {
+            if matches!(kind, Distribution::Tensor) {
                 for (i, j) in [(0, 1), (0, 2), (1, 2)] {
                     terms.push(product(i, j, random.below(9) as i64 - 4, 40));
                 }
             }
-            if matches!(kind, Energy::Top) {
+            if matches!(kind, Distribution::Top) {
                 terms.push((vec![(dim as u32 - 1, 1)], ratio(1 + random.below(8) as i64, 4)));
             }
         }
-        Energy::Squares => {
+        Distribution::Squares => {
             for i in 0..dim {
                 terms.push(product(i, i, 1, 2 + random.below(7) as i64));
             }
@@ -167,7 +167,7 @@ pub fn folded(orders: &[(u32, Polynomial)], h: f64, single: bool) -> Option<Term
 pub struct Recipe {
     pub name: &'static str,
     group: &'static str,
-    energy: Energy,
+    energy: Distribution,
     truncations: &'static [usize],
     chart: Chart,
     /// How many Hamiltonians there are for each truncation.
@@ -187,7 +187,7 @@ impl Recipe {
     pub fn new(
         name: &'static str,
         group: &'static str,
-        energy: Energy,
+        energy: Distribution,
         truncations: &'static [usize],
     ) -> Self {
         Self {
@@ -262,7 +262,7 @@ impl Recipe {
         truncation: usize,
         random: &mut Random,
         make: Maker,
-    ) -> Model {
+    ) -> Template {
         let (h, least) = energy(self.energy, algebra.dim(), random);
         let series =
             derive(algebra, self.chart, &h, truncation, TermLimit::default()).expect("a series");
@@ -279,7 +279,7 @@ impl Recipe {
             let steps = move |step: f64, random: &mut Random| {
                 make(&algebra, folded(&orders, step, single)?, step, random)
             };
-            System {
+            Realisation {
                 text: text.clone(),
                 velocity: velocity.clone(),
                 homogeneous,
@@ -288,6 +288,6 @@ impl Recipe {
                 steps: Box::new(steps),
             }
         };
-        Model { judge, draw: Box::new(draw) }
+        Template { judge, draw: Box::new(draw) }
     }
 }

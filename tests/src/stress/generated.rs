@@ -6,7 +6,7 @@ use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::parse::rust;
 use coadjoint_codegen::poly::Polynomial;
 
-use super::family::{Family, Instance, Model, System, inertias};
+use super::family::{Family, Instance, Realisation, Template, inertias};
 use super::random::Random;
 use super::runtime::{MatrixFree, Runner};
 
@@ -61,7 +61,7 @@ fn in_a_comoving_frame(h: f64, inertia: [f64; 3]) -> Option<Instance> {
 
 /// Bodies of any size that obey the triangle inequality, with ratios to 10. Where `must`, steps with h|μ|/I < 1.5 must be
 /// accepted.
-fn model([arguments, function]: [&'static str; 2], must: bool, make: Make) -> Model {
+fn model([arguments, function]: [&'static str; 2], must: bool, make: Make) -> Template {
     let source = syn::parse_str(function).expect("a function");
     let problem = rust::lie_poisson(arguments.parse().expect("arguments"), &source);
     let problem = problem.expect("a problem");
@@ -74,7 +74,7 @@ fn model([arguments, function]: [&'static str; 2], must: bool, make: Make) -> Mo
             Polynomial::variable(3, i).scale(&inverse)
         };
         let least = inertia.iter().copied().fold(f64::INFINITY, f64::min);
-        System {
+        Realisation {
             text: format!("{arguments}, {function}, {inertia:?}"),
             velocity: (0..3).map(velocity).collect(),
             homogeneous: true,
@@ -83,7 +83,7 @@ fn model([arguments, function]: [&'static str; 2], must: bool, make: Make) -> Mo
             steps: Box::new(move |h, _| make(h, inertia)),
         }
     };
-    Model { judge, draw: Box::new(draw) }
+    Template { judge, draw: Box::new(draw) }
 }
 
 pub fn families(only: &str) -> Vec<Family> {

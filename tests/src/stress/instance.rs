@@ -1,10 +1,10 @@
 //! One system with one step size: momenta are drawn, steps made and judged.
 
-use coadjoint_codegen::judge::{Branch, Inside, Motion, Point, RightSolution, Setting, Stop};
+use coadjoint_codegen::judge::{Branch, Enclosure, Inside, Point, RightSolution, Setting, Stop};
 
-use super::family::{Family, Instance, System};
+use super::family::{Family, Instance, Realisation};
 use super::random::Random;
-use super::runtime::{Outcome, Steps, Way};
+use super::runtime::{Steps, Transition, Way};
 use super::verdict::{Tally, Wrong};
 
 /// Momenta drawn of one system and step size.
@@ -21,7 +21,7 @@ const SPOILT: usize = 64;
 struct Case<'a> {
     family: &'a str,
     seed: u64,
-    system: &'a System,
+    system: &'a Realisation,
     h: f64,
     steps: &'a dyn Steps,
 }
@@ -71,7 +71,7 @@ pub fn run(family: &Family, seed: u64, tally: &mut Tally) {
 }
 
 /// A step size, by way of the size that momenta are to have, and the steps of it.
-fn setting(family: &Family, system: &System, random: &mut Random) -> Option<(f64, Instance)> {
+fn setting(family: &Family, system: &Realisation, random: &mut Random) -> Option<(f64, Instance)> {
     for _ in 0..20 {
         let decades = if random.one_in(2) { family.decades.min(2.0) } else { family.decades };
         let size = 10_f64.powf(random.between(-decades, decades));
@@ -88,7 +88,7 @@ fn setting(family: &Family, system: &System, random: &mut Random) -> Option<(f64
     None
 }
 
-fn speed(system: &System, mu: &[f64]) -> f64 {
+fn speed(system: &Realisation, mu: &[f64]) -> f64 {
     system.velocity.iter().map(|v| v.evaluate(mu)).fold(0.0, f64::hypot)
 }
 
@@ -320,7 +320,7 @@ fn fault(point: &Point<'_>, inside: Inside, unit: f64) -> Option<(Wrong, String)
 fn judge_outcome(
     case: &Case<'_>,
     judge: &mut Setting<'_>,
-    outcome: &Outcome,
+    outcome: &Transition,
     mut right: Option<RightSolution>,
     steps: u64,
     way: &str,
@@ -350,7 +350,7 @@ fn judge_outcome(
     }
     // Where it should be after one step, two, …
     let unit = case.steps.unit();
-    let mut walk = Motion::new(mu);
+    let mut walk = Enclosure::new(mu);
     let mut best: Option<f64> = None;
     let mut cut = false;
     for done in 0..=steps {

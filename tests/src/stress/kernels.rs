@@ -12,9 +12,9 @@ use coadjoint_codegen::system::Options;
 use coadjoint_program::WIDTH;
 use nalgebra::DVector;
 
-use super::family::{Family, Instance, Model, System};
+use super::family::{Family, Instance, Realisation, Template};
 use super::random::Random;
-use super::runtime::{Outcome, State, Steps, Way};
+use super::runtime::{Snapshot, Steps, Transition, Way};
 use crate::backends::{AnyStepper, Backend, matrix_of, numbers_of};
 use crate::bridge::matrix_group;
 use crate::kernels::problem;
@@ -66,18 +66,18 @@ impl Runner {
         numbers_of(&self.subject.step, group, &group.exp(&DVector::from_column_slice(at)))
     }
 
-    fn state(&self, g: &[f64], mu: &[f64]) -> State {
+    fn state(&self, g: &[f64], mu: &[f64]) -> Snapshot {
         let bits: Vec<u64> = g.iter().chain(mu).map(|value| value.to_bits()).collect();
-        State {
+        Snapshot {
             element: matrix_of(self.subject.step.kernel(), g),
             momentum: mu.to_vec(),
             text: format!("{bits:x?}"),
         }
     }
 
-    fn outcome(&self, before: State, g: &[f64], mu: &[f64], refused: bool) -> Outcome {
+    fn outcome(&self, before: Snapshot, g: &[f64], mu: &[f64], refused: bool) -> Transition {
         let error = refused.then(|| "the kernel refuses the step".to_owned());
-        Outcome { before, after: self.state(g, mu), error }
+        Transition { before, after: self.state(g, mu), error }
     }
 }
 
@@ -87,7 +87,7 @@ impl Steps for Runner {
         found.accepted.then_some(found.increment).ok_or("the kernel refuses the step".to_owned())
     }
 
-    fn go(&self, way: Way, at: &[f64], mu: &[f64]) -> Option<Outcome> {
+    fn go(&self, way: Way, at: &[f64], mu: &[f64]) -> Option<Transition> {
         let steps = match way {
             Way::One => 1,
             Way::Many(steps) => steps,
@@ -98,7 +98,7 @@ impl Steps for Runner {
         Some(self.outcome(before, &g, &mu, made < steps))
     }
 
-    fn together(&self, starts: &[(Vec<f64>, Vec<f64>)], steps: u64) -> Option<Vec<Outcome>> {
+    fn together(&self, starts: &[(Vec<f64>, Vec<f64>)], steps: u64) -> Option<Vec<Transition>> {
         let (m, n) = (self.subject.step.kernel().element, self.subject.step.kernel().dim);
         let mut outcomes = Vec::new();
         for starts in starts.chunks(WIDTH) {
@@ -129,7 +129,7 @@ impl Steps for Runner {
     }
 }
 
-fn model(system: (&str, &str, &str, &str, usize), backend: Backend) -> Model {
+fn model(system: (&str, &str, &str, &str, usize), backend: Backend) -> Template {
     let (group, hamiltonian, chart, frame, truncation) = system;
     let settings = format!("chart = {chart:?}\nframe = {frame:?}\n");
     let options = Options { truncation: Some(truncation), ..Options::default() };
@@ -151,7 +151,7 @@ fn model(system: (&str, &str, &str, &str, usize), backend: Backend) -> Model {
             let (stepper, subject) = (subject.stepper()?, Arc::clone(&subject));
             Some(Instance::series(Runner { subject, stepper, slots }))
         };
-        System {
+        Realisation {
             text: text.clone(),
             velocity: velocity.clone(),
             homogeneous: true,
@@ -160,7 +160,7 @@ fn model(system: (&str, &str, &str, &str, usize), backend: Backend) -> Model {
             steps: Box::new(steps),
         }
     };
-    Model { judge, draw: Box::new(draw) }
+    Template { judge, draw: Box::new(draw) }
 }
 
 pub fn families(only: &str) -> Vec<Family> {

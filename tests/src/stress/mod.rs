@@ -23,7 +23,7 @@ use std::time::Instant;
 use family::Family;
 
 #[derive(Clone, Debug)]
-pub struct Options {
+pub struct Campaign {
     /// Steps to make, about.
     pub steps: u64,
     pub seed: u64,
@@ -37,7 +37,7 @@ pub struct Options {
 }
 
 /// Runs the stress and counts, family by family.
-pub fn run(options: &Options) -> Vec<(String, Tally)> {
+pub fn run(options: &Campaign) -> Vec<(String, Tally)> {
     let families = families::families(&options.only);
     if families.is_empty() {
         return Vec::new();
@@ -82,7 +82,7 @@ pub fn run(options: &Options) -> Vec<(String, Tally)> {
 }
 
 /// Families in the order of their instances, each as often as its weight says, spread evenly.
-fn schedule(families: &[Family], options: &Options) -> Vec<usize> {
+fn schedule(families: &[Family], options: &Campaign) -> Vec<usize> {
     if options.even || options.instance.is_some() {
         // The longest family goes first, or all wait for it at the end.
         let mut order: Vec<_> = (0..families.len()).collect();

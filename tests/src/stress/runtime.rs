@@ -20,24 +20,24 @@ pub enum Way {
 
 /// A state as numbers: the group element's matrix, row by row, and the momentum.
 #[derive(Clone, Debug)]
-pub struct State {
+pub struct Snapshot {
     pub element: Vec<f64>,
     pub momentum: Vec<f64>,
     /// Everything the runtime's own state holds, as text that tells every bit of finite numbers.
     pub text: String,
 }
 
-impl State {
+impl Snapshot {
     pub fn is_finite(&self) -> bool {
         self.element.iter().chain(&self.momentum).all(|v| v.is_finite())
     }
 }
 
 #[derive(Clone, Debug)]
-pub struct Outcome {
-    pub before: State,
+pub struct Transition {
+    pub before: Snapshot,
     /// The state after, whatever came.
-    pub after: State,
+    pub after: Snapshot,
     pub error: Option<String>,
 }
 
@@ -47,10 +47,10 @@ pub trait Steps {
     fn solve(&self, mu: &[f64]) -> Result<Vec<f64>, String>;
 
     /// Steps from (exp(at), μ); `None` where these groups have no such steps.
-    fn go(&self, way: Way, at: &[f64], mu: &[f64]) -> Option<Outcome>;
+    fn go(&self, way: Way, at: &[f64], mu: &[f64]) -> Option<Transition>;
 
     /// The same steps of several states at once, in lanes; `None` where there are none.
-    fn together(&self, starts: &[(Vec<f64>, Vec<f64>)], steps: u64) -> Option<Vec<Outcome>>;
+    fn together(&self, starts: &[(Vec<f64>, Vec<f64>)], steps: u64) -> Option<Vec<Transition>>;
 
     /// The unit roundoff of the scalar.
     fn unit(&self) -> f64;
@@ -95,13 +95,13 @@ impl<S: Integrator> Runner<S> {
         Phase::new(self.steps.group().exp(&self.vector(at)), self.vector(mu))
     }
 
-    fn state(&self, phase: &PhaseOf<S>) -> State {
+    fn state(&self, phase: &PhaseOf<S>) -> Snapshot {
         let group = self.steps.group();
         let size = group.matrix_size();
         let element = (0..size * size).map(|at| {
             group.matrix_entry(&phase.group_element, at / size, at % size).largest_lane()
         });
-        State {
+        Snapshot {
             element: element.collect(),
             momentum: entries(&phase.momentum),
             text: format!("{phase:?}"),
@@ -121,7 +121,7 @@ impl<S: Integrator> Steps for Runner<S> {
         }
     }
 
-    fn go(&self, way: Way, at: &[f64], mu: &[f64]) -> Option<Outcome> {
+    fn go(&self, way: Way, at: &[f64], mu: &[f64]) -> Option<Transition> {
         let mut phase = self.start(at, mu);
         let before = self.state(&phase);
         let result = match way {
@@ -131,10 +131,10 @@ impl<S: Integrator> Steps for Runner<S> {
                 .map_err(|stopped| stopped.error),
         };
         let error = result.err().map(|error| error.to_string());
-        Some(Outcome { before, after: self.state(&phase), error })
+        Some(Transition { before, after: self.state(&phase), error })
     }
 
-    fn together(&self, starts: &[(Vec<f64>, Vec<f64>)], steps: u64) -> Option<Vec<Outcome>> {
+    fn together(&self, starts: &[(Vec<f64>, Vec<f64>)], steps: u64) -> Option<Vec<Transition>> {
         let run = self.together?;
         let mut phases: Vec<_> = starts.iter().map(|(at, mu)| self.start(at, mu)).collect();
         let before: Vec<_> = phases.iter().map(|phase| self.state(phase)).collect();
@@ -142,7 +142,7 @@ impl<S: Integrator> Steps for Runner<S> {
         let outcomes =
             before.into_iter().zip(&phases).enumerate().map(|(index, (before, phase))| {
                 let error = failures.iter().find(|f| f.0 == index).map(|f| f.1.clone());
-                Outcome { before, after: self.state(phase), error }
+                Transition { before, after: self.state(phase), error }
             });
         Some(outcomes.collect())
     }

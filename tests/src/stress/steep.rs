@@ -27,7 +27,7 @@ enum Profile {
 
 /// `height`·f(u), u = `width`·(Σ `slope`ᵢ μᵢ − `offset`)
 #[derive(Clone, Debug)]
-struct Term {
+struct Ridge {
     shape: Profile,
     height: f64,
     width: f64,
@@ -35,7 +35,7 @@ struct Term {
     offset: f64,
 }
 
-impl Term {
+impl Ridge {
     fn argument<V: Coordinates<f64>>(&self, m: &V) -> f64 {
         self.width * ((0..m.dim()).map(|i| self.slope[i] * m[i]).sum::<f64>() - self.offset)
     }
@@ -92,7 +92,7 @@ impl Term {
 #[derive(Clone, Debug)]
 struct Steep {
     form: Vec<Vec<f64>>,
-    terms: Vec<Term>,
+    terms: Vec<Ridge>,
 }
 
 impl<V: Coordinates<f64>> Energy<V> for Steep {
@@ -153,7 +153,7 @@ fn draw<G: LieGroup<Scalar = f64>>(
         let height =
             10_f64.powf(random.between(-3.0, 0.0)) * if random.one_in(2) { -1.0 } else { 1.0 };
         let width = if edges { 1.0 } else { 10_f64.powf(random.between(-0.5, 1.5)) };
-        energy.terms.push(Term { shape, height, width, slope, offset: 0.0 });
+        energy.terms.push(Ridge { shape, height, width, slope, offset: 0.0 });
     }
     let quadratic = Steep { terms: Vec::new(), ..energy.clone() };
     let mut velocity: G::Vector = quadratic.gradient(0.0, &mu);

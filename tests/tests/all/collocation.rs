@@ -4,7 +4,7 @@
 use coadjoint::collocation::{Collocation, Energy, Undefined};
 use coadjoint::groups::{Coordinates, SE2, SL2, SU2};
 use coadjoint::{LieGroup, Phase, SE3, SO3, StepError};
-use coadjoint_tests::energies::{Any, Driven, Root, SIX, Six, Spin, THREE, Top};
+use coadjoint_tests::energies::{Any, Modulated, Root, SIX, Six, Spin, THREE, Top};
 use coadjoint_tests::stress::Drawn;
 use nalgebra::{Vector3, Vector6};
 
@@ -88,9 +88,9 @@ fn orders_are_twice_the_number_of_nodes() {
         ("spin 2", order::<_, _, 2>(&SO3::new(), Spin, &spin, [0.1, 0.05]), 4.0),
         ("spin 3", order::<_, _, 3>(&SU2::new(), Spin, &spin, [0.2, 0.1]), 6.0),
         ("spin 4", order::<_, _, 4>(&SO3::new(), Spin, &spin, [0.6, 0.4]), 8.0),
-        ("driven 2", order::<_, _, 2>(&SO3::new(), Driven, &three, [0.1, 0.05]), 4.0),
-        ("driven 3", order::<_, _, 3>(&SO3::new(), Driven, &three, [0.1, 0.05]), 6.0),
-        ("driven 4", order::<_, _, 4>(&SO3::new(), Driven, &three, [0.15, 0.1]), 8.0),
+        ("driven 2", order::<_, _, 2>(&SO3::new(), Modulated, &three, [0.1, 0.05]), 4.0),
+        ("driven 3", order::<_, _, 3>(&SO3::new(), Modulated, &three, [0.1, 0.05]), 6.0),
+        ("driven 4", order::<_, _, 4>(&SO3::new(), Modulated, &three, [0.15, 0.1]), 8.0),
         ("top 5", order::<_, _, 5>(&SE3::new(), Top, &six, [0.8, 0.6]), 10.0),
         ("any 4", order::<_, _, 4>(&SE2::new(), Any, &three, [0.6, 0.48]), 8.0),
         ("tables 5", order::<_, _, 5>(&SL2::new(), Any, &three, [0.6, 0.48]), 10.0),

@@ -7,7 +7,7 @@ use coadjoint_geometry::group::Group;
 use coadjoint_geometry::motion::Motions;
 use coadjoint_geometry::number::Number;
 use coadjoint_geometry::rotation::Quaternions;
-use coadjoint_geometry::row::Row;
+use coadjoint_geometry::row::Tuple;
 use coadjoint_tests::stress::Random;
 
 /// cos(θ/2), sin(θ/2)/θ, (1 − cos θ)/θ² and (θ − sin θ)/θ³ by the library's functions, for θ that is not small.
@@ -52,8 +52,8 @@ fn rows_have_the_bits_of_their_numbers() {
         let mut vector = |size: f64| std::array::from_fn(|_| size * random.between(-1.0, 1.0));
         let x: [[f64; 6]; 3] = [vector(0.5), vector(4.0), vector(1.5)];
         let mu: [[f64; 6]; 3] = [vector(1.0), vector(1.0), vector(1.0)];
-        let row = |list: [[f64; 6]; 3]| -> [Row<f64, 3>; 6] {
-            std::array::from_fn(|k| Row(std::array::from_fn(|i| list[i][k])))
+        let row = |list: [[f64; 6]; 3]| -> [Tuple<f64, 3>; 6] {
+            std::array::from_fn(|k| Tuple(std::array::from_fn(|i| list[i][k])))
         };
         let together = Motions::pull_back(row(x), row(mu), Length::Any);
         let rates = Motions::rates(row(x), row(mu), row(mu), 6);

@@ -3,10 +3,10 @@
 
 use coadjoint::collocation::{Collocation, Energy};
 use coadjoint::{LieGroup, Phase, SE3, SO3};
-use coadjoint_codegen::judge::{DoubleDouble, Judge, JudgeError, Motion};
+use coadjoint_codegen::judge::{DoubleDouble, Enclosure, Judge, JudgeError};
 use coadjoint_codegen::smooth::Smooth;
 use coadjoint_tests::bridge::named;
-use coadjoint_tests::energies::{Any, Driven, Root, SIX, Six, THREE};
+use coadjoint_tests::energies::{Any, Modulated, Root, SIX, Six, THREE};
 use coadjoint_tests::kernels::smooth;
 
 const ROOT: &str = "sqrt(1 + a^2/1.5 + b^2/2 + c^2/2.5) + c^3/10";
@@ -67,7 +67,7 @@ where
     let mut step = Collocation::<_, _, M>::new(group.clone(), energy, h).unwrap();
     let mut state = Phase::<G>::new(group.identity(), start);
     step.advance(&mut state, START).unwrap();
-    let mut motion = Motion::new(mu);
+    let mut motion = Enclosure::new(mu);
     let mut setting = judge.at(h, &[]).unwrap();
     setting.start(START, 0);
     motion.step(&mut setting, None, f64::EPSILON / 2.0).unwrap();
@@ -86,7 +86,7 @@ fn steps_of_the_runtime_are_those_of_the_judge_to_rounding() {
         let judge = Judge::of_smooth(&smooth("SO3", ROOT, 7)).unwrap();
         within(deviation::<SO3, Root, 4>(&SO3::new(), Root, &judge, case));
         let judge = Judge::of_smooth(&smooth("SO3", DRIVEN, 5)).unwrap();
-        within(deviation::<SO3, Driven, 3>(&SO3::new(), Driven, &judge, case));
+        within(deviation::<SO3, Modulated, 3>(&SO3::new(), Modulated, &judge, case));
         let judge = Judge::of_smooth(&six(4)).unwrap();
         within(deviation::<SE3, Six, 4>(&SE3::new(), Six, &judge, (h, &SIX)));
         // By tables.

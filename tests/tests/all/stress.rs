@@ -1,11 +1,11 @@
 //! A short run of the stress program: no accepted step is wrong, and none is refused that must not be.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use coadjoint_tests::stress::{Options, report, run};
+use coadjoint_tests::stress::{Campaign, report, run};
 
 #[test]
 fn no_wrong_step_is_accepted() {
-    let options = Options {
+    let options = Campaign {
         steps: 2_688,
         seed: 20,
         only: String::new(),
@@ -35,7 +35,7 @@ fn the_result_does_not_depend_on_threads() {
     let with = |threads| {
         let only = "so3-cayley".to_owned();
         let tallies =
-            run(&Options { steps: 600, seed: 3, only, threads, instance: None, even: true });
+            run(&Campaign { steps: 600, seed: 3, only, threads, instance: None, even: true });
         report(&tallies)
     };
     assert_eq!(with(1), with(3));

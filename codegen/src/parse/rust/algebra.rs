@@ -3,7 +3,7 @@
 
 use proc_macro2::TokenStream;
 use quote::ToTokens;
-use syn::{Expr, ExprArray, ExprCall, Lit};
+use syn::{Expr, ExprArray, ExprCall};
 
 use crate::diagnostic::{Diagnostics, Mistake, Span};
 use crate::lie::{LieAlgebra, LieAlgebraError, RationalMatrix};
@@ -76,15 +76,11 @@ fn entry<'a>(argument: &'a Expr, diagnostics: &Diagnostics) -> Option<(String, &
     None
 }
 
-/// The content of a string literal, or the tokens themselves.
-fn text(expression: &Expr) -> String {
-    match expression {
-        Expr::Lit(literal) => match &literal.lit {
-            Lit::Str(text) => text.value(),
-            other => other.to_token_stream().to_string(),
-        },
-        other => other.to_token_stream().to_string().replace(' ', ""),
-    }
+/// The text of a value: a string literal's content, or the tokens themselves.
+pub(super) fn text(value: &impl ToTokens) -> String {
+    let value = value.to_token_stream();
+    let text = value.to_string().replace(' ', "");
+    syn::parse2(value).map_or(text, |literal: syn::LitStr| literal.value())
 }
 
 fn matrix(expression: &Expr, diagnostics: &Diagnostics) -> Option<RationalMatrix> {

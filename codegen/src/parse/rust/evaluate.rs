@@ -1,36 +1,46 @@
 //! Running a function's expressions with symbols.
 
+use std::ops::Range;
 use std::rc::Rc;
 
-use syn::{Block, Expr, ExprCall, Item, Lit, LocalInit, Member, Pat, Path, Stmt, UnOp};
+use syn::{
+    BinOp, Block, Expr, ExprBinary, ExprCall, ExprRange, FnArg, Item, Lit, LocalInit, Member, Pat,
+    Path, PathSegment, RangeLimits, Stmt, UnOp,
+};
 
 use crate::diagnostic::{Diagnostics, Mistake, Span, nearest};
 use crate::expr::{Arena, ExprId, Node};
 use crate::number::{Rational, integer};
 use crate::parse::decimal;
-use crate::parse::rust::signature::{sized, sizes};
-use crate::parse::rust::value::{Matrix, Value};
+use crate::parse::rust::signature::{bare, is_f64, of_segment};
+use crate::parse::rust::value::{Aggregate, Value};
 use crate::problem::Shape;
 
 /// The most operations a function may run through.
 const MOST_OPERATIONS: usize = 200_000;
 /// The most calls of closures and functions inside each other.
-pub(super) const DEEPEST_CALL: usize = 24;
+const DEEPEST_CALL: usize = 24;
 
 /// Reasons for which an expression has no value.
-#[derive(Debug)]
 pub(super) enum NoValue {
     Return(Value),
-    /// An operand was wrong, which has been reported.
-    Wrong,
     /// A limit was passed, which has been reported; nothing more is read.
     Stop,
 }
 
+/// A closure, or a function defined in the body.
+pub(super) struct Callable {
+    parameters: Vec<Pat>,
+    body: Expr,
+    /// The variables visible where it was written. (A function sees items only; the compiler checks.)
+    variables: Vec<(String, Value)>,
+}
+
 /// The state of reading one function.
 pub(super) struct Evaluator<'a> {
-    pub(super) scopes: Scopes,
-    pub(super) calls: usize,
+    /// Those that are visible; a later one shadows one before it of the same name.
+    variables: Vec<(String, Value)>,
+    calls: usize,
     arena: Arena,
     diagnostics: &'a Diagnostics,
     operations: usize,
@@ -41,7 +51,7 @@ pub(super) struct Evaluator<'a> {
 impl<'a> Evaluator<'a> {
     pub(super) fn new(diagnostics: &'a Diagnostics) -> Self {
         Self {
-            scopes: Scopes::default(),
+            variables: Vec::new(),
             calls: 0,
             arena: Arena::new(),
             diagnostics,
@@ -98,35 +108,36 @@ impl<'a> Evaluator<'a> {
         }
     }
 
+    pub(super) fn number(&mut self, value: Rational, span: Span) -> ExprId {
+        self.arena.push(Node::Number(value), span)
+    }
+
     pub(super) fn constant(&mut self, value: Rational, span: Span) -> Value {
-        self.push(Node::Number(value), span)
+        Value::Number(self.number(value, span))
     }
 
     /// The integer a value is, known.
-    pub(super) fn integer(
-        &mut self,
-        value: &Value,
-        what: &'static str,
-        span: Span,
-    ) -> Option<i128> {
+    fn integer(&mut self, value: &Value, what: &'static str, span: Span) -> Option<i128> {
         match value {
-            Value::Integer(n) => Some(*n),
-            Value::Wrong => None,
-            _ => {
-                self.wrong(span, Mistake::NotConstant(what));
-                None
-            }
+            Value::Integer(n) => return Some(*n),
+            Value::Wrong => {}
+            _ => self.diagnostics.report(span, Mistake::NotConstant(what)),
         }
+        None
+    }
+
+    pub(super) fn expressions<'e>(
+        &mut self,
+        list: impl IntoIterator<Item = &'e Expr>,
+    ) -> Result<Vec<Value>, NoValue> {
+        list.into_iter().map(|expression| self.expression(expression)).collect()
     }
 
     pub(super) fn expression(&mut self, expression: &Expr) -> Result<Value, NoValue> {
+        let expression = bare(expression);
         let span = || Span::of(expression);
         match expression {
             Expr::Lit(literal) => Ok(self.literal(&literal.lit)),
-            Expr::Paren(inner) => self.expression(&inner.expr),
-            Expr::Group(inner) => self.expression(&inner.expr),
-            Expr::Reference(inner) => self.expression(&inner.expr),
-            Expr::Unary(syn::ExprUnary { op: UnOp::Deref(_), expr, .. }) => self.expression(expr),
             Expr::Block(block) if block.label.is_none() => self.block(&block.block),
             Expr::Binary(binary) => self.binary(binary),
             Expr::Unary(syn::ExprUnary { op: UnOp::Neg(_), expr, .. }) => {
@@ -136,60 +147,52 @@ impl<'a> Evaluator<'a> {
             }
             Expr::Cast(cast) => {
                 let value = self.expression(&cast.expr)?;
-                Ok(self.cast(value, &cast.ty, span()))
+                Ok(self.cast(value, is_f64(&cast.ty), span()))
             }
-            Expr::Tuple(tuple) if tuple.elems.is_empty() => Ok(Value::Unit),
             Expr::Array(syn::ExprArray { elems, .. })
-            | Expr::Tuple(syn::ExprTuple { elems, .. }) => {
-                let values: Result<Vec<Value>, NoValue> =
-                    elems.iter().map(|entry| self.expression(entry)).collect();
-                Ok(Value::list(values?))
-            }
+            | Expr::Tuple(syn::ExprTuple { elems, .. }) => Ok(Value::list(self.expressions(elems)?)),
             Expr::Repeat(repeat) => {
                 let value = self.expression(&repeat.expr)?;
                 let count = self.expression(&repeat.len)?;
                 let place = Span::of(&repeat.len);
-                let Some(count) = self.integer(&count, "the length of an array", place) else {
-                    return Ok(Value::Wrong);
-                };
-                let count = usize::try_from(count).unwrap_or(0);
-                if count > MOST_OPERATIONS {
-                    self.operations = MOST_OPERATIONS;
-                    self.tick(place)?;
+                match self.integer(&count, "the length of an array", place) {
+                    Some(count) => self.counted(0..count, place, |_| value.clone()),
+                    None => Ok(Value::Wrong),
                 }
-                Ok(Value::list(vec![value; count]))
             }
             Expr::Range(range) => self.range(range),
-            Expr::Index(index) => {
-                let base = self.expression(&index.expr)?;
-                match self.index(&index.index) {
-                    Ok(index) => Ok(self.entry(&base, &index, span())),
-                    Err(NoValue::Wrong) => Ok(Value::Wrong),
-                    Err(flow) => Err(flow),
-                }
-            }
-            Expr::Field(field) => {
-                let base = self.expression(&field.base)?;
-                Ok(match member(&field.member) {
-                    Some(index) => self.entry(&base, &[index], span()),
-                    None => self.unsupported(span(), "this field is not known", ""),
-                })
+            Expr::Index(_) | Expr::Field(_) => {
+                let found = self.entry(expression)?;
+                Ok(found.map_or(Value::Wrong, |(_, list, at)| list.entries[at].clone()))
             }
             Expr::Assign(assign) => {
                 let value = self.expression(&assign.right)?;
-                self.assign(&assign.left, value)?;
-                Ok(Value::Unit)
+                self.assign(&assign.left, value)
             }
-            Expr::If(branch) => self.branch(branch),
+            Expr::If(branch) => match (self.condition(&branch.cond)?, &branch.else_branch) {
+                (Some(true), _) => self.block(&branch.then_branch),
+                (Some(false), Some((_, otherwise))) => self.expression(otherwise),
+                (Some(false), None) => Ok(Value::Unit),
+                (None, _) => Ok(Value::Wrong),
+            },
             Expr::ForLoop(for_loop) => self.for_loop(for_loop),
-            Expr::While(while_loop) => self.while_loop(while_loop),
+            Expr::While(while_loop) => loop {
+                self.tick(Span::of(&while_loop.cond))?;
+                match self.condition(&while_loop.cond)? {
+                    Some(true) => self.block(&while_loop.body)?,
+                    Some(false) => return Ok(Value::Unit),
+                    None => return Ok(Value::Wrong),
+                };
+            },
             Expr::Return(end) => {
                 let value = end.expr.as_ref().map_or(Ok(Value::Unit), |e| self.expression(e))?;
                 Err(NoValue::Return(value))
             }
             Expr::MethodCall(call) => self.method_call(call),
             Expr::Call(call) => self.call(call),
-            Expr::Closure(closure) => Ok(self.closure(closure)),
+            Expr::Closure(closure) => {
+                Ok(self.callable(closure.inputs.iter().cloned().collect(), &closure.body))
+            }
             Expr::Path(path) => Ok(self.path(&path.path)),
             _ => Ok(self.unsupported(
                 span(),
@@ -203,7 +206,7 @@ impl<'a> Evaluator<'a> {
         let span = Span::of(literal);
         let digits = match literal {
             Lit::Float(number) => number.base10_digits(),
-            Lit::Int(number) if matches!(number.suffix(), "f64" | "f32") => number.base10_digits(),
+            Lit::Int(number) if number.suffix() == "f64" => number.base10_digits(),
             Lit::Int(number) => {
                 let digits = number.base10_digits();
                 return match digits.parse() {
@@ -211,7 +214,6 @@ impl<'a> Evaluator<'a> {
                     Err(_) => self.wrong(span, Mistake::NumberSize(digits.to_owned())),
                 };
             }
-            Lit::Bool(truth) => return Value::Bool(truth.value),
             _ => return self.unsupported(span, "only numbers make sense here", ""),
         };
         match decimal(digits) {
@@ -219,56 +221,84 @@ impl<'a> Evaluator<'a> {
             Err(mistake) => self.wrong(span, mistake),
         }
     }
-}
 
-#[derive(Clone, Debug, Default)]
-pub(super) struct Scopes {
-    variables: Vec<(String, Value)>,
-    /// For each open block, the index of its first variable.
-    marks: Vec<usize>,
-}
-
-impl Scopes {
-    pub(super) fn enter(&mut self) {
-        self.marks.push(self.variables.len());
-    }
-
-    pub(super) fn leave(&mut self) {
-        if let Some(mark) = self.marks.pop() {
-            self.variables.truncate(mark);
+    /// A binary operation or a compound assignment.
+    fn binary(&mut self, binary: &ExprBinary) -> Result<Value, NoValue> {
+        // a + b + c + … nests to the left; a loop keeps long sums off the stack.
+        let (mut chain, mut first) = (vec![binary], &*binary.left);
+        while let Expr::Binary(left) = first
+            && !is_assignment(&left.op)
+        {
+            chain.push(left);
+            first = &left.left;
         }
-    }
-
-    /// Binds a name; one bound before under it is shadowed.
-    pub(super) fn bind(&mut self, name: String, value: Value) {
-        self.variables.push((name, value));
-    }
-
-    pub(super) fn get(&self, name: &str) -> Option<&Value> {
-        self.variables.iter().rev().find(|(known, _)| known == name).map(|(_, value)| value)
-    }
-
-    pub(super) fn get_mut(&mut self, name: &str) -> Option<&mut Value> {
-        self.variables.iter_mut().rev().find(|(known, _)| known == name).map(|(_, value)| value)
-    }
-
-    pub(super) fn names(&self) -> Vec<String> {
-        let mut names: Vec<String> = Vec::new();
-        for (name, _) in &self.variables {
-            if !names.contains(name) {
-                names.push(name.clone());
+        let mut value = self.expression(first)?;
+        for operation in chain.into_iter().rev() {
+            self.tick(Span::of(&operation.op))?;
+            let right = self.expression(&operation.right)?;
+            let whole = Span::of(&operation.left).to(Span::of(&operation.right));
+            value = self.operate(&operation.op, value, right, whole);
+            if is_assignment(&operation.op) {
+                value = self.assign(&operation.left, value)?;
             }
         }
-        names
+        Ok(value)
     }
-}
 
-impl Evaluator<'_> {
+    /// A list with an entry for each of some integers.
+    fn counted(
+        &mut self,
+        range: Range<i128>,
+        span: Span,
+        entry: impl Fn(i128) -> Value,
+    ) -> Result<Value, NoValue> {
+        let entries: Result<Vec<Value>, NoValue> =
+            range.map(|i| self.tick(span).map(|()| entry(i))).collect();
+        Ok(Value::list(entries?))
+    }
+
+    /// A range whose ends are known.
+    fn range(&mut self, range: &ExprRange) -> Result<Value, NoValue> {
+        let span = Span::of(range);
+        let (Some(start), Some(end)) = (&range.start, &range.end) else {
+            return Ok(self.wrong(span, Mistake::NotConstant("the end of a range")));
+        };
+        let mut bound = |bound: &Expr| {
+            let value = self.expression(bound)?;
+            Ok(self.integer(&value, "the bound of a range", Span::of(bound)))
+        };
+        let (Some(start), Some(end)) = (bound(start)?, bound(end)?) else {
+            return Ok(Value::Wrong);
+        };
+        let inclusive = matches!(range.limits, RangeLimits::Closed(_));
+        self.counted(start..end.saturating_add(i128::from(inclusive)), span, Value::Integer)
+    }
+
+    fn for_loop(&mut self, for_loop: &syn::ExprForLoop) -> Result<Value, NoValue> {
+        let span = Span::of(&for_loop.expr);
+        let items = match self.expression(&for_loop.expr)? {
+            Value::List(list) => list.entries,
+            Value::Wrong => return Ok(Value::Wrong),
+            _ => {
+                let help = "loop over a range such as 0..3, or over an array";
+                return Ok(self.unsupported(span, "this cannot be looped over", help));
+            }
+        };
+        let outside = self.variables.len();
+        for item in items.iter() {
+            self.tick(span)?;
+            self.bind(&for_loop.pat, item.clone());
+            self.block(&for_loop.body)?;
+            self.variables.truncate(outside);
+        }
+        Ok(Value::Unit)
+    }
+
     /// Runs a block in a scope of its own.
-    pub(super) fn block(&mut self, block: &Block) -> Result<Value, NoValue> {
-        self.scopes.enter();
+    fn block(&mut self, block: &Block) -> Result<Value, NoValue> {
+        let outside = self.variables.len();
         let value = self.statements(block);
-        self.scopes.leave();
+        self.variables.truncate(outside);
         value
     }
 
@@ -313,7 +343,16 @@ impl Evaluator<'_> {
     fn item(&mut self, item: &Item) -> Result<(), NoValue> {
         let (name, value) = match item {
             Item::Const(constant) => (&constant.ident, self.expression(&constant.expr)?),
-            Item::Fn(function) => (&function.sig.ident, self.function_item(function)),
+            Item::Fn(function) => {
+                let pattern = |input: &FnArg| match input {
+                    FnArg::Typed(typed) => Some((*typed.pat).clone()),
+                    FnArg::Receiver(_) => None,
+                };
+                let parameters = function.sig.inputs.iter().filter_map(pattern).collect();
+                let block = (*function.block).clone();
+                let body = syn::ExprBlock { attrs: Vec::new(), label: None, block };
+                (&function.sig.ident, self.callable(parameters, &Expr::Block(body)))
+            }
             Item::Use(_) => return Ok(()),
             _ => {
                 let help = "only const, fn and use are read inside the body";
@@ -321,22 +360,12 @@ impl Evaluator<'_> {
                 return Ok(());
             }
         };
-        self.scopes.bind(name.to_string(), value);
+        self.variables.push((name.to_string(), value));
         Ok(())
     }
 
-    /// `if`, where the condition is known.
-    pub(super) fn branch(&mut self, branch: &syn::ExprIf) -> Result<Value, NoValue> {
-        match (self.condition(&branch.cond)?, &branch.else_branch) {
-            (Some(true), _) => self.block(&branch.then_branch),
-            (Some(false), Some((_, otherwise))) => self.expression(otherwise),
-            (Some(false), None) => Ok(Value::Unit),
-            (None, _) => Ok(Value::Wrong),
-        }
-    }
-
     /// A condition that does not depend on the momentum or the parameters.
-    pub(super) fn condition(&mut self, condition: &Expr) -> Result<Option<bool>, NoValue> {
+    fn condition(&mut self, condition: &Expr) -> Result<Option<bool>, NoValue> {
         let span = Span::of(condition);
         Ok(match self.expression(condition)? {
             Value::Bool(truth) => Some(truth),
@@ -356,25 +385,20 @@ impl Evaluator<'_> {
         let help = "compare integers known beforehand only, such as loop variables";
         self.unsupported(span, &message, help)
     }
-}
 
-/// The name of a variable, and the indices that lead to one of its entries.
-type Place = (String, Vec<Vec<usize>>);
-
-impl Evaluator<'_> {
     /// Binds the names of a pattern to a value.
     pub(super) fn bind(&mut self, pattern: &Pat, value: Value) {
         match pattern {
             Pat::Ident(ident) if ident.subpat.is_none() => {
-                self.scopes.bind(ident.ident.to_string(), value);
+                self.variables.push((ident.ident.to_string(), value));
             }
             Pat::Wild(_) => {}
             // `let x: f64 = …`: the compiler checks the type.
             Pat::Type(typed) => self.bind(&typed.pat, value),
             Pat::Reference(inner) => self.bind(&inner.pat, value),
-            Pat::Paren(inner) => self.bind(&inner.pat, value),
-            Pat::Slice(slice) => self.bind_list(slice.elems.iter().collect(), value, pattern),
-            Pat::Tuple(tuple) => self.bind_list(tuple.elems.iter().collect(), value, pattern),
+            Pat::Slice(syn::PatSlice { elems, .. }) | Pat::Tuple(syn::PatTuple { elems, .. }) => {
+                self.bind_list(elems, value, Span::of(pattern));
+            }
             _ => {
                 let help = "use names, [a, b, c] or (a, b, c)";
                 self.unsupported(Span::of(pattern), "this pattern is not read", help);
@@ -382,173 +406,123 @@ impl Evaluator<'_> {
         }
     }
 
-    fn bind_list(&mut self, patterns: Vec<&Pat>, value: Value, whole: &Pat) {
-        let values = match value {
-            Value::List(values) => values,
+    fn bind_list<'p>(
+        &mut self,
+        patterns: impl IntoIterator<Item = &'p Pat, IntoIter: ExactSizeIterator>,
+        value: Value,
+        span: Span,
+    ) {
+        let patterns = patterns.into_iter();
+        let entries = match value {
+            Value::List(list) => list.entries,
             other => {
                 if !matches!(other, Value::Wrong) {
                     let message = format!("{} cannot be taken apart like this", other.kind());
-                    self.unsupported(Span::of(whole), &message, "index it instead");
+                    self.unsupported(span, &message, "index it instead");
                 }
-                return patterns.into_iter().for_each(|one| self.bind(one, Value::Wrong));
+                Rc::new(vec![Value::Wrong; patterns.len()])
             }
         };
         // `..` stands for all entries that no other pattern takes.
-        let rest = patterns.iter().position(|pattern| matches!(pattern, Pat::Rest(_)));
-        let count = patterns.len();
-        let fits = match rest {
-            Some(_) => count - 1 <= values.len(),
-            None => count == values.len(),
-        };
-        if !fits {
-            let message = format!("the pattern has {count} names for {} entries", values.len());
-            self.unsupported(Span::of(whole), &message, "give as many");
+        let rest = (entries.len() + 1).saturating_sub(patterns.len());
+        let names: Vec<Option<&Pat>> = patterns
+            .flat_map(|pattern| match pattern {
+                Pat::Rest(_) => vec![None; rest],
+                name => vec![Some(name)],
+            })
+            .collect();
+        let (count, length) = (names.len(), entries.len());
+        if count != length {
+            let message = format!("the pattern has {count} names for {length} entries");
+            self.unsupported(span, &message, "give as many");
         }
-        for (i, pattern) in patterns.into_iter().enumerate() {
-            if Some(i) == rest {
-                continue;
+        for (i, name) in names.into_iter().enumerate() {
+            if let Some(name) = name {
+                self.bind(name, entries.get(i).cloned().unwrap_or(Value::Wrong));
             }
-            let behind = rest.is_some_and(|rest| i > rest);
-            let position = if behind { (values.len() + i).checked_sub(count) } else { Some(i) };
-            let value = position.and_then(|at| values.get(at)).cloned().unwrap_or(Value::Wrong);
-            self.bind(pattern, value);
         }
     }
 
-    /// Gives `value` to the place that `expression` names.
-    pub(super) fn assign(&mut self, expression: &Expr, value: Value) -> Result<(), NoValue> {
+    /// The last variable of this name.
+    fn variable(&mut self, path: &Path) -> Option<&mut Value> {
+        let name = path.get_ident()?;
+        let mut known = self.variables.iter_mut().rev();
+        known.find(|(known, _)| name == known).map(|(_, value)| value)
+    }
+
+    /// Gives `value` to the variable, or the entry of one, that `expression` names.
+    fn assign(&mut self, expression: &Expr, value: Value) -> Result<Value, NoValue> {
+        let expression = bare(expression);
+        if let Expr::Path(path) = expression
+            && let Some(variable) = self.variable(&path.path)
+        {
+            *variable = value;
+        } else if let Some((base, mut list, at)) = self.entry(expression)? {
+            // The variable lets go of the list, which is then changed in place.
+            self.assign(base, Value::Unit)?;
+            Rc::make_mut(&mut list.entries)[at] = value;
+            return self.assign(base, Value::List(list));
+        }
+        Ok(Value::Unit)
+    }
+
+    /// The list of which an expression names an entry, as written and as it is, and the place of the entry in it; `None` where
+    /// there is no such entry, which is reported.
+    fn entry<'e>(
+        &mut self,
+        expression: &'e Expr,
+    ) -> Result<Option<(&'e Expr, Aggregate, usize)>, NoValue> {
         let span = Span::of(expression);
-        let (name, path) = match self.place(expression) {
-            Err(NoValue::Wrong) => return Ok(()),
-            Err(flow) => return Err(flow),
-            Ok(Some(place)) => place,
-            Ok(None) => {
+        let (base, index) = match expression {
+            Expr::Index(index) => (&*index.expr, self.index(&index.index)?),
+            Expr::Field(field) => {
+                let index = member(&field.member).map(|at| vec![at]);
+                if index.is_none() {
+                    self.unsupported(span, "this field is not known", "");
+                }
+                (&*field.base, index)
+            }
+            _ => {
                 self.unsupported(span, "this cannot be assigned to", "assign to a variable");
-                return Ok(());
+                return Ok(None);
             }
         };
-        let Some(mut target) = self.scopes.get_mut(&name) else { return Ok(()) };
-        for index in &path {
-            let kind = target.kind();
-            if matches!(target, Value::Wrong) {
-                return Ok(());
-            }
-            match target.entry_mut(index) {
-                Ok(entry) => target = entry,
-                Err(length) => {
-                    self.bad_index(span, index, length, kind);
-                    return Ok(());
-                }
-            }
+        let whole = self.expression(base)?;
+        let Some(index) = index else { return Ok(None) };
+        let length = match &whole {
+            Value::Wrong => return Ok(None),
+            Value::List(list) => match list.position(&index) {
+                Ok(at) => return Ok(Some((base, list.clone(), at))),
+                Err(length) => length,
+            },
+            _ => 0,
+        };
+        if length == 0 {
+            let message = format!("{} has no entries to choose from", whole.kind());
+            self.unsupported(span, &message, "index arrays, vectors or matrices only");
+        } else {
+            let shown = index.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
+            self.wrong(span, Mistake::IndexRange(shown, length));
         }
-        *target = value;
-        Ok(())
-    }
-
-    /// The variable of which an expression names an entry, and the indices that lead to it; `None` for other expressions.
-    fn place(&mut self, expression: &Expr) -> Result<Option<Place>, NoValue> {
-        match expression {
-            Expr::Path(path) => {
-                let name = path.path.get_ident().map(ToString::to_string);
-                let known = name.filter(|name| self.scopes.get(name).is_some());
-                Ok(known.map(|name| (name, Vec::new())))
-            }
-            Expr::Paren(inner) => self.place(&inner.expr),
-            Expr::Group(inner) => self.place(&inner.expr),
-            Expr::Reference(inner) => self.place(&inner.expr),
-            Expr::Unary(syn::ExprUnary { op: syn::UnOp::Deref(_), expr, .. }) => self.place(expr),
-            Expr::Field(field) => {
-                let place = self.place(&field.base)?.zip(member(&field.member));
-                Ok(place.map(|((name, path), index)| (name, [path, vec![vec![index]]].concat())))
-            }
-            Expr::Index(index) => {
-                let Some((name, mut path)) = self.place(&index.expr)? else { return Ok(None) };
-                path.push(self.index(&index.index)?);
-                Ok(Some((name, path)))
-            }
-            _ => Ok(None),
-        }
+        Ok(None)
     }
 
     /// `i` or `(i, j)`, known.
-    pub(super) fn index(&mut self, expression: &Expr) -> Result<Vec<usize>, NoValue> {
+    fn index(&mut self, expression: &Expr) -> Result<Option<Vec<usize>>, NoValue> {
         let parts = match self.expression(expression)? {
-            Value::List(parts) => parts.to_vec(),
+            Value::List(parts) => parts.entries.to_vec(),
             single => vec![single],
         };
-        let mut index = Vec::new();
-        for part in parts {
-            let known =
-                self.integer(&part, "an index", Span::of(expression)).ok_or(NoValue::Wrong)?;
-            index.push(usize::try_from(known).unwrap_or(usize::MAX));
-        }
-        Ok(index)
+        let part = |part: &Value| {
+            let known = self.integer(part, "an index", Span::of(expression))?;
+            Some(usize::try_from(known).unwrap_or(usize::MAX))
+        };
+        Ok(parts.iter().map(part).collect())
     }
 
-    pub(super) fn entry(&mut self, base: &Value, index: &[usize], span: Span) -> Value {
-        match base.entry(index) {
-            Ok(value) => value,
-            Err(_) if matches!(base, Value::Wrong) => Value::Wrong,
-            Err(length) => self.bad_index(span, index, length, base.kind()),
-        }
-    }
-
-    fn bad_index(&mut self, span: Span, index: &[usize], length: usize, kind: &str) -> Value {
-        if length == 0 {
-            let message = format!("{kind} has no entries to choose from");
-            return self.unsupported(span, &message, "index arrays, vectors or matrices only");
-        }
-        let shown = index.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
-        self.wrong(span, Mistake::IndexRange(shown, length))
-    }
-}
-
-/// `.x`, `.y`, … of a vector, `.0`, `.1`, … of a tuple, as positions.
-pub(super) fn member(member: &Member) -> Option<usize> {
-    match member {
-        Member::Unnamed(index) => Some(index.index as usize),
-        Member::Named(name) => ["x", "y", "z", "w"].iter().position(|n| name == n),
-    }
-}
-
-/// A closure, or a function defined in the body.
-pub(super) struct Callable {
-    parameters: Vec<Pat>,
-    body: Expr,
-    /// The names visible where it was written. (A function sees items only; the compiler checks.)
-    scopes: Scopes,
-}
-
-impl std::fmt::Debug for Callable {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "function of {} arguments", self.parameters.len())
-    }
-}
-
-impl Evaluator<'_> {
-    pub(super) fn closure(&mut self, closure: &syn::ExprClosure) -> Value {
-        Value::Function(Rc::new(Callable {
-            parameters: closure.inputs.iter().cloned().collect(),
-            body: (*closure.body).clone(),
-            scopes: self.scopes.clone(),
-        }))
-    }
-
-    pub(super) fn function_item(&mut self, function: &syn::ItemFn) -> Value {
-        let mut parameters = Vec::new();
-        for input in &function.sig.inputs {
-            match input {
-                syn::FnArg::Typed(typed) => parameters.push((*typed.pat).clone()),
-                syn::FnArg::Receiver(_) => return Value::Wrong,
-            }
-        }
-        let block =
-            syn::ExprBlock { attrs: Vec::new(), label: None, block: (*function.block).clone() };
-        Value::Function(Rc::new(Callable {
-            parameters,
-            body: Expr::Block(block),
-            scopes: self.scopes.clone(),
-        }))
+    fn callable(&self, parameters: Vec<Pat>, body: &Expr) -> Value {
+        let variables = self.variables.clone();
+        Value::Function(Rc::new(Callable { parameters, body: body.clone(), variables }))
     }
 
     /// Calls a closure or a function of the body.
@@ -563,15 +537,14 @@ impl Evaluator<'_> {
             self.unsupported(span, "functions call each other too deeply", "unroll the recursion");
             return Err(NoValue::Stop);
         }
-        let outside = std::mem::replace(&mut self.scopes, function.scopes.clone());
+        let outside = std::mem::replace(&mut self.variables, function.variables.clone());
         self.calls += 1;
-        self.scopes.enter();
         for (pattern, argument) in function.parameters.iter().zip(arguments) {
             self.bind(pattern, argument);
         }
         let value = self.expression(&function.body);
         self.calls -= 1;
-        self.scopes = outside;
+        self.variables = outside;
         match value {
             Err(NoValue::Return(value)) => Ok(value),
             other => other,
@@ -579,114 +552,118 @@ impl Evaluator<'_> {
     }
 
     /// The value of a variable or a known constant; other names are reported.
-    pub(super) fn path(&mut self, path: &Path) -> Value {
-        let variable = path.get_ident().and_then(|name| self.scopes.get(&name.to_string()));
-        if let Some(value) = variable {
+    fn path(&mut self, path: &Path) -> Value {
+        if let Some(value) = self.variable(path) {
             return value.clone();
         }
         let span = Span::of(path);
-        let segments: Vec<String> = path.segments.iter().map(|s| s.ident.to_string()).collect();
-        let last = segments.last().map(String::as_str).unwrap_or_default();
-        if segments.iter().any(|s| s == "consts")
-            && let Some(value) = float_constant(last)
-        {
-            return self.constant(value, span);
-        }
-        if let [name] = &segments[..] {
-            let names = self.scopes.names();
-            let suggestion = nearest(name, names.iter().map(String::as_str)).map(str::to_owned);
-            let constant = name.chars().all(|c| c.is_uppercase() || c == '_' || c.is_numeric());
-            if constant && suggestion.is_none() {
-                let message = format!("the constant `{name}` is not visible here");
-                let help = "define it with `const` inside the function, or pass it as a parameter";
-                return self.unsupported(span, &message, help);
+        let name = written(path);
+        if let Some((module, constant)) = name.rsplit_once("::") {
+            if let Some(value) = float_constant(constant).filter(|_| module.ends_with("consts")) {
+                return self.constant(value, span);
             }
-            return self.wrong(span, Mistake::UnknownVariable(name.clone(), suggestion, names));
+            let message = format!("`{name}` is not read");
+            return self.unsupported(span, &message, "write its value, or pass it as a parameter");
         }
-        let message = format!("`{}` is not read", segments.join("::"));
-        self.unsupported(span, &message, "write its value, or pass it as a parameter")
+        let mut names: Vec<String> = Vec::new();
+        for (known, _) in &self.variables {
+            if !names.contains(known) {
+                names.push(known.clone());
+            }
+        }
+        let near = nearest(&name, names.iter().map(String::as_str)).map(str::to_owned);
+        let constant = name.chars().all(|c| c.is_uppercase() || c == '_' || c.is_numeric());
+        if constant && near.is_none() {
+            let message = format!("the constant `{name}` is not visible here");
+            let help = "define it with `const` inside the function, or pass it as a parameter";
+            return self.unsupported(span, &message, help);
+        }
+        self.wrong(span, Mistake::UnknownVariable(name, near, names))
     }
 
-    pub(super) fn call(&mut self, call: &ExprCall) -> Result<Value, NoValue> {
+    fn call(&mut self, call: &ExprCall) -> Result<Value, NoValue> {
         let span = Span::of(call);
-        let mut arguments = Vec::new();
-        for argument in &call.args {
-            arguments.push(self.expression(argument)?);
-        }
-        let function = match &*call.func {
-            Expr::Path(path) => {
-                let name = path.path.get_ident().map(ToString::to_string);
-                name.and_then(|name| self.scopes.get(&name)).cloned()
-            }
-            expression => Some(self.expression(expression)?),
+        let arguments = self.expressions(&call.args)?;
+        let Expr::Path(path) = &*call.func else {
+            return Ok(self.unsupported(span, "this call is not read", "name the function first"));
         };
-        if let Some(Value::Function(function)) = function {
+        if let Some(Value::Function(function)) = self.variable(&path.path) {
+            let function = function.clone();
             return self.apply(&function, arguments, span);
         }
-        let Expr::Path(path) = &*call.func else {
-            return Ok(self.unsupported(span, "this call is not read", ""));
-        };
-        let segments: Vec<String> =
-            path.path.segments.iter().map(|s| s.ident.to_string()).collect();
-        let value = match &segments[..] {
-            [.., ty, name] if ty == "f64" => self.float_function(name, &arguments, span),
-            [.., ty, name] => self.constructor(&path.path, ty, name, &arguments, span),
+        let segments: Vec<&PathSegment> = path.path.segments.iter().collect();
+        let value = match (&segments[..], &arguments[..]) {
+            ([.., ty, name], [value]) if ty.ident == "f64" && name.ident == "from" => {
+                Some(self.cast(value.clone(), true, span))
+            }
+            ([.., ty, name], [Value::Number(x), rest @ ..]) if ty.ident == "f64" => {
+                self.number_method(&name.ident.to_string(), *x, rest, span)
+            }
+            ([.., ty, name], _) => self.constructor(ty, &name.ident.to_string(), &arguments, span),
             _ => None,
         };
         Ok(match value {
             Some(value) => value,
             None if arguments.iter().any(|a| matches!(a, Value::Wrong)) => Value::Wrong,
             None => {
-                let message = format!("the function `{}` is not read", segments.join("::"));
+                let message = format!("the function `{}` is not read", written(&path.path));
                 let help = "define it inside the body, or write out what it computes";
                 self.unsupported(Span::of(&call.func), &message, help)
             }
         })
     }
 
-    fn float_function(&mut self, name: &str, arguments: &[Value], span: Span) -> Option<Value> {
-        match (name, arguments) {
-            ("from", [Value::Integer(n)]) => {
-                Some(self.constant(Rational::from_integer((*n).into()), span))
-            }
-            ("from", [value @ Value::Number(_)]) => Some(value.clone()),
-            (_, [receiver, rest @ ..]) => self.number_method(name, receiver, rest, span),
-            _ => None,
-        }
-    }
-
-    /// `Vector3::new(a, b, c)`, `Matrix3::identity()`, and the like.
+    /// `Vector3::new(a, b, c)`, `Vector3::z()`, and the like.
     fn constructor(
         &mut self,
-        path: &Path,
-        ty: &str,
+        ty: &PathSegment,
         name: &str,
         arguments: &[Value],
         span: Span,
     ) -> Option<Value> {
-        // `SVector::<f64, 3>::new`.
-        let sizes = path.segments.iter().flat_map(|segment| match &segment.arguments {
-            syn::PathArguments::AngleBracketed(arguments) => sizes(arguments),
-            _ => Vec::new(),
-        });
-        let shape = sized(ty, &sizes.collect::<Vec<_>>())?;
-        let (rows, columns) = match shape {
+        let (rows, columns) = match of_segment(ty)? {
             Shape::Vector(n) => (n, 1),
             Shape::Matrix(rows, columns) => (rows, columns),
             _ => return None,
         };
-        let mut number = |n: i64| self.constant(integer(n), span);
-        let all = 0..rows * columns;
         let entries: Vec<Value> = match (name, arguments) {
             ("new", entries) if entries.len() == rows * columns => entries.to_vec(),
             ("x" | "y" | "z", []) if columns == 1 => {
-                let axis = ["x", "y", "z"].iter().position(|a| name == *a)?;
-                all.map(|i| number(i64::from(i == axis))).collect()
+                let axis = ["x", "y", "z"].iter().position(|axis| name == *axis);
+                let mut entry = |i| self.constant(integer(i64::from(Some(i) == axis)), span);
+                (0..rows).map(&mut entry).collect()
             }
-            ("from", [Value::List(list)]) if columns == 1 && list.len() == rows => list.to_vec(),
+            ("from", [Value::List(list)]) if columns == 1 && list.entries.len() == rows => {
+                list.entries.to_vec()
+            }
             _ => return None,
         };
-        Some(Value::Matrix(Matrix::new(rows, columns, entries.into_iter())))
+        Some(Value::matrix(rows, columns, entries))
+    }
+}
+
+/// A path as it is written, without generic arguments.
+fn written(path: &Path) -> String {
+    let names: Vec<String> = path.segments.iter().map(|one| one.ident.to_string()).collect();
+    names.join("::")
+}
+
+fn is_assignment(op: &BinOp) -> bool {
+    matches!(
+        op,
+        BinOp::AddAssign(_)
+            | BinOp::SubAssign(_)
+            | BinOp::MulAssign(_)
+            | BinOp::DivAssign(_)
+            | BinOp::RemAssign(_)
+    )
+}
+
+/// `.x`, `.y`, … of a vector, `.0`, `.1`, … of a tuple, as positions.
+fn member(member: &Member) -> Option<usize> {
+    match member {
+        Member::Unnamed(index) => Some(index.index as usize),
+        Member::Named(name) => ["x", "y", "z", "w"].iter().position(|n| name == n),
     }
 }
 

@@ -16,7 +16,7 @@ use quote::ToTokens;
 use syn::ItemFn;
 
 use crate::diagnostic::{Diagnostics, Span};
-use crate::pass::{Draft, Energy, assemble, assemble_either, assemble_potential};
+use crate::pass::{Draft, Formula, assemble, assemble_either, assemble_potential};
 use crate::potential::Potential;
 use crate::problem::{Problem, Shape};
 use crate::smooth::Hamiltonian;
@@ -45,7 +45,7 @@ fn assembled<T>(
     assemble: fn(Draft, &Diagnostics) -> Option<T>,
 ) -> Result<T, Diagnostics> {
     let diagnostics = Diagnostics::new();
-    let (algebra, choice, time) = arguments::lie_poisson(arguments, &diagnostics);
+    let (algebra, choice, time) = arguments::read(arguments, Variable::Momentum, &diagnostics);
     let (variable, hamiltonian) = read(function, Variable::Momentum, time, &diagnostics);
     // Without a momentum every name would be unknown: one mistake is enough.
     let Some((_, coordinates, coordinates_span)) = variable else { return Err(diagnostics) };
@@ -72,7 +72,7 @@ fn assembled<T>(
 /// Every mistake of the arguments, the signature and the body.
 pub fn potential(arguments: TokenStream, function: &ItemFn) -> Result<Potential, Diagnostics> {
     let diagnostics = Diagnostics::new();
-    let algebra = arguments::potential(arguments, &diagnostics);
+    let (algebra, ..) = arguments::read(arguments, Variable::Element, &diagnostics);
     let (variable, energy) = read(function, Variable::Element, None, &diagnostics);
     let Some((Shape::Grid(rows, columns) | Shape::Matrix(rows, columns), _, span)) = variable
     else {
@@ -90,13 +90,13 @@ fn read(
     variable: Variable,
     time: Option<(String, Span)>,
     diagnostics: &Diagnostics,
-) -> (Option<(Shape, Vec<String>, Span)>, Energy) {
+) -> (Option<(Shape, Vec<String>, Span)>, Formula) {
     let mut evaluator = Evaluator::new(diagnostics);
     let (variable, parameters) = signature::read(&function.sig, variable, time, &mut evaluator);
     // Without its variable every name of the body would be unknown.
     let root = variable.is_some().then(|| evaluator.body(&function.block)).flatten();
     let source = function.block.stmts.iter().map(source).collect::<Vec<_>>().join(" ");
-    (variable, Energy { arena: evaluator.into_arena(), root, parameters, source })
+    (variable, Formula { arena: evaluator.into_arena(), root, parameters, source })
 }
 
 /// The user's source text, as far as the compiler tells.

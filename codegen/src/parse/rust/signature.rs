@@ -1,10 +1,10 @@
 //! The signature: which argument is the momentum, and the parameters.
 
 use quote::ToTokens;
-use syn::{FnArg, Pat, ReturnType, Type};
+use syn::{Expr, FnArg, GenericArgument, Pat, PathArguments, PathSegment, ReturnType, Type};
 
 use super::evaluate::Evaluator;
-use super::value::{Matrix, Value};
+use super::value::Value;
 use crate::diagnostic::{Mistake, Span};
 use crate::expr::Node;
 use crate::problem::{Parameter, Shape};
@@ -53,17 +53,21 @@ pub(super) fn read(
     mut time: Option<(String, Span)>,
     evaluator: &mut Evaluator<'_>,
 ) -> (Option<Variables>, Vec<Parameter>) {
-    qualifiers(signature, evaluator);
+    let output = match &signature.output {
+        ReturnType::Type(_, ty) if is_f64(ty) => None,
+        ReturnType::Default => Some(Span::of(&signature.ident)),
+        output => Some(Span::of(output)),
+    };
+    if let Some(span) = output {
+        evaluator.unsupported(span, "the energy is returned as f64", "write -> f64");
+    }
     let (mut first, mut parameters) = (None, Vec::new());
     let mut scalars = 0;
     for (position, argument) in signature.inputs.iter().enumerate() {
-        let typed = match argument {
-            FnArg::Typed(typed) => typed,
-            FnArg::Receiver(receiver) => {
-                let help = "write a free function of its variables and parameters";
-                evaluator.unsupported(Span::of(receiver), "a method cannot be read", help);
-                continue;
-            }
+        let FnArg::Typed(typed) = argument else {
+            let help = "write a free function of its variables and parameters";
+            evaluator.unsupported(Span::of(argument), "a method cannot be read", help);
+            continue;
         };
         let (span, place) = (Span::of(&typed.ty), Span::of(&typed.pat));
         let shape = shape(&typed.ty);
@@ -128,21 +132,17 @@ pub(super) fn read(
     (first, parameters)
 }
 
-fn qualifiers(signature: &syn::Signature, evaluator: &mut Evaluator<'_>) {
-    if let Some(token) = &signature.asyncness {
-        evaluator.unsupported(Span::of(token), "an energy cannot be async", "remove `async`");
+/// An expression without the parentheses and references around it.
+pub(super) fn bare(mut expression: &Expr) -> &Expr {
+    loop {
+        expression = match expression {
+            Expr::Paren(inner) => &inner.expr,
+            Expr::Group(inner) => &inner.expr,
+            Expr::Reference(inner) => &inner.expr,
+            Expr::Unary(syn::ExprUnary { op: syn::UnOp::Deref(_), expr, .. }) => expr,
+            _ => return expression,
+        };
     }
-    if !signature.generics.params.is_empty() {
-        let span = Span::of(&signature.generics);
-        let help = "write the function for f64; what is generated is generic by itself";
-        evaluator.unsupported(span, "an energy cannot be generic", help);
-    }
-    let span = match &signature.output {
-        ReturnType::Type(_, ty) if is_f64(ty) => return,
-        ReturnType::Default => Span::of(&signature.ident),
-        output => Span::of(output),
-    };
-    evaluator.unsupported(span, "the energy is returned as f64", "write -> f64");
 }
 
 /// Fills a shape with numbers by their position.
@@ -150,13 +150,13 @@ fn shaped(shape: &Shape, mut number: impl FnMut(usize) -> Value) -> Value {
     match *shape {
         Shape::Scalar => number(0),
         Shape::Array(n) => Value::list((0..n).map(number)),
-        Shape::Vector(n) => Value::Matrix(Matrix::new(n, 1, (0..n).map(number))),
         Shape::Grid(rows, columns) => {
             let row = |i| Value::list((0..columns).map(|j| number(i * columns + j)));
             Value::list((0..rows).map(row))
         }
+        Shape::Vector(n) => Value::matrix(n, 1, (0..n).map(number).collect()),
         Shape::Matrix(rows, columns) => {
-            Value::Matrix(Matrix::new(rows, columns, (0..rows * columns).map(number)))
+            Value::matrix(rows, columns, (0..rows * columns).map(number).collect())
         }
     }
 }
@@ -169,22 +169,22 @@ fn name(pattern: &Pat) -> Option<String> {
 }
 
 fn coordinate_names(pattern: &Pat, count: usize) -> Vec<String> {
-    if let Some(name) = name(pattern) {
-        return (0..count).map(|i| format!("{name}[{i}]")).collect();
+    if let Pat::Slice(slice) = pattern
+        && let Some(names) = slice.elems.iter().map(name).collect::<Option<Vec<String>>>()
+        && names.len() == count
+    {
+        return names;
     }
-    let names: Vec<String> = match pattern {
-        Pat::Slice(slice) => slice.elems.iter().filter_map(self::name).collect(),
-        _ => Vec::new(),
-    };
-    if names.len() == count { names } else { (0..count).map(|i| format!("mu[{i}]")).collect() }
+    let name = name(pattern).unwrap_or_else(|| "mu".to_owned());
+    (0..count).map(|i| format!("{name}[{i}]")).collect()
 }
 
-fn is_f64(ty: &Type) -> bool {
+pub(super) fn is_f64(ty: &Type) -> bool {
     matches!(ty, Type::Path(path) if path.path.is_ident("f64"))
 }
 
 /// The shape of a type, where it is one.
-pub(super) fn shape(ty: &Type) -> Option<Shape> {
+fn shape(ty: &Type) -> Option<Shape> {
     match ty {
         Type::Paren(inner) => shape(&inner.elem),
         Type::Group(inner) => shape(&inner.elem),
@@ -198,70 +198,46 @@ pub(super) fn shape(ty: &Type) -> Option<Shape> {
             }
         }
         Type::Path(path) if is_f64(ty) && path.qself.is_none() => Some(Shape::Scalar),
-        Type::Path(path) => {
-            let last = path.path.segments.last()?;
-            let syn::PathArguments::AngleBracketed(arguments) = &last.arguments else {
-                return None;
-            };
-            let sizes = sizes(arguments);
-            let numbers = arguments.args.iter().filter(|argument| match argument {
-                syn::GenericArgument::Type(ty) => is_f64(ty),
-                _ => false,
-            });
-            let numbers = numbers.count();
-            // One is the type of the entries; all others are sizes.
-            let fits = numbers == 1 && numbers + sizes.len() == arguments.args.len();
-            fits.then(|| sized(&last.ident.to_string(), &sizes)).flatten()
+        Type::Path(path) => of_segment(path.path.segments.last()?),
+        _ => None,
+    }
+}
+
+/// The shape of a type of nalgebra of fixed size: `Vector3<f64>`, `SMatrix<f64, 2, 3>`, also without arguments where these are
+/// no sizes.
+pub(super) fn of_segment(segment: &PathSegment) -> Option<Shape> {
+    let mut sizes = Vec::new();
+    if let PathArguments::AngleBracketed(arguments) = &segment.arguments {
+        for argument in &arguments.args {
+            match argument {
+                GenericArgument::Type(entry) if is_f64(entry) => {}
+                GenericArgument::Const(size) => sizes.push(length(size)?),
+                _ => return None,
+            }
         }
-        _ => None,
     }
-}
-
-/// The shape of nalgebra's types of fixed size by name.
-pub(super) fn sized(name: &str, sizes: &[usize]) -> Option<Shape> {
-    match (name, sizes) {
-        ("SVector", &[n]) => return Some(Shape::Vector(n)),
-        ("SMatrix", &[n, 1]) => return Some(Shape::Vector(n)),
-        ("SMatrix", &[rows, columns]) => return Some(Shape::Matrix(rows, columns)),
-        _ => {}
-    }
-    let digits = |text: &str| -> Option<Vec<usize>> {
-        text.split('x').map(|n| n.parse().ok().filter(|n| (1..=6).contains(n))).collect()
+    let name = segment.ident.to_string();
+    let digits = |prefix: &str| -> Option<Vec<usize>> {
+        let digits = name.strip_prefix(prefix)?.split('x');
+        digits.map(|n| n.parse().ok().filter(|n| (1..=6).contains(n))).collect()
     };
-    if let Some(n) = name.strip_prefix("Vector") {
-        return match digits(n)?[..] {
-            [n] => Some(Shape::Vector(n)),
-            _ => None,
-        };
+    if !matches!(name.as_str(), "SVector" | "SMatrix") {
+        sizes = digits("Vector").or_else(|| digits("Matrix"))?;
     }
-    match name.strip_prefix("Matrix").and_then(digits)?[..] {
-        [n] => Some(Shape::Matrix(n, n)),
-        [rows, columns] => Some(Shape::Matrix(rows, columns)),
+    match (name.contains("Vector"), &sizes[..]) {
+        (true, &[n]) | (false, &[n, 1]) => Some(Shape::Vector(n)),
+        (false, &[n]) => Some(Shape::Matrix(n, n)),
+        (false, &[rows, columns]) => Some(Shape::Matrix(rows, columns)),
         _ => None,
     }
 }
 
-/// The numbers among generic arguments: `<f64, 3>`.
-pub(super) fn sizes(arguments: &syn::AngleBracketedGenericArguments) -> Vec<usize> {
-    let size = |argument: &syn::GenericArgument| match argument {
-        syn::GenericArgument::Const(size) => length(size),
-        _ => None,
-    };
-    arguments.args.iter().filter_map(size).collect()
-}
-
-fn length(expression: &syn::Expr) -> Option<usize> {
-    match expression {
-        syn::Expr::Lit(literal) => match &literal.lit {
-            syn::Lit::Int(n) => n.base10_parse().ok().filter(|&n: &usize| n > 0 && n <= 4096),
-            _ => None,
-        },
-        syn::Expr::Paren(inner) => length(&inner.expr),
-        syn::Expr::Group(inner) => length(&inner.expr),
-        syn::Expr::Block(block) => match &block.block.stmts[..] {
-            [syn::Stmt::Expr(inner, None)] => length(inner),
-            _ => None,
-        },
+/// A length that is written as a number.
+pub(super) fn length(expression: &Expr) -> Option<usize> {
+    match bare(expression) {
+        Expr::Lit(syn::ExprLit { lit: syn::Lit::Int(n), .. }) => {
+            n.base10_parse().ok().filter(|n| (1..=4096).contains(n))
+        }
         _ => None,
     }
 }

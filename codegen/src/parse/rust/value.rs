@@ -1,28 +1,25 @@
-//! The values of a function's variables while it is read.
+//! The values of a function's variables while it is read, and what can be computed with them.
 
 use std::cmp::Ordering;
 use std::rc::Rc;
 
-use syn::{BinOp, Expr, ExprBinary, ExprMethodCall, ExprRange, RangeLimits, Type};
+use syn::{BinOp, ExprMethodCall, GenericArgument};
 
 use crate::diagnostic::{Mistake, Span, nearest};
 use crate::expr::{ExprId, Function, Node};
 use crate::number::{Rational, integer};
 use crate::parse::rust::evaluate::{Callable, Evaluator, NoValue};
-use crate::parse::rust::signature::sizes;
+use crate::parse::rust::signature::length;
 
-/// A value of the function's world. Copies of lists and matrices share their entries.
-#[derive(Clone, Debug)]
+/// A value of the function's world.
+#[derive(Clone)]
 pub(super) enum Value {
     Number(ExprId),
     /// An integer, known.
     Integer(i128),
     /// A truth value, known.
     Bool(bool),
-    /// An array, a tuple or an iterator.
-    List(Rc<Vec<Value>>),
-    /// A matrix of nalgebra; one of a single column is a vector.
-    Matrix(Matrix),
+    List(Aggregate),
     /// A closure or a function of the body.
     Function(Rc<Callable>),
     Unit,
@@ -30,42 +27,42 @@ pub(super) enum Value {
     Wrong,
 }
 
-/// A matrix of nalgebra, row by row.
-#[derive(Clone, Debug)]
-pub(super) struct Matrix {
-    pub rows: usize,
-    pub columns: usize,
+/// An array, a tuple, an iterator, or a matrix of nalgebra. Copies share their entries.
+#[derive(Clone)]
+pub(super) struct Aggregate {
+    /// Those of a matrix column by column, as nalgebra has them.
     pub entries: Rc<Vec<Value>>,
+    /// The rows and columns of a matrix; one of a single column is a vector.
+    pub shape: Option<(usize, usize)>,
 }
 
-impl Matrix {
-    pub(super) fn new(rows: usize, columns: usize, entries: impl Iterator<Item = Value>) -> Self {
-        Self { rows, columns, entries: Rc::new(entries.collect()) }
+impl Aggregate {
+    /// Entries in the same shape.
+    fn with(&self, entries: impl Iterator<Item = Value>) -> Value {
+        Value::List(Self { entries: Rc::new(entries.collect()), shape: self.shape })
     }
 
-    pub(super) fn vector(entries: &[Value]) -> Self {
-        Self::new(entries.len(), 1, entries.iter().cloned())
-    }
-
-    pub(super) fn shape(&self) -> (usize, usize) {
-        (self.rows, self.columns)
-    }
-
-    /// The matrix of the same shape with these entries.
-    pub(super) fn with(&self, entries: impl Iterator<Item = Value>) -> Self {
-        Self::new(self.rows, self.columns, entries)
-    }
-
-    pub(super) fn transposed(&self) -> Self {
-        let entry =
-            |at: usize| self.entries[at % self.rows * self.columns + at / self.rows].clone();
-        Self::new(self.columns, self.rows, (0..self.entries.len()).map(entry))
+    /// The place of the entry named by an index, or the length where there is none such.
+    pub(super) fn position(&self, index: &[usize]) -> Result<usize, usize> {
+        let below = |i: usize, length: usize| if i < length { Ok(i) } else { Err(length) };
+        match (self.shape, index) {
+            (_, &[at]) => below(at, self.entries.len()),
+            (Some((rows, columns)), &[i, j]) => Ok(below(i, rows)? + below(j, columns)? * rows),
+            _ => Err(0),
+        }
     }
 }
 
 impl Value {
     pub(super) fn list(entries: impl IntoIterator<Item = Value>) -> Self {
-        Self::List(Rc::new(entries.into_iter().collect()))
+        Self::List(Aggregate { entries: Rc::new(entries.into_iter().collect()), shape: None })
+    }
+
+    /// A matrix with these entries, row by row.
+    pub(super) fn matrix(rows: usize, columns: usize, entries: Vec<Value>) -> Self {
+        let by_columns = (0..columns).flat_map(|j| entries.iter().skip(j).step_by(columns));
+        let entries = Rc::new(by_columns.cloned().collect());
+        Self::List(Aggregate { entries, shape: Some((rows, columns)) })
     }
 
     /// A description for messages.
@@ -74,415 +71,171 @@ impl Value {
             Self::Number(_) => "a number",
             Self::Integer(_) => "an integer",
             Self::Bool(_) => "a truth value",
-            Self::List(_) => "an array",
-            Self::Matrix(Matrix { columns: 1, .. }) => "a vector",
-            Self::Matrix(_) => "a matrix",
+            Self::List(Aggregate { shape: None, .. }) => "an array",
+            Self::List(Aggregate { shape: Some((_, 1)), .. }) => "a vector",
+            Self::List(_) => "a matrix",
             Self::Function(_) => "a function",
             Self::Unit => "nothing",
             Self::Wrong => "a mistake",
         }
     }
-
-    /// The entries in the order in which Rust iterates over them: those of a matrix column by column.
-    pub(super) fn iterated(&self) -> Option<Rc<Vec<Value>>> {
-        match self {
-            Self::List(list) => Some(list.clone()),
-            Self::Matrix(matrix) => Some(matrix.transposed().entries),
-            _ => None,
-        }
-    }
-
-    /// The place of the entry named by an index, or the length where there is none such.
-    fn position(&self, index: &[usize]) -> Result<usize, usize> {
-        let below = |i: usize, length: usize| if i < length { Ok(i) } else { Err(length) };
-        match (self, index) {
-            (Self::List(list), &[i]) => below(i, list.len()),
-            (Self::Matrix(Matrix { rows, columns, .. }), &[i, j]) => {
-                Ok(below(i, *rows)? * columns + below(j, *columns)?)
-            }
-            // nalgebra counts a matrix column by column.
-            (Self::Matrix(Matrix { rows, columns, .. }), &[k]) => {
-                let k = below(k, rows * columns)?;
-                Ok(k % rows * columns + k / rows)
-            }
-            _ => Err(0),
-        }
-    }
-
-    /// The entry named by an index, or the length where there is none such.
-    pub(super) fn entry(&self, index: &[usize]) -> Result<Value, usize> {
-        let at = self.position(index)?;
-        match self {
-            Self::List(entries) | Self::Matrix(Matrix { entries, .. }) => Ok(entries[at].clone()),
-            _ => Err(0),
-        }
-    }
-
-    /// As [`Value::entry`], for assignment.
-    pub(super) fn entry_mut(&mut self, index: &[usize]) -> Result<&mut Value, usize> {
-        let at = self.position(index)?;
-        match self {
-            Self::List(entries) | Self::Matrix(Matrix { entries, .. }) => {
-                Ok(&mut Rc::make_mut(entries)[at])
-            }
-            _ => Err(0),
-        }
-    }
 }
 
-type Combine = fn(ExprId, ExprId) -> Node;
+/// An operation on two values: its name, of integers, and of numbers.
+#[derive(Clone, Copy)]
+struct Operation {
+    name: &'static str,
+    integers: fn(i128, i128) -> Option<i128>,
+    numbers: fn(ExprId, ExprId) -> Node,
+}
+
+const PLUS: Operation = Operation { name: "+", integers: i128::checked_add, numbers: Node::Add };
+const MINUS: Operation = Operation { name: "-", integers: i128::checked_sub, numbers: Node::Sub };
+const TIMES: Operation = Operation { name: "*", integers: i128::checked_mul, numbers: Node::Mul };
+const OVER: Operation = Operation { name: "/", integers: i128::checked_div, numbers: Node::Div };
+
+const KNOWN: &str = "powi, powf, mul_add, sqrt, sin, cos, tan, atan, tanh, exp, ln, abs, recip, dot, cross, norm_squared, norm, \
+    component_mul, component_div, fixed_rows, sum, len, iter, map, zip, enumerate, rev, fold";
 
 impl Evaluator<'_> {
-    /// A binary operation or a compound assignment.
-    pub(super) fn binary(&mut self, binary: &ExprBinary) -> Result<Value, NoValue> {
-        // a + b + c + … nests to the left; a loop keeps long sums off the stack.
-        let mut chain = vec![binary];
-        while let Some(Expr::Binary(left)) = chain.last().map(|b| &*b.left) {
-            if is_assignment(&left.op) {
-                break;
+    /// A binary operation, or that of a compound assignment.
+    pub(super) fn operate(&mut self, op: &BinOp, a: Value, b: Value, span: Span) -> Value {
+        let order: fn(Ordering) -> bool = match op {
+            BinOp::Add(_) | BinOp::AddAssign(_) => return self.arithmetic(PLUS, a, b, span),
+            BinOp::Sub(_) | BinOp::SubAssign(_) => return self.arithmetic(MINUS, a, b, span),
+            BinOp::Mul(_) | BinOp::MulAssign(_) => return self.arithmetic(TIMES, a, b, span),
+            BinOp::Div(_) | BinOp::DivAssign(_) => return self.arithmetic(OVER, a, b, span),
+            BinOp::Rem(_) | BinOp::RemAssign(_) => {
+                let of_integers = Operation { name: "%", integers: i128::checked_rem, ..OVER };
+                return self.arithmetic(of_integers, a, b, span);
             }
-            chain.push(left);
-        }
-        let mut value = match chain.last() {
-            Some(first) => self.expression(&first.left)?,
-            None => Value::Wrong,
+            BinOp::Eq(_) => Ordering::is_eq,
+            BinOp::Ne(_) => Ordering::is_ne,
+            BinOp::Lt(_) => Ordering::is_lt,
+            BinOp::Le(_) => Ordering::is_le,
+            BinOp::Gt(_) => Ordering::is_gt,
+            BinOp::Ge(_) => Ordering::is_ge,
+            _ => {
+                let help = "use + - * / and, of integers, %";
+                return self.unsupported(span, "this operator is not read", help);
+            }
         };
-        for operation in chain.into_iter().rev() {
-            let span = Span::of(&operation.op);
-            self.tick(span)?;
-            let right = self.expression(&operation.right)?;
-            let whole = Span::of(&operation.left).to(Span::of(&operation.right));
-            let result = self.operate(&operation.op, value, right, whole);
-            value = if is_assignment(&operation.op) {
-                self.assign(&operation.left, result)?;
-                Value::Unit
-            } else {
-                result
-            };
-        }
-        Ok(value)
-    }
-
-    fn operate(&mut self, op: &BinOp, a: Value, b: Value, span: Span) -> Value {
-        match op {
-            BinOp::Add(_) | BinOp::AddAssign(_) => self.add(a, b, span),
-            BinOp::Sub(_) | BinOp::SubAssign(_) => self.subtract(a, b, span),
-            BinOp::Mul(_) | BinOp::MulAssign(_) => self.multiply(a, b, span),
-            BinOp::Div(_) | BinOp::DivAssign(_) => self.divide(a, b, span),
-            BinOp::Rem(_) | BinOp::RemAssign(_) => match (&a, &b) {
-                (Value::Integer(a), Value::Integer(b)) => {
-                    self.checked_integer(a.checked_rem(*b), span)
-                }
-                _ => self.no_operation("%", &a, &b, span),
-            },
-            BinOp::Eq(_) => self.compare(&a, &b, span, Ordering::is_eq),
-            BinOp::Ne(_) => self.compare(&a, &b, span, Ordering::is_ne),
-            BinOp::Lt(_) => self.compare(&a, &b, span, Ordering::is_lt),
-            BinOp::Le(_) => self.compare(&a, &b, span, Ordering::is_le),
-            BinOp::Gt(_) => self.compare(&a, &b, span, Ordering::is_gt),
-            BinOp::Ge(_) => self.compare(&a, &b, span, Ordering::is_ge),
-            _ => self.unsupported(
-                span,
-                "this operator is not read",
-                "use + - * / and, of integers, %",
-            ),
+        match (a, b) {
+            (Value::Integer(a), Value::Integer(b)) => Value::Bool(order(a.cmp(&b))),
+            (Value::Wrong, _) | (_, Value::Wrong) => Value::Wrong,
+            _ => self.undecided("a comparison", span),
         }
     }
 
-    fn no_operation(&mut self, operator: &str, a: &Value, b: &Value, span: Span) -> Value {
-        if matches!(a, Value::Wrong) || matches!(b, Value::Wrong) {
-            return Value::Wrong;
+    fn arithmetic(&mut self, operation: Operation, a: Value, b: Value, span: Span) -> Value {
+        let Operation { name, integers, numbers } = operation;
+        match (a, b) {
+            (Value::Wrong, _) | (_, Value::Wrong) => Value::Wrong,
+            (Value::Integer(a), Value::Integer(b)) => self.checked_integer(integers(a, b), span),
+            (Value::Number(a), Value::Number(b)) if name != "%" => self.push(numbers(a, b), span),
+            (s @ Value::Number(_), Value::List(v)) if v.shape.is_some() && name == "*" => {
+                v.with(v.entries.iter().map(|x| self.arithmetic(TIMES, s.clone(), x.clone(), span)))
+            }
+            (Value::List(v), s @ Value::Number(_))
+                if v.shape.is_some() && matches!(name, "*" | "/") =>
+            {
+                let entry = |x: &Value| self.arithmetic(operation, x.clone(), s.clone(), span);
+                v.with(v.entries.iter().map(entry))
+            }
+            (Value::List(Aggregate { entries: a, shape: Some((rows, inner)) }), Value::List(b))
+                if name == "*" && b.shape.is_some_and(|(other, _)| inner == other) =>
+            {
+                let columns = b.entries.chunks(inner);
+                let entries: Vec<Value> = columns
+                    .flat_map(|column| (0..rows).map(move |i| (i, column)))
+                    .map(|(i, column)| self.dot(a.iter().skip(i).step_by(rows), column, span))
+                    .collect();
+                let shape = Some((rows, entries.len() / rows));
+                Value::List(Aggregate { entries: Rc::new(entries), shape })
+            }
+            (Value::List(a), Value::List(b))
+                if a.shape.is_some() && a.shape == b.shape && !matches!(name, "*" | "/" | "%") =>
+            {
+                let pairs = a.entries.iter().zip(b.entries.iter());
+                a.with(pairs.map(|(x, y)| self.arithmetic(operation, x.clone(), y.clone(), span)))
+            }
+            (a, b) => {
+                let message = format!("`{name}` of {} and {} is not read", a.kind(), b.kind());
+                self.unsupported(span, &message, "write it out in coordinates")
+            }
         }
-        let message = format!("`{operator}` of {} and {} is not read", a.kind(), b.kind());
-        self.unsupported(span, &message, "write it out in coordinates")
     }
 
-    pub(super) fn checked_integer(&mut self, value: Option<i128>, span: Span) -> Value {
+    fn checked_integer(&mut self, value: Option<i128>, span: Span) -> Value {
         match value {
             Some(value) => Value::Integer(value),
             None => self.unsupported(span, "this integer operation overflows", ""),
         }
     }
 
-    fn compare(&mut self, a: &Value, b: &Value, span: Span, op: fn(Ordering) -> bool) -> Value {
-        match (a, b) {
-            (Value::Integer(a), Value::Integer(b)) => Value::Bool(op(a.cmp(b))),
-            (Value::Wrong, _) | (_, Value::Wrong) => Value::Wrong,
-            _ => self.undecided("a comparison", span),
-        }
-    }
-
-    /// A matrix whose entries are those of another after an operation.
-    fn map(&mut self, matrix: &Matrix, mut of: impl FnMut(&mut Self, Value) -> Value) -> Value {
-        let entries = matrix.entries.iter().map(|entry| of(self, entry.clone()));
-        Value::Matrix(matrix.with(entries))
-    }
-
     pub(super) fn negate(&mut self, value: Value, span: Span) -> Value {
         match value {
             Value::Number(a) => self.push(Node::Neg(a), span),
             Value::Integer(n) => self.checked_integer(n.checked_neg(), span),
-            Value::Matrix(matrix) => self.map(&matrix, |this, entry| this.negate(entry, span)),
-            other => self.no_operation("-", &other, &other, span),
-        }
-    }
-
-    pub(super) fn zip(
-        &mut self,
-        a: Value,
-        b: Value,
-        span: Span,
-        name: &str,
-        node: Combine,
-    ) -> Value {
-        match (a, b) {
-            (Value::Number(a), Value::Number(b)) => self.push(node(a, b), span),
-            (Value::Matrix(a), Value::Matrix(b)) if a.shape() == b.shape() => {
-                let entries = a.entries.iter().cloned().zip(b.entries.iter().cloned());
-                let entries = entries.map(|(a, b)| self.zip(a, b, span, name, node));
-                Value::Matrix(a.with(entries))
+            Value::List(v) if v.shape.is_some() => {
+                v.with(v.entries.iter().map(|entry| self.negate(entry.clone(), span)))
             }
-            (a, b) => self.no_operation(name, &a, &b, span),
-        }
-    }
-
-    pub(super) fn add(&mut self, a: Value, b: Value, span: Span) -> Value {
-        match (&a, &b) {
-            (Value::Integer(a), Value::Integer(b)) => self.checked_integer(a.checked_add(*b), span),
-            _ => self.zip(a, b, span, "+", Node::Add),
-        }
-    }
-
-    pub(super) fn subtract(&mut self, a: Value, b: Value, span: Span) -> Value {
-        match (&a, &b) {
-            (Value::Integer(a), Value::Integer(b)) => self.checked_integer(a.checked_sub(*b), span),
-            _ => self.zip(a, b, span, "-", Node::Sub),
-        }
-    }
-
-    pub(super) fn multiply(&mut self, a: Value, b: Value, span: Span) -> Value {
-        match (a, b) {
-            (Value::Integer(a), Value::Integer(b)) => self.checked_integer(a.checked_mul(b), span),
-            (Value::Number(a), Value::Number(b)) => self.push(Node::Mul(a, b), span),
-            (Value::Number(s), Value::Matrix(matrix))
-            | (Value::Matrix(matrix), Value::Number(s)) => {
-                self.map(&matrix, |this, entry| this.multiply(Value::Number(s), entry, span))
+            Value::Wrong => Value::Wrong,
+            other => {
+                let message = format!("`-` of {} is not read", other.kind());
+                self.unsupported(span, &message, "write it out in coordinates")
             }
-            (Value::Matrix(a), Value::Matrix(b)) if a.columns == b.rows => {
-                let transposed = b.transposed();
-                let entry = |at: usize| {
-                    let (i, j) = (at / b.columns, at % b.columns);
-                    let row = &a.entries[i * a.columns..][..a.columns];
-                    self.dot(row, &transposed.entries[j * b.rows..][..b.rows], span)
-                };
-                Value::Matrix(Matrix::new(a.rows, b.columns, (0..a.rows * b.columns).map(entry)))
-            }
-            (a, b) => self.no_operation("*", &a, &b, span),
         }
     }
 
-    fn divide(&mut self, a: Value, b: Value, span: Span) -> Value {
-        match (a, b) {
-            (Value::Integer(a), Value::Integer(b)) => self.checked_integer(a.checked_div(b), span),
-            (Value::Number(a), Value::Number(b)) => self.push(Node::Div(a, b), span),
-            (Value::Matrix(matrix), Value::Number(s)) => {
-                self.map(&matrix, |this, entry| this.divide(entry, Value::Number(s), span))
-            }
-            (a, b) => self.no_operation("/", &a, &b, span),
-        }
-    }
-
-    pub(super) fn dot(&mut self, a: &[Value], b: &[Value], span: Span) -> Value {
-        let mut sum: Option<Value> = None;
-        for (a, b) in a.iter().zip(b) {
-            let product = self.multiply(a.clone(), b.clone(), span);
-            sum = Some(match sum {
-                Some(sum) => self.add(sum, product, span),
-                None => product,
-            });
-        }
+    fn sum(&mut self, items: Vec<Value>, span: Span) -> Value {
+        let sum = items.into_iter().reduce(|sum, item| self.arithmetic(PLUS, sum, item, span));
         sum.unwrap_or_else(|| self.constant(integer(0), span))
     }
 
-    pub(super) fn cast(&mut self, value: Value, ty: &Type, span: Span) -> Value {
-        let to_float =
-            matches!(ty, Type::Path(p) if p.path.is_ident("f64") || p.path.is_ident("f32"));
+    fn dot<'v>(
+        &mut self,
+        a: impl IntoIterator<Item = &'v Value>,
+        b: impl IntoIterator<Item = &'v Value>,
+        span: Span,
+    ) -> Value {
+        let pairs = a.into_iter().zip(b);
+        let product = |(a, b): (&Value, &Value)| self.arithmetic(TIMES, a.clone(), b.clone(), span);
+        let products = pairs.map(product).collect();
+        self.sum(products, span)
+    }
+
+    /// `value as f64`, or as an integer.
+    pub(super) fn cast(&mut self, value: Value, to_float: bool, span: Span) -> Value {
         match value {
             Value::Integer(n) if to_float => self.constant(Rational::from_integer(n.into()), span),
-            Value::Integer(n) => Value::Integer(n),
-            Value::Number(id) if to_float => Value::Number(id),
-            Value::Wrong => Value::Wrong,
+            Value::Integer(_) | Value::Wrong => value,
+            Value::Number(_) if to_float => value,
             _ => self.wrong(span, Mistake::NotConstant("a number cast to an integer")),
         }
     }
-}
 
-fn is_assignment(op: &BinOp) -> bool {
-    matches!(
-        op,
-        BinOp::AddAssign(_)
-            | BinOp::SubAssign(_)
-            | BinOp::MulAssign(_)
-            | BinOp::DivAssign(_)
-            | BinOp::RemAssign(_)
-    )
-}
-
-impl Evaluator<'_> {
-    /// A range whose ends are known.
-    pub(super) fn range(&mut self, range: &ExprRange) -> Result<Value, NoValue> {
-        let span = Span::of(range);
-        let mut bound = |bound: &Option<Box<Expr>>| {
-            let Some(bound) = bound else {
-                self.wrong(span, Mistake::NotConstant("the end of a range"));
-                return Ok(None);
-            };
-            let value = self.expression(bound)?;
-            Ok(self.integer(&value, "the bound of a range", Span::of(bound)))
-        };
-        let Some((start, end)) = bound(&range.start)?.zip(bound(&range.end)?) else {
-            return Ok(Value::Wrong);
-        };
-        let inclusive = matches!(range.limits, RangeLimits::Closed(_));
-        let end = if inclusive { end.saturating_add(1) } else { end };
-        let mut list = Vec::new();
-        for i in start..end {
-            self.tick(span)?;
-            list.push(Value::Integer(i));
-        }
-        Ok(Value::list(list))
-    }
-
-    pub(super) fn for_loop(&mut self, for_loop: &syn::ExprForLoop) -> Result<Value, NoValue> {
-        let span = Span::of(&for_loop.expr);
-        let list = self.expression(&for_loop.expr)?;
-        let Some(items) = list.iterated() else {
-            return Ok(match list {
-                Value::Wrong => Value::Wrong,
-                _ => {
-                    let help = "loop over a range such as 0..3, or over an array";
-                    self.unsupported(span, "this cannot be looped over", help)
-                }
-            });
-        };
-        for item in items.iter() {
-            self.tick(span)?;
-            self.scopes.enter();
-            self.bind(&for_loop.pat, item.clone());
-            let flow = self.block(&for_loop.body);
-            self.scopes.leave();
-            goes_on(flow)?;
-        }
-        Ok(Value::Unit)
-    }
-
-    /// `while condition { … }`, as long as the condition is known.
-    pub(super) fn while_loop(&mut self, while_loop: &syn::ExprWhile) -> Result<Value, NoValue> {
-        loop {
-            self.tick(Span::of(&while_loop.cond))?;
-            match self.condition(&while_loop.cond)? {
-                Some(true) => {}
-                Some(false) => return Ok(Value::Unit),
-                None => return Ok(Value::Wrong),
-            }
-            goes_on(self.block(&while_loop.body))?;
-        }
-    }
-
-    /// Methods of arrays and iterators; `None` if there is no such method.
-    pub(super) fn list_method(
-        &mut self,
-        items: &[Value],
-        call: &syn::ExprMethodCall,
-        arguments: &[Value],
-    ) -> Result<Option<Value>, NoValue> {
-        let span = Span::of(call);
-        let pair = |(a, b): (Value, &Value)| Value::list([a, b.clone()]);
-        let list = match (call.method.to_string().as_str(), arguments) {
-            ("iter" | "into_iter" | "copied" | "cloned", []) => items.to_vec(),
-            ("len", []) => return Ok(Some(Value::Integer(items.len() as i128))),
-            ("rev", []) => items.iter().rev().cloned().collect(),
-            ("enumerate", []) => (0..).map(Value::Integer).zip(items).map(pair).collect(),
-            ("zip", [other]) => match other.iterated() {
-                Some(other) => items.iter().cloned().zip(other.iter()).map(pair).collect(),
-                None => return Ok(None),
-            },
-            ("map", [Value::Function(function)]) => self.mapped(items, function, span)?,
-            ("fold", [start, Value::Function(function)]) => {
-                let mut value = start.clone();
-                for item in items {
-                    value = self.apply(function, vec![value, item.clone()], span)?;
-                }
-                return Ok(Some(value));
-            }
-            ("sum", []) => {
-                let Some((first, items)) = items.split_first() else {
-                    return Ok(Some(self.constant(integer(0), span)));
-                };
-                let mut value = first.clone();
-                for item in items {
-                    self.tick(span)?;
-                    value = self.add(value, item.clone(), span);
-                }
-                return Ok(Some(value));
-            }
-            _ => return Ok(None),
-        };
-        Ok(Some(Value::list(list)))
-    }
-
-    fn mapped(
-        &mut self,
-        items: &[Value],
-        function: &Rc<Callable>,
-        span: Span,
-    ) -> Result<Vec<Value>, NoValue> {
-        items.iter().map(|item| self.apply(function, vec![item.clone()], span)).collect()
-    }
-}
-
-/// Lets a loop go on after a mistake in its body.
-fn goes_on(flow: Result<Value, NoValue>) -> Result<(), NoValue> {
-    match flow {
-        Ok(_) | Err(NoValue::Wrong) => Ok(()),
-        Err(flow) => Err(flow),
-    }
-}
-
-const KNOWN: &str = "powi, powf, mul_add, sqrt, sin, cos, tan, atan, tanh, exp, ln, abs, recip, dot, cross, norm_squared, norm, \
-    component_mul, component_div, fixed_rows, sum, len, iter, map, zip, enumerate, rev, fold";
-
-impl Evaluator<'_> {
     pub(super) fn method_call(&mut self, call: &ExprMethodCall) -> Result<Value, NoValue> {
         let span = Span::of(call);
         self.tick(span)?;
         let receiver = self.expression(&call.receiver)?;
-        let arguments: Result<Vec<Value>, NoValue> =
-            call.args.iter().map(|argument| self.expression(argument)).collect();
-        let arguments = arguments?;
-        if matches!(receiver, Value::Wrong) {
-            return Ok(Value::Wrong);
-        }
+        let arguments = self.expressions(&call.args)?;
         let name = call.method.to_string();
         let value = match &receiver {
-            Value::Number(_) => self.number_method(&name, &receiver, &arguments, span),
-            Value::List(items) => self.list_method(items, call, &arguments)?,
-            Value::Matrix(matrix) => match self.matrix_method(&name, matrix, call, &arguments) {
-                Some(value) => Some(value),
-                None => self.list_method(&matrix.transposed().entries, call, &arguments)?,
-            },
+            Value::Number(x) => self.number_method(&name, *x, &arguments, span),
+            Value::List(list) => self.list_method(&name, list, call, &arguments)?,
             _ => None,
         };
+        let mut all = arguments.iter().chain([&receiver]);
         Ok(match value {
             Some(value) => value,
-            None if arguments.iter().any(|a| matches!(a, Value::Wrong)) => Value::Wrong,
+            None if all.any(|value| matches!(value, Value::Wrong)) => Value::Wrong,
             None => {
-                let suggestion = nearest(&name, KNOWN.split(", "))
-                    .filter(|known| *known != name)
-                    .map(|known| format!("did you mean `{known}`?"));
-                let message =
-                    format!("`{name}` of {} with these arguments is not read", receiver.kind());
-                let help = suggestion.unwrap_or_else(|| format!("methods read: {KNOWN}"));
+                let kind = receiver.kind();
+                let message = format!("`{name}` of {kind} with these arguments is not read");
+                let near = nearest(&name, KNOWN.split(", ")).filter(|known| *known != name);
+                let help = near.map(|known| format!("did you mean `{known}`?"));
+                let help = help.unwrap_or_else(|| format!("methods read: {KNOWN}"));
                 self.unsupported(Span::of(&call.method), &message, &help)
             }
         })
@@ -492,103 +245,109 @@ impl Evaluator<'_> {
     pub(super) fn number_method(
         &mut self,
         name: &str,
-        receiver: &Value,
+        x: ExprId,
         arguments: &[Value],
         span: Span,
     ) -> Option<Value> {
-        let &Value::Number(x) = receiver else { return None };
-        Some(match (name, arguments) {
-            ("powi", [power @ (Value::Integer(_) | Value::Wrong)]) => {
-                let n = self.integer(power, "the power", span)?;
-                match self.constant(Rational::from_integer(n.into()), span) {
-                    Value::Number(n) => self.push(Node::Pow(x, n), span),
-                    other => other,
-                }
+        let node = match (name, arguments) {
+            ("powi", [Value::Integer(n)]) => {
+                Node::Pow(x, self.number(Rational::from_integer((*n).into()), span))
             }
-            ("powf", [Value::Number(n)]) => self.push(Node::Pow(x, *n), span),
+            ("powf", [Value::Number(n)]) => Node::Pow(x, *n),
             ("mul_add", [a, b]) => {
-                let product = self.multiply(receiver.clone(), a.clone(), span);
-                self.add(product, b.clone(), span)
+                let product = self.arithmetic(TIMES, Value::Number(x), a.clone(), span);
+                return Some(self.arithmetic(PLUS, product, b.clone(), span));
             }
-            ("recip", []) => match self.constant(integer(1), span) {
-                Value::Number(one) => self.push(Node::Div(one, x), span),
-                other => other,
-            },
-            ("min" | "max" | "clamp" | "floor" | "ceil" | "round" | "signum" | "trunc", _) => self
-                .unsupported(
-                    span,
-                    &format!("`{name}` has kinks or jumps: the Hamiltonian must be smooth"),
-                    "write it with functions that are smooth, such as tanh",
-                ),
-            (_, []) => {
-                let function = Function::lookup(name)?;
-                self.push(Node::Call(function, x), span)
+            ("recip", []) => Node::Div(self.number(integer(1), span), x),
+            ("min" | "max" | "clamp" | "floor" | "ceil" | "round" | "signum" | "trunc", _) => {
+                let message =
+                    format!("`{name}` has kinks or jumps: the Hamiltonian must be smooth");
+                let help = "write it with functions that are smooth, such as tanh";
+                return Some(self.unsupported(span, &message, help));
             }
-            _ => return None,
-        })
-    }
-
-    fn root(&mut self, value: Value, span: Span) -> Value {
-        match value {
-            Value::Number(x) => self.push(Node::Call(Function::Sqrt, x), span),
-            other => other,
-        }
-    }
-
-    fn matrix_method(
-        &mut self,
-        name: &str,
-        matrix: &Matrix,
-        call: &ExprMethodCall,
-        arguments: &[Value],
-    ) -> Option<Value> {
-        let span = Span::of(call);
-        let items = &matrix.entries;
-        let whole = || Value::Matrix(matrix.clone());
-        let found = match (name, arguments) {
-            ("dot", [Value::Matrix(other)]) => {
-                if items.len() != other.entries.len() {
-                    let message =
-                        format!("dot of {} and {} entries", items.len(), other.entries.len());
-                    return Some(self.unsupported(span, &message, "both must have as many"));
-                }
-                return Some(self.dot(items, &other.entries, span));
-            }
-            ("norm_squared", []) => {
-                return Some(self.dot(items, items, span));
-            }
-            ("norm", []) => {
-                let square = self.dot(items, items, span);
-                return Some(self.root(square, span));
-            }
-            ("component_mul", [other @ Value::Matrix(_)]) => {
-                return Some(self.zip(whole(), other.clone(), span, name, Node::Mul));
-            }
-            ("component_div", [other @ Value::Matrix(_)]) => {
-                return Some(self.zip(whole(), other.clone(), span, name, Node::Div));
-            }
-            ("cross", [Value::Matrix(other)]) if items.len() == 3 && other.entries.len() == 3 => {
-                let other = &other.entries;
-                matrix.with((0..3).map(|i| {
-                    let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-                    let a = self.multiply(items[j].clone(), other[k].clone(), span);
-                    let b = self.multiply(items[k].clone(), other[j].clone(), span);
-                    self.subtract(a, b, span)
-                }))
-            }
-            ("into_owned", []) => matrix.clone(),
-            ("fixed_rows", [start]) if matrix.columns == 1 => {
-                let start = usize::try_from(self.integer(start, "the first row", span)?).ok()?;
-                let count = *sizes(call.turbofish.as_ref()?).first()?;
-                let end = start.checked_add(count)?;
-                let Some(rows) = items.get(start..end) else {
-                    let wrong = Mistake::IndexRange(format!("{start}..{end}"), items.len());
-                    return Some(self.wrong(span, wrong));
-                };
-                Matrix::vector(rows)
-            }
+            (_, []) => Node::Call(Function::lookup(name)?, x),
             _ => return None,
         };
-        Some(Value::Matrix(found))
+        Some(self.push(node, span))
+    }
+
+    /// Methods of arrays, iterators, vectors and matrices; `None` if there is no such method.
+    fn list_method(
+        &mut self,
+        name: &str,
+        list: &Aggregate,
+        call: &ExprMethodCall,
+        arguments: &[Value],
+    ) -> Result<Option<Value>, NoValue> {
+        let (items, span) = (&list.entries, Span::of(call));
+        let pair = |(a, b): (Value, &Value)| Value::list([a, b.clone()]);
+        Ok(Some(match (name, arguments) {
+            ("iter" | "into_iter" | "copied" | "cloned" | "into_owned", []) => {
+                Value::List(list.clone())
+            }
+            ("len", []) => Value::Integer(items.len() as i128),
+            ("rev", []) => Value::list(items.iter().rev().cloned()),
+            ("enumerate", []) => Value::list((0..).map(Value::Integer).zip(items.iter()).map(pair)),
+            ("zip", [Value::List(other)]) => {
+                Value::list(items.iter().cloned().zip(other.entries.iter()).map(pair))
+            }
+            ("map", [Value::Function(function)]) => {
+                let values: Result<Vec<Value>, NoValue> = items
+                    .iter()
+                    .map(|item| self.apply(function, vec![item.clone()], span))
+                    .collect();
+                Value::list(values?)
+            }
+            ("fold", [start, Value::Function(function)]) => {
+                items.iter().try_fold(start.clone(), |value, item| {
+                    self.apply(function, vec![value, item.clone()], span)
+                })?
+            }
+            ("sum", []) => {
+                items.iter().try_for_each(|_| self.tick(span))?;
+                self.sum(items.to_vec(), span)
+            }
+            _ if list.shape.is_none() => return Ok(None),
+            ("dot", [Value::List(other)]) if items.len() == other.entries.len() => {
+                self.dot(items.iter(), other.entries.iter(), span)
+            }
+            ("norm_squared", []) => self.dot(items.iter(), items.iter(), span),
+            ("norm", []) => match self.dot(items.iter(), items.iter(), span) {
+                Value::Number(square) => self.push(Node::Call(Function::Sqrt, square), span),
+                other => other,
+            },
+            ("component_mul", [other]) => {
+                let of = Operation { name: "component_mul", ..TIMES };
+                self.arithmetic(of, Value::List(list.clone()), other.clone(), span)
+            }
+            ("component_div", [other]) => {
+                let of = Operation { name: "component_div", ..OVER };
+                self.arithmetic(of, Value::List(list.clone()), other.clone(), span)
+            }
+            ("cross", [Value::List(other)]) if items.len() == 3 && other.entries.len() == 3 => list
+                .with((0..3).map(|i| {
+                    let [a, b] =
+                        [((i + 1) % 3, (i + 2) % 3), ((i + 2) % 3, (i + 1) % 3)].map(|(j, k)| {
+                            let (a, b) = (items[j].clone(), other.entries[k].clone());
+                            self.arithmetic(TIMES, a, b, span)
+                        });
+                    self.arithmetic(MINUS, a, b, span)
+                })),
+            ("fixed_rows", [Value::Integer(start)]) => {
+                let sizes = call.turbofish.as_ref().and_then(|sizes| sizes.args.first());
+                let Some(GenericArgument::Const(count)) = sizes else { return Ok(None) };
+                let Some(count) = length(count) else { return Ok(None) };
+                let start = usize::try_from(*start).unwrap_or(usize::MAX);
+                let end = start.saturating_add(count);
+                match items.get(start..end) {
+                    Some(rows) => Value::matrix(count, 1, rows.to_vec()),
+                    None => {
+                        let wrong = Mistake::IndexRange(format!("{start}..{end}"), items.len());
+                        self.wrong(span, wrong)
+                    }
+                }
+            }
+            _ => return Ok(None),
+        }))
     }
 }
