@@ -146,8 +146,9 @@ fn threads_make_the_same_bytes() {
     // By another program, from the description.
     let path = folder.at("system.toml");
     let text = text.replace("SPLITTING", "auto");
-    let lattice =
-        coadjoint_run::lattice::Simulation::read(&path, &text, &Default::default()).unwrap().unwrap();
+    let lattice = coadjoint_run::lattice::Simulation::read(&path, &text, &Default::default())
+        .unwrap()
+        .unwrap();
     let known = [
         [-0.9966007768142786, -0.0027081762292681254, -0.0823380679557617],
         [-0.3197191109585733, 0.5661120624858509, -0.7598005151326732],
