@@ -29,7 +29,7 @@ pub struct Items {
     pub legend: Vec<String>,
 }
 
-/// What the items of an integrator differ in by its method.
+/// The parts of an integrator that differ by its method.
 pub(super) struct Parts<'a> {
     pub facts: Facts<'a>,
     pub method: Method<'a>,
