@@ -15,7 +15,7 @@
 
 #define KERNEL extern "C" __global__
 #define INLINE static __device__ __forceinline__
-#define CALLED static __device__ __noinline__
+#define CALLED static __device__
 #define GLOBAL
 #define RESTRICT __restrict__
 #define COUNT unsigned long long

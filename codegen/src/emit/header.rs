@@ -63,22 +63,15 @@ pub(crate) fn opening(
         ("NAME", options.name.to_string()),
         ("PARAMETERS", arguments.collect()),
         ("NOW", if method.moves { ", time" } else { "" }.to_owned()),
-        ("RESCUE", method.rescue.to_owned()),
         ("COSTS", step.map_or_else(String::new, |step| costs(step.kernel()))),
     ]);
     paragraphs(&values)
 }
 
-/// The rescue of a refused step by the library.
-const RESCUE: &str = "For other steps the library follows the solution from the identity, or says why there is none.";
-const PARTS: &str = "Other steps the library solves in loops, and makes them where parts of them lead to the same end, or it says why \
-         there is none. Steps of one call of `advance_by` begin with a guess from those before them; `advance` knows none, and takes \
-         about twice as long.";
-
 /// The paragraphs of the opening of a file, which are lines of a template; a backslash joins a line and the next.
 pub(crate) fn paragraphs(values: &[Value]) -> Vec<String> {
-    let template = include_str!("opening.in").replace("\\\n", "");
-    fill(&template, values).lines().map(str::to_owned).collect()
+    let text = fill(include_str!("opening.in"), values).replace("\\\n", "");
+    text.lines().map(str::to_owned).collect()
 }
 
 /// Beyond as many coefficients no one looks them up.
@@ -157,8 +150,8 @@ pub(crate) struct Method<'a> {
     error: String,
     /// True if the Hamiltonian depends on the time.
     pub moves: bool,
-    /// The rescue of a refused step.
-    rescue: &'static str,
+    /// True for a series.
+    series: bool,
     /// The velocity and the torque beside the Hamiltonian.
     drive: Option<&'a Drive>,
 }
@@ -174,7 +167,7 @@ impl<'a> Method<'a> {
         let about =
             format!("Chart: {chart}. Truncation K = {truncation}, order of accuracy {order}.");
         let error = "K+2".to_owned();
-        Self { source, about, error, moves: false, rescue: RESCUE, drive: None }
+        Self { source, about, error, moves: false, series: true, drive: None }
     }
 
     pub(crate) fn of_collocation(smooth: &'a Smooth) -> Self {
@@ -185,7 +178,7 @@ impl<'a> Method<'a> {
         );
         let (error, moves) = ((2 * nodes + 1).to_string(), smooth.depends_on_time());
         let (source, drive) = (&smooth.source, smooth.drive.as_deref());
-        Self { source, about, error, moves, rescue: PARTS, drive }
+        Self { source, about, error, moves, series: false, drive }
     }
 
     /// The method of a system.
@@ -204,7 +197,8 @@ pub(crate) fn system(
     method: &Method<'_>,
     quoted: fn(&str) -> String,
 ) -> Vec<Value> {
-    let Method { source, about, error, moves, drive, .. } = method;
+    let Method { source, about, error, moves, series, drive } = method;
+    let when = |holds: bool| if holds { "1" } else { "" }.to_owned();
     let mut values = vec![
         ("VERSION", env!("CARGO_PKG_VERSION").to_owned()),
         ("SYSTEM", quoted(facts.name)),
@@ -212,39 +206,17 @@ pub(crate) fn system(
         ("GROUP", quoted(facts.algebra.name())),
         ("METHOD", about.clone()),
         ("ERROR", error.clone()),
-        ("ENERGY", if *moves { "" } else { NEAR }.to_owned()),
+        ("STEADY", when(!moves)),
+        ("SERIES", when(*series)),
     ];
     if let Some(Kicks { kick, splitting, .. }) = kicks {
         let (name, flows, order) = (splitting.name(), splitting.flows().len(), splitting.order());
         let about = format!("{name}, {flows} flows between kicks, order of accuracy {order}");
-        let potential = quoted(&kick.potential.source);
-        values.extend([
-            ("POTENTIAL", potential),
-            ("SPLITTING", about),
-            ("KICKED", KICKED.to_owned()),
-        ]);
+        values.extend([("POTENTIAL", quoted(&kick.potential.source)), ("SPLITTING", about)]);
     }
-    values.extend(
-        drive
-            .iter()
-            .flat_map(|drive| [("DRIVE", quoted(&drive.source)), ("KICKED", DRIVEN.to_owned())]),
-    );
+    values.extend(drive.iter().map(|drive| ("DRIVE", quoted(&drive.source))));
     values
 }
-
-/// The end of a sentence where the Hamiltonian does not depend on time.
-const NEAR: &str = ", and the energy stays near its first value for all times";
-
-/// The sentences for kicks between flows.
-const KICKED: &str = " This describes the flows. Between them the torque -g^-1 dV(g) of the potential kicks mu; of the spatial \
-         momentum and the Casimirs, only those remain conserved that the potential leaves invariant, and the order of accuracy \
-         is the lesser of both.";
-
-/// The sentences for a velocity and a torque.
-const DRIVEN: &str = " All of this is said of the Hamiltonian alone, of which dg/dt = g omega with omega = dH/dmu. Of a velocity eta and a \
-         torque tau beside it, dg/dt = g (omega + eta) and dmu/dt = ad*_(omega + eta) mu + tau, to the same order of accuracy; the step \
-         is then not symplectic, the energy is not conserved, and of the spatial momentum and the Casimirs only those remain that \
-         the torque leaves.";
 
 /// The cost of a step with one correction, and with as many as there may be.
 pub(crate) fn costs(kernel: &Kernel) -> String {

@@ -2,17 +2,15 @@
 
 use std::collections::BTreeSet;
 
-use proc_macro2::{Ident, Literal, TokenStream};
-use quote::{format_ident, quote};
+use coadjoint_program::print::Value;
+use proc_macro2::TokenStream;
 
-use crate::emit::generating_function::{
-    generating_function, scalar_function, solver, without_programs,
-};
+use crate::emit::generating_function::{generating_function, integrator as steps, scalar_function};
 use crate::emit::group::Types;
 use crate::emit::header::Method;
-use crate::emit::programs::{MOST_OPERATIONS, programs, step_operations};
+use crate::emit::programs::{MOST_OPERATIONS, step_operations};
 use crate::emit::table::{fold_item, last_item};
-use crate::emit::{Options, allow, fresh, header, identifier, parameter};
+use crate::emit::{Options, fresh, header, identifier, parameter};
 use crate::integrator::{FoldTable, Integrator, Kicks};
 use crate::problem::{Parameter, Shape, Symbol};
 use crate::smooth::Facts;
@@ -31,7 +29,7 @@ pub struct Items {
     pub legend: Vec<String>,
 }
 
-/// What the items of an integrator differ in by its method.
+/// The parts of an integrator that differ by its method.
 pub(super) struct Parts<'a> {
     pub facts: Facts<'a>,
     pub method: Method<'a>,
@@ -44,13 +42,11 @@ pub(super) struct Parts<'a> {
     /// Lines about the truncation, and about the coefficients.
     pub about: [&'static str; 2],
     /// The steps that lanes make together, where these are not a block.
-    pub together: Option<TokenStream>,
+    pub together: &'static str,
     /// The value of the Hamiltonian from `mu`, `c` and the time.
-    pub energy: TokenStream,
-    /// More methods.
-    pub methods: TokenStream,
+    pub energy: String,
     /// The implementations that make its steps, and what these need.
-    pub programs: TokenStream,
+    pub programs: String,
 }
 
 /// A step if it is short enough to be printed, and no kicks belong to it, which are items of their own.
@@ -63,19 +59,12 @@ pub(super) fn printed(step: Result<Step, StepError>) -> Option<Step> {
 /// The integrator as items, its programs and tables apart.
 #[must_use]
 pub fn items(integrator: &Integrator, options: &Options) -> Items {
-    let Options { krate, .. } = options;
     let problem = &integrator.problem;
     let types = Types::new(&problem.algebra, problem.chart, options);
-    let Types { vector, elements, .. } = &types;
-    let step = printed(Step::by_series(integrator, *elements));
+    let step = printed(Step::by_series(integrator, types.elements));
     let fold = FoldTable::new(integrator);
-    let programs = match &step {
-        Some(step) => programs(step, options, &types.group, &solver(integrator, krate)),
-        None => without_programs(integrator, options, &types),
-    };
+    let programs = steps(integrator, step.as_ref(), options, &types);
     let generating = generating_function(integrator, options, &types, fold.len());
-    let last = last_item(integrator);
-    let mu = options.bound("mu");
     let parts = Parts {
         facts: problem.facts(),
         method: Method::of_series(integrator),
@@ -89,22 +78,9 @@ pub fn items(integrator: &Integrator, options: &Options) -> Items {
              what is left out of the Hessian, the square of the |μ| up to which the series can be trusted, and the \
              coefficients of its last two terms.",
         ],
-        together: None,
+        together: "",
         energy: scalar_function(&integrator.energy, options, "mu"),
-        methods: quote! {
-            /// The Poisson map μ ↦ μ″ of one step on 𝔤*.
-            ///
-            /// # Errors
-            /// As `advance`.
-            #[inline]
-            pub fn poisson_map(
-                &self,
-                #mu: &#vector,
-            ) -> ::core::result::Result<#vector, #krate::StepError> {
-                #krate::steps::poisson_map(self, #mu)
-            }
-        },
-        programs: quote!(#programs #generating #last),
+        programs: programs + &generating + &last_item(integrator),
         types,
     };
     let kicks = integrator.kicks.as_ref();
@@ -121,286 +97,124 @@ pub(super) fn assemble(
     kicks: Option<&Kicks>,
     options: &Options,
 ) -> Items {
-    let Options { krate, visibility, name, attributes, .. } = options;
-    let Parts { facts, method, types, fold, step, energy, methods, programs, .. } = parts;
-    let Types { group, vector, definition, tables, aliases, .. } = types;
-    let summary = header::lines(*facts, method, series, step.as_ref());
-    let blank = (!attributes.is_empty()).then(|| quote!(#[doc = ""]));
-    let index = Literal::usize_unsuffixed;
-    let (slots, n, symbols) = (index(fold.len()), index(types.dim), index(parts.symbols.len()));
-    let (truncation, order) = (index(facts.truncation), index(parts.order));
+    let Parts { facts, method, types, fold, step, .. } = parts;
     let [of_truncation, of_coefficients] = parts.about;
-    let constructor = constructor(parts, options);
-    let lanes = (!method.moves).then(|| lanes(parts, options));
-    let table = fold_item(fold);
-    let allow = allow();
-    let names = ["mu", "c", "phase", "steps", "error", "stopped", "time"];
-    let [mu, c, phase, steps, error, stopped, time] = names.map(|name| options.bound(name));
-    let bound = bound(method.moves, krate);
     // If H depends on the time, methods take the time of the state.
-    let (argument, now, then) = match method.moves {
-        true => (
-            Some(quote!(#time: T,)),
-            quote!(#time),
-            quote!(#time + T::of(#stopped.steps as f64) * self.step),
-        ),
-        false => (None, quote!(T::of(0.0)), quote!(T::of(0.0))),
+    let (time, stopped) = (options.bound("time"), options.bound("stopped"));
+    let [argument, now, then, of] = match method.moves {
+        true => [
+            format!("{time}: T,"),
+            time.clone(),
+            format!("{time} + T::of({stopped}.steps as f64) * self.step"),
+            "(t, μ)".to_owned(),
+        ],
+        false => ["", "T::of(0.0)", "T::of(0.0)", "(μ)"].map(String::from),
     };
-    let of = if method.moves { "(t, μ)" } else { "(μ)" };
     let reduced =
         format!(" The reduced Hamiltonian H_red{of}, with the parameters given at construction.");
-    let struct_and_methods = quote! {
-        #definition
+    let when = |holds: bool| if holds { "1" } else { "" }.to_owned();
+    let mut values = types.values();
+    values.extend(constructor(facts.parameters, parts.symbols, fold, options));
+    values.extend([
+        ("BLANK", when(!options.attributes.is_empty())),
+        ("SUMMARY", header::lines(*facts, method, series, step.as_ref()).iter().map(doc).collect()),
+        ("OF_TRUNCATION", doc(of_truncation)),
+        ("OF_COEFFICIENTS", doc(of_coefficients)),
+        ("REDUCED", doc(reduced)),
+        ("BOUND", bound(method.moves).to_owned()),
+        ("TRUNCATION", facts.truncation.to_string()),
+        ("ORDER", parts.order.to_string()),
+        ("TIME", argument),
+        ("NOW", now),
+        ("THEN", then),
+        ("SERIES", when(series.is_some())),
+        ("PROGRAMS", parts.programs.clone()),
+        ("LANES", when(!method.moves)),
+        ("STEPS", when(step.is_some())),
+        ("TOGETHER", parts.together.to_owned()),
+        ("ENERGY", parts.energy.clone()),
+        ("TABLE", fold_item(fold)),
+    ]);
+    Items {
+        opening: header::opening(*facts, method, kicks, options, step.as_ref()),
+        struct_and_methods: options.tokens(&options.fill(include_str!("item.in"), &values)),
+        programs: options.tokens(&options.fill(include_str!("programs.in"), &values)),
+        legend: Vec::new(),
+    }
+}
 
-        #attributes
-        #blank
-        #(#[doc = #summary])*
-        #[derive(::core::clone::Clone, ::core::fmt::Debug)]
-        #[allow(clippy::trailing_empty_array)]
-        #visibility struct #name<T = f64> {
-            /// The step size h.
-            step: T,
-            /// The parameters, as expressions of them stand in the coefficients.
-            symbols: [T; #symbols],
-            #[doc = #of_coefficients]
-            coefficients: [T; #slots],
-        }
-
-        #allow
-        const _: () = {
-            #aliases
-
-            impl<T: #bound> #name<T> {
-                #[doc = #of_truncation]
-                pub const TRUNCATION: usize = #truncation;
-                /// The order of accuracy, K + 1.
-                pub const ORDER: usize = #order;
-
-                #constructor
-
-                /// The step size h.
-                #[inline]
-                pub fn step(&self) -> T {
-                    self.step
-                }
-
-                /// Advances (g, μ) by one step; on error `phase` is left as it was.
-                ///
-                /// # Errors
-                /// `StepError`: why there is no right step, and a step size that works where one is found.
-                #[inline]
-                pub fn advance(
-                    &self,
-                    #phase: &mut #krate::Phase<#group>,
-                    #argument
-                ) -> ::core::result::Result<#krate::steps::StepReport<T>, #krate::StepError> {
-                    plumbing::advance_at(self, #phase, #now)
-                        .map_err(|#error| self.advise(#error, #phase, #now))
-                }
-
-                /// Advances (g, μ) by `steps` steps, faster than one by one; the report is of the
-                /// worst of them, and on error `phase` is left before the step that failed.
-                ///
-                /// # Errors
-                /// `Stopped`: how many steps were made, and why the next was not.
-                pub fn advance_by(
-                    &self,
-                    #phase: &mut #krate::Phase<#group>,
-                    #argument
-                    #steps: u64,
-                ) -> ::core::result::Result<#krate::steps::StepReport<T>, #krate::steps::Stopped> {
-                    plumbing::advance_from(self, #phase, #now, #steps).map_err(|#stopped| {
-                        #krate::steps::Stopped {
-                            error: self.advise(#stopped.error, #phase, #then),
-                            ..#stopped
-                        }
-                    })
-                }
-
-                #methods
-            }
-        };
-    };
-    let programs = quote! {
-        #allow
-        const _: () = {
-            #aliases
-
-            #programs
-
-            #lanes
-
-            impl<T: #bound> #name<T> {
-                #[doc = #reduced]
-                #[inline]
-                pub fn energy(&self, #argument #mu: &#vector) -> T {
-                    let (#mu, #c): (&[T; #n], _) = (&#mu.data.0[0], &self.coefficients);
-                    #energy
-                }
-
-                fn table() -> &'static #krate::plumbing::Fold<'static> {
-                    &FOLD
-                }
-            }
-
-            #table
-        };
-
-        #tables
-    };
-    let opening = header::opening(*facts, method, kicks, options, step.as_ref());
-    Items { opening, struct_and_methods, programs, legend: Vec::new() }
+/// A line of documentation.
+pub(super) fn doc(line: impl AsRef<str>) -> String {
+    format!("#[doc = {:?}]\n", line.as_ref())
 }
 
 /// The bound of numbers; those of 32 bits could not tell the times within a step apart.
-pub(super) fn bound(moves: bool, krate: &TokenStream) -> TokenStream {
-    if moves { quote!(#krate::Scalar<Element = f64>) } else { quote!(#krate::Scalar) }
+pub(super) fn bound(moves: bool) -> &'static str {
+    if moves { "__krate::Scalar<Element = f64>" } else { "__krate::Scalar" }
 }
 
-/// `impl Lanes`: steps in lanes, where the programs of the step are printed.
-fn lanes(parts: &Parts<'_>, options: &Options) -> TokenStream {
-    let Options { krate, name, .. } = options;
-    let names = ["registers", "phases", "asked", "state", "run", "c"];
-    let [registers, phases, asked, state, run, c] = names.map(|name| options.bound(name));
-    let together = parts.together.as_ref().map(|most| quote!(const TOGETHER: u64 = #most;));
-    let drive = parts.step.as_ref().map(|_| {
-        quote! {
-            #together
-
-            #[inline(always)]
-            fn drive_lanes<R: #krate::plumbing::Registers>(
-                &self,
-                #registers: R,
-                #phases: &mut [(usize, &mut #krate::Phase<<Self as plumbing::Steps>::Group>)],
-                #asked: u64,
-            ) -> bool {
-                let #c = R::coefficients(#registers, &self.coefficients);
-                let #state = #krate::plumbing::load_lanes(#registers, #phases);
-                let #run = steps(#c, #state, #asked);
-                #krate::plumbing::store_lanes(#registers, #phases, #asked, #run)
-            }
-        }
-    });
-    quote! {
-        impl #krate::lanes::Lanes for #name<f64> {
-            #drive
-        }
-    }
+/// The places of a constructor `new(step, parameters…)`, which folds.
+pub(super) fn constructor(
+    parameters: &[Parameter],
+    symbols: &[Symbol],
+    fold: &FoldTable,
+    options: &Options,
+) -> [Value; 7] {
+    let Arguments { arguments, names, scalars } = arguments(parameters);
+    let texts = symbols.iter().map(|symbol| format!("{:?}, ", symbol.text));
+    [
+        ("STEP", fresh(&options.bound("step"), &names)),
+        ("ARGUMENTS", arguments),
+        ("VALUES", parameter::symbols(symbols, &scalars).join(", ")),
+        ("TEXTS", texts.collect()),
+        ("SYMBOLS", symbols.len().to_string()),
+        ("SLOTS", fold.len().to_string()),
+        ("ROOM", fold.lists().room().to_string()),
+    ]
 }
 
-/// The constructor `new(step, parameters…)`, which folds.
-fn constructor(parts: &Parts<'_>, options: &Options) -> TokenStream {
-    let krate = &options.krate;
-    let Parts { facts, symbols: all, types, fold, .. } = parts;
-    let group = &types.group;
-    let names = ["step", "symbols", "coefficients", "error", "phase", "time"];
-    let [own, given, coefficients, error, phase, time] = names.map(|name| options.bound(name));
-    let Arguments { arguments, names, scalars } = arguments(facts.parameters, krate);
-    let step = format_ident!("{}", fresh(&own.to_string(), &names));
-    let symbols = parameter::symbols(all, &scalars);
-    let symbols = quote!([#(#symbols),*]);
-    let texts = all.iter().map(|s| &s.text);
-    let [count, room] = [all.len(), fold.lists().room()].map(Literal::usize_unsuffixed);
-    quote! {
-        /// Folds all coefficients for the step size `step` (negative: backwards in time) and the
-        /// parameters.
-        ///
-        /// # Errors
-        /// `StepError::InvalidStep` for a step that is zero or not finite,
-        /// `StepError::InvalidParameter` where a parameter expression is not finite.
-        pub fn new(
-            #step: T,
-            #(#arguments),*
-        ) -> ::core::result::Result<Self, #krate::StepError> {
-            Self::of_symbols(#step, &#symbols)
-        }
-
-        fn of_symbols(
-            #own: T,
-            #given: &[T; #count],
-        ) -> ::core::result::Result<Self, #krate::StepError> {
-            let #coefficients = #krate::plumbing::fold(
-                Self::table(),
-                [#(#texts),*],
-                (#own, #given),
-                [0.0; #room],
-            )?;
-            ::core::result::Result::Ok(Self { step: #own, symbols: *#given, coefficients: #coefficients })
-        }
-
-        /// The error of a step, with a step size that works where one is found.
-        #[cold]
-        fn advise(
-            &self,
-            #error: #krate::StepError,
-            #phase: &#krate::Phase<#group>,
-            #time: T,
-        ) -> #krate::StepError {
-            #krate::plumbing::advise(#error, #phase, [#time, self.step], |#own| {
-                Self::of_symbols(#own, &self.symbols)
-            })
-        }
-    }
-}
-
-pub(crate) struct Arguments {
-    /// `name: type` for each.
-    pub arguments: Vec<TokenStream>,
+struct Arguments {
+    /// `name: type, ` for each.
+    arguments: String,
     /// The names.
-    pub names: BTreeSet<String>,
+    names: BTreeSet<String>,
     /// An expression for each of their scalars.
-    pub scalars: Vec<String>,
+    scalars: Vec<String>,
 }
 
-pub(crate) fn arguments(parameters: &[Parameter], krate: &TokenStream) -> Arguments {
+fn arguments(parameters: &[Parameter]) -> Arguments {
     let mut names = parameters.iter().map(|parameter| parameter.name.clone()).collect();
-    let mut result =
-        Arguments { arguments: Vec::new(), names: BTreeSet::new(), scalars: Vec::new() };
+    let (mut arguments, mut scalars) = (String::new(), Vec::new());
     for parameter in parameters {
         let name = argument_name(&parameter.name, &mut names);
-        let ty = parameter_type(&parameter.shape, krate);
-        result.arguments.push(quote!(#name: #ty));
-        result.scalars.extend(parameter.scalar_names().iter().map(|scalar| {
+        arguments.push_str(&format!("{name}: {}, ", parameter_type(&parameter.shape)));
+        scalars.extend(parameter.scalar_names().iter().map(|scalar| {
             // `inertia[0]`: the name, then how the scalar is reached.
             let access = scalar.strip_prefix(parameter.name.as_str()).unwrap_or_default();
             format!("{name}{access}")
         }));
     }
-    result.names = names;
-    result
+    Arguments { arguments, names, scalars }
 }
 
 /// A parameter's name as an argument; with another one, where it cannot be an identifier.
-fn argument_name(name: &str, names: &mut BTreeSet<String>) -> Ident {
-    let argument = identifier(name);
+fn argument_name(name: &str, names: &mut BTreeSet<String>) -> String {
+    let argument = identifier(name).to_string();
     if argument == name {
         return argument;
     }
-    let argument = fresh(&argument.to_string(), names);
+    let argument = fresh(&argument, names);
     names.insert(argument.clone());
-    format_ident!("{argument}")
+    argument
 }
 
 /// The type of a parameter over the scalar `T`.
-fn parameter_type(shape: &Shape, krate: &TokenStream) -> TokenStream {
-    let size = |n: &usize| Literal::usize_unsuffixed(*n);
+fn parameter_type(shape: &Shape) -> String {
     match shape {
-        Shape::Scalar => quote!(T),
-        Shape::Array(n) => {
-            let n = size(n);
-            quote!([T; #n])
-        }
-        Shape::Vector(n) => {
-            let n = size(n);
-            quote!(#krate::nalgebra::SVector<T, #n>)
-        }
-        Shape::Grid(rows, columns) => {
-            let (rows, columns) = (size(rows), size(columns));
-            quote!([[T; #columns]; #rows])
-        }
-        Shape::Matrix(rows, columns) => {
-            let (rows, columns) = (size(rows), size(columns));
-            quote!(#krate::nalgebra::SMatrix<T, #rows, #columns>)
-        }
+        Shape::Scalar => "T".to_owned(),
+        Shape::Array(n) => format!("[T; {n}]"),
+        Shape::Vector(n) => format!("__krate::nalgebra::SVector<T, {n}>"),
+        Shape::Grid(rows, columns) => format!("[[T; {columns}]; {rows}]"),
+        Shape::Matrix(rows, columns) => format!("__krate::nalgebra::SMatrix<T, {rows}, {columns}>"),
     }
 }

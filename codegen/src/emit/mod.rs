@@ -21,8 +21,9 @@ mod table;
 
 use std::collections::BTreeSet;
 
-use proc_macro2::{Ident, TokenStream};
-use quote::{format_ident, quote};
+use coadjoint_program::print::{Value, fill};
+use proc_macro2::{Group, Ident, TokenStream, TokenTree};
+use quote::{ToTokens, format_ident, quote};
 
 use crate::integrator::Integrator;
 
@@ -31,17 +32,6 @@ pub use group::RUNTIME_TABLES;
 pub use item::{Items, items};
 pub use kick::kick;
 pub use origin::items_of;
-
-/// Lints that emitted code turns off, since it follows no style.
-fn allow() -> TokenStream {
-    quote! {
-        #[allow(
-            clippy::all, clippy::pedantic, clippy::nursery, dead_code, non_snake_case,
-            unexpected_cfgs, unused_assignments, unused_doc_comments, unused_imports, unused_mut,
-            unused_variables
-        )]
-    }
-}
 
 /// Options of the emitted Rust.
 #[derive(Clone, Debug)]
@@ -61,8 +51,37 @@ pub struct Options {
 
 impl Options {
     /// The name of something that a program binds.
-    pub(super) fn bound(&self, name: &str) -> Ident {
-        quote::format_ident!("{name}{}", self.suffix)
+    pub(super) fn bound(&self, name: &str) -> String {
+        format!("{name}{}", self.suffix)
+    }
+
+    /// A template with these values, and the suffix of bound names in place of `@`.
+    fn fill(&self, template: &str, values: &[Value]) -> String {
+        fill(&template.replace('@', self.suffix), values)
+    }
+
+    /// A text of Rust as tokens, the user's own in place of `__krate`, `__visibility`, `__name` and `__attributes`.
+    fn tokens(&self, text: &str) -> TokenStream {
+        // The texts written here are tokens; if not, the compiler shows the mistake.
+        let own = text.parse().map(|tokens| self.own(tokens));
+        own.unwrap_or_else(|_| quote!(::core::compile_error!(#text);))
+    }
+
+    fn own(&self, tokens: TokenStream) -> TokenStream {
+        let own = |tree| match tree {
+            TokenTree::Ident(word) => match word.to_string().as_str() {
+                "__krate" => self.krate.clone(),
+                "__visibility" => self.visibility.clone(),
+                "__name" => self.name.to_token_stream(),
+                "__attributes" => self.attributes.clone(),
+                _ => word.into_token_stream(),
+            },
+            TokenTree::Group(group) => {
+                Group::new(group.delimiter(), self.own(group.stream())).into_token_stream()
+            }
+            other => other.into(),
+        };
+        tokens.into_iter().flat_map(own).collect()
     }
 
     /// Public, `::coadjoint`, named after the problem in camel case.

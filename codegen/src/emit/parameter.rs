@@ -1,8 +1,6 @@
 //! Opaque coefficients as expressions in the user's parameters, in any language.
 
-use proc_macro2::TokenStream;
-
-use super::program::{float, tokens};
+use super::program::float;
 use crate::expr::{Function, ParameterExpr};
 use crate::problem::Symbol;
 
@@ -39,7 +37,7 @@ pub(crate) fn expression(expr: &ParameterExpr, notation: &Notation<'_>) -> Strin
 }
 
 /// The values of symbols as expressions of Rust, of type `T`.
-pub(crate) fn symbols(symbols: &[Symbol], parameters: &[String]) -> Vec<TokenStream> {
+pub(crate) fn symbols(symbols: &[Symbol], parameters: &[String]) -> Vec<String> {
     let notation = Notation {
         parameters,
         number: &|value| format!("T::of({})", float(value)),
@@ -49,5 +47,5 @@ pub(crate) fn symbols(symbols: &[Symbol], parameters: &[String]) -> Vec<TokenStr
             _ => format!("{argument}.simd_{}()", function.name()),
         },
     };
-    symbols.iter().map(|symbol| tokens(&expression(&symbol.expr, &notation))).collect()
+    symbols.iter().map(|symbol| expression(&symbol.expr, &notation)).collect()
 }

@@ -1,10 +1,7 @@
 //! Rust as a dialect of programs: a statement for each operation.
 
-use coadjoint_program::print::{Body, C, Dialect, Field, RowOf, Signature, body};
-use proc_macro2::TokenStream;
-use quote::quote;
-
 use crate::graph::{Node, Program};
+use coadjoint_program::print::{Body, C, Dialect, Field, RowOf, Signature, body};
 
 /// Programs with more operations than this are cut. Shorter ones the compiler takes in its stride, and inlines into a step
 /// for lanes, which makes use of wider registers.
@@ -18,12 +15,6 @@ const INLINED_IN_LANES: usize = 6000;
 
 /// The head of a function of a program, without its name.
 const HEAD: &str = "<T: plumbing::Number, C: plumbing::Coefficients<T>>";
-
-/// A text of Rust as tokens.
-pub(crate) fn tokens(text: &str) -> TokenStream {
-    // The texts written here are tokens; if not, the compiler shows the mistake.
-    text.parse().unwrap_or_else(|_| quote!(::core::compile_error!(#text);))
-}
 
 /// Rust over numbers `T`. Items of the runtime's module `plumbing` are in scope by that name.
 pub(crate) struct Rust<'a> {
@@ -70,11 +61,11 @@ impl<'a> Rust<'a> {
         program: &Program,
         input: &str,
         result: impl Fn(&[String]) -> String,
-    ) -> TokenStream {
+    ) -> String {
         let inputs = vec![Field::array(&self.bound(input), program.inputs())];
         let signature = Signature { name: String::new(), program, inputs, outputs: Vec::new() };
         let Body { pieces, statements, outputs } = self.body(&signature);
-        tokens(&(pieces + &statements + &result(&outputs)))
+        pieces + &statements + &result(&outputs)
     }
 
     fn parameters(&self, signature: &Signature<'_>) -> String {

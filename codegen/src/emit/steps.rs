@@ -42,18 +42,9 @@ pub(crate) fn steps(kernel: &Kernel, dialect: &Rust<'_>) -> String {
         ("NEAR", format!("{:?}", kernel.near)),
         ("ELEMENT", kernel.element.to_string()),
         ("DIM", kernel.dim.to_string()),
-        ("C", c),
-        ("G", name("g")),
-        ("MU", name("mu")),
-        ("TIME", kernel.clock().map_or_else(String::new, |_| time)),
-        ("ASKED", name("steps")),
-        ("DONE", done),
-        ("LIVE", live),
-        ("DRIVEN", driven),
-        ("BOUND", bound),
-        ("DISTANCE", distance),
+        ("CLOCK", if kernel.clock().is_some() { "1" } else { "" }.to_owned()),
     ];
-    fill(include_str!("steps.in"), &values)
+    fill(&include_str!("steps.in").replace('@', &dialect.bound("")), &values)
 }
 
 struct RustLoop<'a> {

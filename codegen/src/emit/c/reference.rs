@@ -15,8 +15,9 @@ use crate::emit::c::{HeaderOptions, Language, parameter};
 use crate::emit::header::{self, Method};
 use crate::step::{Origin, Step};
 
-fn rows(step: &Step) -> usize {
-    step.kernel().programs.matrix.outputs().len().isqrt()
+/// A size where there is one.
+fn positive(size: usize) -> String {
+    if size > 0 { size.to_string() } else { String::new() }
 }
 
 /// The opening, the sizes, and the types, for the template.
@@ -42,7 +43,7 @@ pub(super) fn values(
         let unit = unit.map_or(String::new(), |unit| format!(" in {}", c_comment(unit)));
         let _ = writeln!(coordinates, "     *  mu[{i}] = {}{unit}", c_comment(name));
     }
-    let rows = rows(step);
+    let rows = kernel.programs.matrix.outputs().len().isqrt();
     let identity: Vec<f64> =
         (0..rows * rows).map(|at| f64::from(u8::from(at / rows == at % rows))).collect();
     let mut numbers = String::new();
@@ -60,7 +61,15 @@ pub(super) fn values(
         ("OPENING", opening(origin, step, fold, names, options)),
         ("VERSION", env!("CARGO_PKG_VERSION").to_owned()),
         ("CPP", when(options.language == Language::Cpp, "1")),
-        ("SIZES", names.fill(&sizes(step, fold))),
+        ("DIMENSIONS", kernel.dim.to_string()),
+        ("NUMBERS", kernel.element.to_string()),
+        ("ROWS", rows.to_string()),
+        ("CASIMIRS", positive(casimirs(step))),
+        ("FLOW_COUNT", positive(kernel.flows().map_or(0, |flows| flows as usize))),
+        ("COEFFICIENTS", fold.len().to_string()),
+        ("TIMES", positive(kernel.clock().map_or(0, |clock| clock.times.len()))),
+        ("BLOCK", BLOCK.to_string()),
+        ("LARGEST", positive(step.inverted().iter().map(|&(_, rows)| rows).max().unwrap_or(0))),
         ("LEARNED", when(options.only_step.is_some(), ", or not the one step that was learned")),
         ("UNRESOLVED", when(origin.series().is_none(), ", or its nodes do not resolve it")),
         ("PARAMETERS", members),
@@ -79,40 +88,8 @@ pub(super) fn values(
         ("INVERTED", names.fill(&inverses)),
         ("OF", when(kicks, "state->g, ")),
         ("POTENTIAL", when(kicks, " and the potential")),
-        ("CASIMIRS", when(casimirs(step) > 0, "1")),
         ("DEFAULTS", defaults(origin, names)),
     ]
-}
-
-/// The sizes as macros.
-fn sizes(step: &Step, fold: &Folding) -> String {
-    let kernel = step.kernel();
-    let mut text = String::new();
-    let mut size = |name: &str, value: usize, about: &str| {
-        let _ = writeln!(text, "/** {about} */\n#define @P@_{name} {value}u");
-    };
-    size("DIMENSION", kernel.dim, "Coordinates of the momentum.");
-    size("ELEMENT", kernel.element, "Numbers of a group element.");
-    size("ROWS", rows(step), "Rows of its matrix.");
-    if casimirs(step) > 0 {
-        size("CASIMIRS", casimirs(step), "Casimirs of degree three at most that are looked at.");
-    }
-    let about = match kernel.flows() {
-        Some(flows) => {
-            size("FLOWS", flows as usize, "Flows of a step, between kicks.");
-            "Folded coefficients of a flow and the kick before it."
-        }
-        None => "Folded coefficients.",
-    };
-    size("COEFFICIENTS", fold.len(), about);
-    if let Some(clock) = kernel.clock() {
-        size("TIMES", clock.times.len(), "Times at which a step asks for the Hamiltonian.");
-    }
-    size("BLOCK", BLOCK as usize, "Steps after which the state is looked at.");
-    if let Some(largest) = step.inverted().iter().map(|&(_, rows)| rows).max() {
-        size("LARGEST_BLOCK", largest, "Rows of the largest matrix in a group element.");
-    }
-    text
 }
 
 /// The values that the system file gives to its parameters.
@@ -184,7 +161,8 @@ fn paragraphs(
         ("PARAMETERS", when(!facts.parameters.is_empty(), ", &parameters")),
         ("NOW", when(kernel.clock().is_some(), ", time")),
         ("UNIT", unit.unwrap_or_default()),
-        ("RESCUE", format!("Longer steps are refused with a status. {}", rescue(origin, step))),
+        ("MEMORY", positive(step.memory())),
+        ("NEITHER", when(origin.series().is_none() && step.memory() == 0, "1")),
         ("COSTS", header::costs(kernel)),
         ("COEFFICIENTS", numbers.to_string()),
         ("MAP_BYTES", (8 * numbers).to_string()),
@@ -194,19 +172,4 @@ fn paragraphs(
         ("LEARNED", options.only_step.map_or_else(String::new, |step| format!("{step:?}"))),
     ]);
     header::paragraphs(&values)
-}
-
-/// The advice after a refused step.
-fn rescue(origin: &Origin, step: &Step) -> String {
-    match origin.series() {
-        Some(_) => "The library in Rust then follows the solution from the identity; this header does not: take a \
-            smaller step."
-            .to_owned(),
-        None if step.memory() == 0 => "Then take a smaller step.".to_owned(),
-        None => format!(
-            "A step begins with a guess from those before it, by the last {} numbers of g: where a state was changed, or \
-             a step is refused, set them to 0, which forgets them; then take a smaller step.",
-            step.memory()
-        ),
-    }
 }
