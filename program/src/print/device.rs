@@ -22,7 +22,7 @@ pub const KERNEL_NAME: &str = "coadjoint_steps";
 const PREFIX: &str = "coadjoint_";
 
 /// The heads of functions that are inlined into the kernel, and of those of which the compiler decides: NVRTC inlines nearly
-/// all, which halves the time of a step of su(3); where it is forced to, it takes six times as long for other kernels.
+/// all, which halves the time of a step of su(3). Told to inline all, it takes many times as long for large kernels.
 const INLINE: &str = "INLINE void";
 const CALLED: &str = "CALLED void";
 
