@@ -30,7 +30,7 @@ const BODY: Case = Case {
     step: 0.25,
 };
 
-const CASES: [Case; 14] = [
+const CASES: [Case; 15] = [
     BODY,
     Case {
         text: "group = 'SE3'\nhamiltonian = 'mu[0]^2/2 + mu[1]^2/3 + mu[2]^2 + f*mu[5] + mu[3]*mu[4]/5'\n\
@@ -128,6 +128,13 @@ const CASES: [Case; 14] = [
         varied: &["a"],
         momentum: &[0.5, 0.25, -0.5, 0.75, 0.5, 0.25],
         step: 0.125,
+    },
+    // A steady rotation, whose rates are guessed exactly and their changes are not.
+    Case {
+        text: "group = 'SO3'\nhamiltonian = 'sqrt(1 + a*mu[0]^2 + mu[1]^2/2 + mu[2]^2/4)'\n[parameters]\na = 1.5",
+        varied: &["a"],
+        momentum: &[0.0, 0.0, 4.0],
+        step: 0.5,
     },
 ];
 

@@ -25,10 +25,22 @@ use crate::graph::{Graph, Id, Program};
 /// The change of the solution by a correction, relative to its largest number, up to which tangents are as right as it is.
 const SETTLED: f64 = 1e-14;
 
-/// The change of a cotangent of the solution, relative to its largest number, up to which it is solved for; and the corrections, after the
-/// solution has settled, that leave of its change what rounding makes of numbers that cancel each other.
-const SETTLED_COTANGENT: f64 = 1e-13;
-const SETTLED_FOR: u32 = 6;
+/// The distance of a tangent of the solution from where corrections lead it, relative to its largest number, at which it is solved for.
+const SOLVED: f64 = 1e-13;
+
+/// Corrections of a solution that has settled after which a tangent whose changes do not shrink has only rounding left: of numbers that
+/// cancel each other.
+const LEFT_TO_ROUNDING: u32 = 6;
+
+/// The share of a change that the next one has at least where they do not shrink.
+const LASTING: f64 = 0.9;
+
+/// Corrections more than those of the step.
+const MORE: u32 = 30;
+
+/// Numbers of a solve that tell how a tangent of the solution is found: how often it was corrected since the solution has settled, and its
+/// last change.
+const OF_TANGENT: usize = 2;
 
 /// The step of a state with a tangent. n is the dimension, m how many numbers make a group element.
 #[derive(Debug)]
@@ -169,7 +181,7 @@ impl<'a> Differentiation<'a> {
         let m = if kernel.guesses_from_element() { kernel.element } else { 0 };
         let (mut g, state) = (inputs(&graph, 0, m), self.state(&graph, m));
         let turned = if m > 0 { self.turned(&graph, &g, &state.xi) } else { Vec::new() };
-        // From what earlier steps have left the solution would be guessed better than its change, and the loop end before that is found.
+        // From what earlier steps have left, the solution would be guessed better than its change.
         let own = m - self.step.memory.min(m);
         g[own..].fill(graph.zero());
         let (at, change) = ([&g[..], &state.mu].concat(), [&turned[..], &state.nu].concat());
@@ -177,7 +189,8 @@ impl<'a> Differentiation<'a> {
             self.along(&graph, &kernel.programs.guess, (&at, &change), &state.theta);
         let (unknowns, constants) = value.split_at(kernel.unknowns);
         let changed = if m > 0 { &change[kernel.unknowns..] } else { &[] };
-        let outputs = [unknowns, &change[..solved], constants, changed].concat();
+        let before = [graph.zero(); OF_TANGENT];
+        let outputs = [unknowns, &change[..solved], &before, constants, changed].concat();
         graph.finish(m + self.momentum(), &outputs)
     }
 
@@ -190,9 +203,10 @@ impl<'a> Differentiation<'a> {
             count += more;
             inputs(&graph, count - more, more)
         };
-        let (z, mut moved) = (take(u), take(solved));
+        let (z, known, before) = (take(u), take(solved), take(OF_TANGENT));
+        let mut moved = known.clone();
         moved.resize(u, graph.zero());
-        let state = self.state(&graph, u + solved);
+        let state = self.state(&graph, u + solved + OF_TANGENT);
         take(self.momentum());
         let constants = take(kernel.programs.guess.outputs().len() - u);
         let changed = match kernel.guesses_from_element() {
@@ -204,16 +218,18 @@ impl<'a> Differentiation<'a> {
         let change = [&moved[..], &state.nu, &changed].concat();
         let correct = &kernel.programs.correct;
         let [value, change] = self.along(&graph, correct, (&at, &change), &state.theta);
-        let solved_for = self.settled(&graph, &z, &value);
-        let mut outputs = [&value[..u], &change[..solved], &value[u..u + v]].concat();
+        let next = &change[..solved];
+        let (settled, length) = self.settled(&graph, &z, &value);
+        let (after, settled) = self.followed(&graph, settled, (&known, next), &before);
+        let mut outputs = [&value[..u], next, &after, &value[u..u + v]].concat();
         outputs.extend(self.moving.iter().map(|&at| change[u + at]));
-        outputs.extend(solved_for);
+        outputs.extend([settled, length]);
         graph.finish(count, &outputs)
     }
 
     /// The bound on the residual that a correction of z to these values leaves, which is no solution before it has settled, and the length of
     /// the correction, as far as the step without tangents makes it.
-    fn settled(&self, graph: &Graph, z: &[Id], value: &[Id]) -> [Id; 2] {
+    fn settled(&self, graph: &Graph, z: &[Id], value: &[Id]) -> (Id, Id) {
         let kernel = &self.step.kernel;
         let pairs = z.iter().zip(value).take(self.solved);
         let less: Vec<Id> = pairs.map(|(&z, &next)| graph.sub(next, z)).collect();
@@ -224,7 +240,33 @@ impl<'a> Differentiation<'a> {
             (value[z.len() + kernel.solution], value[z.len() + kernel.solution + 1]);
         let settled = graph.select(moved, graph.constant(SETTLED), bound, graph.max(bound, moved));
         let tolerance = graph.constant(kernel.tolerance);
-        [settled, graph.select(bound, tolerance, graph.zero(), length)]
+        (settled, graph.select(bound, tolerance, graph.zero(), length))
+    }
+
+    /// The numbers that tell how a tangent of the solution is found, after a correction of it to the next one, and the bound on the residual
+    /// (that of the solution being known), which is 1 before it is found. Corrections take it to its solution as they do with z, by which
+    /// it is not judged: z may have been guessed better.
+    fn followed(
+        &self,
+        graph: &Graph,
+        settled: Id,
+        (last, next): (&[Id], &[Id]),
+        before: &[Id],
+    ) -> ([Id; OF_TANGENT], Id) {
+        let number = |value: f64| graph.constant(value);
+        let (one, half, zero) = (number(1.0), number(0.5), graph.zero());
+        let less = last.iter().zip(next).map(|(&last, &next)| graph.sub(next, last));
+        let moved = largest(graph, &less.collect::<Vec<_>>());
+        let (count, change) = (before[0], before[1]);
+        let tolerance = number(self.step.kernel.tolerance);
+        let count = graph.select(settled, tolerance, graph.add(count, one), zero);
+        let share = graph.select(change, zero, half, graph.min(graph.div(moved, change), half));
+        let most = graph.mul(largest(graph, next), number(SOLVED));
+        let lasts = graph.select(graph.mul(change, number(LASTING)), moved, settled, one);
+        let many = number(f64::from(LEFT_TO_ROUNDING));
+        let open = graph.select(many, count, lasts, one);
+        let bound = graph.select(graph.mul(moved, share), most, settled, open);
+        ([count, moved], bound)
     }
 
     /// A test of the step: of g where it has one, of μ, and of other numbers.
@@ -280,11 +322,11 @@ impl<'a> Differentiation<'a> {
         Ok(graph.finish(from + v + self.moving.len(), &[g, state].concat()))
     }
 
-    /// The step of these programs. A solve has `solved` unknowns more than the step's own, and its solution `read` numbers more.
+    /// The step of these programs, in which a solution has `read` numbers more than the step's own.
     fn kernel(
         &self,
         [guess, correct, transport]: [Program; 3],
-        [solved, read]: [usize; 2],
+        read: usize,
     ) -> Result<Kernel, StepError> {
         let (own, nothing) = (&self.step.kernel, |inputs| Graph::new().finish(inputs, &[]));
         let programs = Programs {
@@ -299,9 +341,9 @@ impl<'a> Differentiation<'a> {
         };
         Ok(Kernel::new(KernelParts {
             dim: self.momentum(),
-            unknowns: own.unknowns + solved,
+            unknowns: own.unknowns + self.solved + OF_TANGENT,
             solution: own.solution + read,
-            corrections: own.corrections + SETTLED_FOR,
+            corrections: own.corrections + MORE,
             programs,
             ..(**own).clone()
         })?)
@@ -338,8 +380,9 @@ impl Transposition<'_> {
         let Differentiation { step, solved, .. } = self.own;
         let (graph, u) = (Graph::new(), step.kernel.unknowns);
         let known = graph.call(self.guess, &inputs(&graph, 0, self.guess.inputs()));
-        let constants = &known[u + solved..][..self.constants()];
-        let outputs = [&known[..u], &vec![graph.zero(); *solved + 1], constants].concat();
+        let constants = &known[u + solved + OF_TANGENT..][..self.constants()];
+        let nothing = vec![graph.zero(); solved + OF_TANGENT];
+        let outputs = [&known[..u], &nothing, constants].concat();
         graph.finish(self.guess.inputs(), &outputs)
     }
 
@@ -354,10 +397,10 @@ impl Transposition<'_> {
 
     /// z, μ and constants, as the correction has them, without changes.
     fn of_correct(&self, graph: &Graph, z: &[Id], mu: &[Id], constants: &[Id]) -> Vec<Id> {
-        let mut at = z.to_vec();
-        at.resize(z.len() + self.own.solved, graph.zero());
+        let (mut at, from) = (z.to_vec(), z.len() + self.own.solved + OF_TANGENT);
+        at.resize(from, graph.zero());
         at.extend(mu);
-        at.resize(z.len() + self.own.solved + self.own.momentum(), graph.zero());
+        at.resize(from + self.own.momentum(), graph.zero());
         at.extend(constants);
         at.resize(self.correct.inputs(), graph.zero());
         at
@@ -372,7 +415,7 @@ impl Transposition<'_> {
     /// The weights of the changes that a correction makes: of the solution, and of what moves.
     fn corrected(&self, a: &[Id], moving: &[Id]) -> Vec<(usize, Id)> {
         let (u, v) = (self.own.step.kernel.unknowns, self.own.step.kernel.solution);
-        let of_moving = (u + self.own.solved + v..).zip(moving.iter().copied());
+        let of_moving = (u + self.own.solved + OF_TANGENT + v..).zip(moving.iter().copied());
         (u..).zip(a.iter().copied()).chain(of_moving).collect()
     }
 
@@ -382,10 +425,10 @@ impl Transposition<'_> {
         let (own, graph) = (self.own, Graph::new());
         let (kernel, solved) = (&own.step.kernel, own.solved);
         let (u, v, m) = (kernel.unknowns, kernel.solution, kernel.element);
-        let (z, a, known) =
-            (inputs(&graph, 0, u), inputs(&graph, u, solved), graph.input(u + solved));
-        let state = own.state(&graph, u + solved + 1);
-        let from = u + solved + 1 + own.momentum();
+        let [z, a, before] = [(0, u), (u, solved), (u + solved, OF_TANGENT)]
+            .map(|(from, count)| inputs(&graph, from, count));
+        let state = own.state(&graph, u + solved + OF_TANGENT);
+        let from = u + solved + OF_TANGENT + own.momentum();
         let constants = inputs(&graph, from, self.constants());
         let at = [&z[..], &state.mu, &constants].concat();
         let value = graph.call(&kernel.programs.correct, &at);
@@ -395,18 +438,10 @@ impl Transposition<'_> {
         let at = self.of_correct(&graph, &z, &state.mu, &constants);
         let weights = self.corrected(&a, &moving);
         let next = back(&graph, self.correct, &at, &weights, u..u + solved);
-        let [settled, length] = own.settled(&graph, &z, &value);
-        // The cotangent begins farther from its solution than z does, and follows at the pace of corrections.
-        let less = a.iter().zip(&next).map(|(&a, &next)| graph.sub(next, a));
-        let moved = largest(&graph, &less.collect::<Vec<_>>());
-        let [one, many] = [1.0, f64::from(SETTLED_FOR)].map(|number| graph.constant(number));
-        let tolerance = graph.constant(kernel.tolerance);
-        let count = graph.select(settled, tolerance, graph.add(known, one), graph.zero());
-        let most = graph.mul(largest(&graph, &next), graph.constant(SETTLED_COTANGENT));
-        let open = graph.select(many, count, settled, one);
-        let settled = graph.select(moved, most, settled, open);
+        let (settled, length) = own.settled(&graph, &z, &value);
+        let (after, settled) = own.followed(&graph, settled, (&a, &next), &before);
         let read = [&value[u..u + v], &value[..u], &next, &constants].concat();
-        let outputs = [&value[..u], &next, &[count], &read, &[settled, length]].concat();
+        let outputs = [&value[..u], &next, &after, &read, &[settled, length]].concat();
         graph.finish(from + constants.len(), &outputs)
     }
 
@@ -435,7 +470,7 @@ impl Transposition<'_> {
             }
         };
         let at = self.of_correct(&graph, &z, &state.mu, &constants);
-        let first = u + solved;
+        let first = u + solved + OF_TANGENT;
         let changes = first + 2 * n..first + own.momentum();
         let held = first + own.momentum() + constants.len()..self.correct.inputs();
         let weights = self.corrected(&a, &moving);
@@ -445,7 +480,7 @@ impl Transposition<'_> {
         if kernel.guesses_from_element() {
             let mut at = [&g[..], &state.mu].concat();
             at.resize(self.guess.inputs(), graph.zero());
-            let first = u + solved + constants.len();
+            let first = u + solved + OF_TANGENT + constants.len();
             let weights: Vec<_> = (first..).zip(by_constants.iter().copied()).collect();
             add(0, &back(&graph, self.guess, &at, &weights, m + n..self.guess.inputs()));
         }
@@ -477,7 +512,7 @@ impl Tangent {
         slopes.sort_unstable();
         let own = Differentiation::new(step, origin, &slopes, directions);
         let programs = [own.guess(), own.correct(), own.transport()?];
-        let kernel = own.kernel(programs, [own.solved, own.moving.len()])?;
+        let kernel = own.kernel(programs, own.moving.len())?;
         let kernel = match (step.kernel.kick(), step.kernel.flows()) {
             (Some(kick), Some(flows)) => kernel.with_kicks(own.kick(kick), flows)?,
             _ => kernel,
@@ -498,8 +533,7 @@ impl Tangent {
         let Programs { guess, correct, transport, .. } = &self.kernel.programs;
         let back = Transposition { own: &own, guess, correct, transport };
         let read = step.kernel.unknowns + own.solved + back.constants();
-        let kernel =
-            own.kernel([back.guess(), back.correct(), back.transport()], [own.solved + 1, read])?;
+        let kernel = own.kernel([back.guess(), back.correct(), back.transport()], read)?;
         Ok(Some(Self { kernel, slopes: self.slopes.clone(), directions: self.directions }))
     }
 }
