@@ -19,4 +19,9 @@ fn neither(mu: u8) -> f64 {
 #[lie_poisson(group = SO3)]
 struct NotAFunction;
 
+#[lie_poisson(group = SO3)]
+async fn awaited<const N: usize>(mu: [f64; 3]) -> f64 {
+    mu[0] * mu[0]
+}
+
 fn main() {}

@@ -53,6 +53,14 @@ pub(super) fn read(
     mut time: Option<(String, Span)>,
     evaluator: &mut Evaluator<'_>,
 ) -> (Option<Variables>, Vec<Parameter>) {
+    if let Some(token) = &signature.asyncness {
+        evaluator.unsupported(Span::of(token), "an energy cannot be async", "remove `async`");
+    }
+    if !signature.generics.params.is_empty() {
+        let help = "write the function for f64; what is generated is generic by itself";
+        let span = Span::of(&signature.generics);
+        evaluator.unsupported(span, "an energy cannot be generic", help);
+    }
     let output = match &signature.output {
         ReturnType::Type(_, ty) if is_f64(ty) => None,
         ReturnType::Default => Some(Span::of(&signature.ident)),
