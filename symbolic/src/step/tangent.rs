@@ -26,7 +26,7 @@ use crate::graph::{Graph, Id, Program};
 const SETTLED: f64 = 1e-14;
 
 /// The distance of a tangent of the solution from where corrections lead it, relative to its largest number, at which it is solved for.
-const SOLVED: f64 = 1e-13;
+const FOUND: f64 = 1e-13;
 
 /// Corrections of a solution that has settled after which a tangent whose changes do not shrink has only rounding left: of numbers that
 /// cancel each other.
@@ -261,7 +261,7 @@ impl<'a> Differentiation<'a> {
         let tolerance = number(self.step.kernel.tolerance);
         let count = graph.select(settled, tolerance, graph.add(count, one), zero);
         let share = graph.select(change, zero, half, graph.min(graph.div(moved, change), half));
-        let most = graph.mul(largest(graph, next), number(SOLVED));
+        let most = graph.mul(largest(graph, next), number(FOUND));
         let lasts = graph.select(graph.mul(change, number(LASTING)), moved, settled, one);
         let many = number(f64::from(LEFT_TO_ROUNDING));
         let open = graph.select(many, count, lasts, one);
