@@ -4,8 +4,6 @@
 mod tests;
 
 use coadjoint_codegen::signal::{Gathered, Signal};
-use std::ops::AddAssign;
-
 use nalgebra::{DMatrix, DVector};
 
 use crate::engine::{Carried, Motion, Numbers, Read, Reading, Sense, Tangents};
@@ -255,7 +253,8 @@ impl<'a> Derivatives<'a> {
         } else {
             let weights = carried.tangents().tr_mul(&columns.rows(0, two_n));
             columns.rows_mut(0, two_n).copy_from(&weights.rows(0, two_n));
-            columns.rows_range_mut(two_n..).add_assign(&weights.rows_range(two_n..));
+            let mut others = columns.rows_range_mut(two_n..);
+            others += weights.rows_range(two_n..);
         }
         let mut own = columns.rows_range_mut(two_n + q..);
         let read = own.clone_owned();

@@ -1,9 +1,11 @@
 //! Steps of states with tangents beside them, by the kernel of their [`Tangent`].
 
+use std::borrow::Cow;
 use std::sync::{Arc, OnceLock};
 
 use coadjoint::StepError;
 use coadjoint_codegen::step::{Origin, Step, Tangent};
+use coadjoint_program::states::{into_lane, of_lane};
 use coadjoint_program::{Kernel, Trajectories, WIDTH};
 use nalgebra::{DMatrix, DMatrixView};
 
@@ -12,6 +14,9 @@ use super::compiled::{Compiled, Numbers, refusal};
 use super::varied::{Sense, Varied};
 use crate::backend::Backend;
 use crate::error::RunError;
+
+/// Two steps that differ by less, relative to the momentum, are the same one.
+const SAME: f64 = 1e-11;
 
 /// Changes of the values that a step reads, k of each.
 pub(crate) type Reading<'a> = dyn Fn(&[Read]) -> DMatrix<f64> + 'a;
@@ -32,6 +37,8 @@ pub(crate) struct Tangents {
     backend: Backend,
     /// The steps that are going to be made.
     steps: f64,
+    /// The size that most steps have, and the derivatives of their coefficients in each parameter, which do not depend on the time.
+    usual: (f64, Vec<Vec<f64>>),
     /// q, the number of parameters.
     pub parameters: usize,
     /// s, the number of values of inputs that a step reads.
@@ -102,7 +109,8 @@ impl Tangents {
         let fits = |known: &Varied| known.forward.0.is_for(&all, count);
         let Some(varied) = compiled.varied(fits, make) else { return Ok(None) };
         let (reads, slots) = (sampled.len(), Default::default());
-        Ok(Some(Self { varied, backend, steps, parameters, reads, slots }))
+        let usual = (size, of_parameters);
+        Ok(Some(Self { varied, backend, steps, usual, parameters, reads, slots }))
     }
 
     /// These tangents or cotangents, (2n + q + s)×k, with this state; `None` where steps have no transposes.
@@ -134,7 +142,11 @@ impl Carried<'_> {
     /// The coefficients of the step of these programs from this time.
     fn coefficients(&self, compiled: &Compiled, time: f64) -> Result<Vec<f64>, StepError> {
         let (step, (size, parameters)) = (compiled.step(), compiled.values());
-        let of_parameters = slopes(step, (size, parameters))?;
+        let (usual, known) = &self.tangents.usual;
+        let of_parameters = match size == *usual {
+            true => Cow::Borrowed(known),
+            false => Cow::Owned(slopes(step, (size, parameters))?),
+        };
         let sampled = step.sampled(size, time);
         let (own, known) = (step.kernel().slots_of_flow(), compiled.coefficients_at(time));
         let slope = |place: usize, number: usize| match of_parameters.get(number) {
@@ -229,33 +241,26 @@ impl Carried<'_> {
     fn side_by_side(&mut self, slots: &[f64], count: u64, n: usize) -> u64 {
         let stepper = self.code.0.stepper(&self.tangent.kernel);
         let (start, rows, mut made) = (self.state.clone(), self.columns.nrows(), 0);
-        let beside = |numbers: &[f64]| -> Vec<f64> {
-            numbers.iter().flat_map(|&number| [number; WIDTH]).collect()
-        };
-        for first in (0..self.columns.ncols()).step_by(WIDTH) {
-            let own = WIDTH.min(self.columns.ncols() - first);
-            let (mut g, mut mu) = (beside(&start.g), beside(&start.mu));
-            mu.resize((n + rows) * WIDTH, 0.0);
-            let columns = self.columns.as_mut_slice();
-            let columns = &mut columns[first * rows..(first + own) * rows];
-            for (lane, column) in columns.chunks_exact(rows).enumerate() {
-                for (row, &number) in column.iter().enumerate() {
-                    mu[(n + row) * WIDTH + lane] = number;
-                }
+        for columns in self.columns.as_mut_slice().chunks_mut(rows * WIDTH) {
+            let own = columns.len() / rows;
+            let mut g = vec![0.0; start.g.len() * WIDTH];
+            let mut mu = vec![0.0; (n + rows) * WIDTH];
+            let with_nothing = columns.chunks(rows).chain(std::iter::repeat(&[][..]));
+            for (lane, column) in with_nothing.take(WIDTH).enumerate() {
+                into_lane(&mut g, lane, [&start.g, &[]]);
+                into_lane(&mut mu, lane, [&start.mu, column]);
             }
             let live = std::array::from_fn(|lane| lane < own);
             // The steps of all columns are the same.
             made = stepper.advance_lanes(slots, &mut g, &mut mu, count, live)[0];
-            for (lane, column) in columns.chunks_exact_mut(rows).enumerate() {
-                for (row, number) in column.iter_mut().enumerate() {
-                    *number = mu[(n + row) * WIDTH + lane];
-                }
-            }
-            let first_lane = |numbers: &[f64], own: &mut [f64]| {
-                own.iter_mut().zip(numbers.iter().step_by(WIDTH)).for_each(|(own, &at)| *own = at);
+            let put = |own: &mut [f64], numbers: &mut dyn Iterator<Item = f64>| {
+                own.iter_mut().zip(numbers).for_each(|(own, number)| *own = number);
             };
-            first_lane(&g, &mut self.state.g);
-            first_lane(&mu, &mut self.state.mu);
+            for (lane, column) in columns.chunks_mut(rows).enumerate() {
+                put(column, &mut of_lane(&mu, lane).skip(n));
+            }
+            put(&mut self.state.g, &mut of_lane(&g, 0));
+            put(&mut self.state.mu, &mut of_lane(&mu, 0));
         }
         made
     }
@@ -297,6 +302,3 @@ impl Carried<'_> {
         self.columns.rows(0, 2 * self.state.mu.len())
     }
 }
-
-/// Two steps that differ by less, relative to the momentum, are the same one.
-const SAME: f64 = 1e-11;
