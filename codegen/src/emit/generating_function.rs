@@ -1,8 +1,8 @@
 //! The implementations of `coadjoint::GeneratingFunction` and of `Integrator`.
 
-use coadjoint_program::print::{Value, fill};
+use coadjoint_program::print::{Value, fill, tuple};
 
-use super::program::{Rust, list, tuple};
+use super::program::{Rust, list};
 use crate::emit::Options;
 use crate::emit::group::Types;
 use crate::emit::programs::functions;
