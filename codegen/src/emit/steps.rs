@@ -50,7 +50,7 @@ pub(crate) fn steps(kernel: &Kernel, dialect: &Rust<'_>) -> String {
         ("NEAR", format!("{:?}", kernel.near)),
         ("ELEMENT", kernel.element.to_string()),
         ("DIM", kernel.dim.to_string()),
-        ("CLOCK", if kernel.clock().is_some() { "1" } else { "" }.to_owned()),
+        ("CLOCK", kernel.clock().is_some().to_string()),
     ];
     fill(&include_str!("steps.in").replace('@', &dialect.bound("")), &values)
 }
