@@ -81,19 +81,13 @@ fn quoted(texts: &[String]) -> String {
 
 /// The velocity and the torque beside the energy, for the steps that programs refuse.
 fn drive_values(drive: &Drive, options: &Options, dim: usize) -> [Value; 4] {
-    let dialect = Rust::alone(options.suffix);
-    let lists = [("g", drive.entries), ("mu", dim), ("omega", dim)];
-    let function = |name: &str, program: &Program| {
-        let program = &drive.of_system(program);
-        let inputs = lists.iter().map(|(list, len)| Field::array(&dialect.bound(list), *len));
-        let inputs = inputs.chain([Field::number(&dialect.bound("time"))]).collect();
-        let outputs = vec![Field::array("", program.outputs().len())];
-        let signature = Signature { name: name.to_owned(), program, inputs, outputs };
-        dialect.function(&signature, &dialect.body(&signature))
-    };
-    let functions = [("acting", &drive.program), ("watched_in_drive", &drive.watched)];
+    let inputs =
+        [("g", Some(drive.entries)), ("mu", Some(dim)), ("omega", Some(dim)), ("time", None)];
+    let programs = [("acting", &drive.program), ("watched_in_drive", &drive.watched)];
+    let functions = programs
+        .map(|(name, program)| function(name, &drive.of_system(program), &inputs, true, options));
     [
-        ("DRIVE", functions.map(|(name, program)| function(name, program)).concat()),
+        ("DRIVE", functions.concat()),
         ("ENTRIES", drive.entries.to_string()),
         ("ROWS", drive.entries.isqrt().to_string()),
         ("OF_DRIVE", quoted(&drive.expressions)),
@@ -102,25 +96,29 @@ fn drive_values(drive: &Drive, options: &Options, dim: usize) -> [Value; 4] {
 
 /// The programs of the Hamiltonian as functions.
 fn functions_of_energy(smooth: &Smooth, options: &Options, dim: usize) -> String {
+    let states = [("mu", Some(dim)), ("time", None), ("next", Some(dim)), ("then", None)];
+    [
+        function("value", &smooth.value, &states[..2], false, options),
+        function("gradient", &smooth.gradient, &states[..2], true, options),
+        function("watched", &smooth.watched, &states[..2], true, options),
+        function("reach", &smooth.reach, &states, false, options),
+    ]
+    .concat()
+}
+
+/// A program as a function of lists of these lengths and of numbers, which returns a list or a number.
+fn function(
+    name: &str,
+    program: &Program,
+    inputs: &[(&str, Option<usize>)],
+    of_list: bool,
+    options: &Options,
+) -> String {
     let dialect = Rust::alone(options.suffix);
-    let function = |name: &str, program: &Program, states: &[[&str; 2]]| {
-        let fields = |[mu, time]: &[&str; 2]| {
-            [Field::array(&dialect.bound(mu), dim), Field::number(&dialect.bound(time))]
-        };
-        let inputs = states.iter().flat_map(fields).collect();
-        let outputs = vec![match program.outputs().len() {
-            1 if name != "gradient" => Field::number(""),
-            len => Field::array("", len),
-        }];
-        let signature = Signature { name: name.to_owned(), program, inputs, outputs };
-        dialect.function(&signature, &dialect.body(&signature))
-    };
-    let state = ["mu", "time"];
-    let functions = [
-        function("value", &smooth.value, &[state]),
-        function("gradient", &smooth.gradient, &[state]),
-        function("watched", &smooth.watched, &[state]),
-        function("reach", &smooth.reach, &[state, ["next", "then"]]),
-    ];
-    functions.concat()
+    let input = |&(name, len): &(&str, _)| Field { name: dialect.bound(name), len };
+    let outputs =
+        vec![Field { name: String::new(), len: of_list.then(|| program.outputs().len()) }];
+    let inputs = inputs.iter().map(input).collect();
+    let signature = Signature { name: name.to_owned(), program, inputs, outputs };
+    dialect.function(&signature, &dialect.body(&signature))
 }

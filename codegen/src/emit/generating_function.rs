@@ -1,8 +1,8 @@
 //! The implementations of `coadjoint::GeneratingFunction` and of `Integrator`.
 
-use coadjoint_program::print::{Value, fill};
+use coadjoint_program::print::{Value, fill, tuple};
 
-use super::program::{Rust, list, tuple};
+use super::program::{Rust, list};
 use crate::emit::Options;
 use crate::emit::group::Types;
 use crate::emit::programs::functions;
@@ -33,7 +33,7 @@ pub(crate) fn generating_function(
         ("GRADIENT", vector_function(&integrator.gradient, vector, options, "p")),
         ("HESSIAN", integrator.hessian.as_ref().map_or_else(String::new, hessian)),
         ("FRAME", frame.collect()),
-        ("JUDGED", if judged { "1" } else { "" }.to_owned()),
+        ("JUDGED", judged.to_string()),
         ("RADIUS", radius_at.to_string()),
         ("LAST", (radius_at + 1).to_string()),
         ("UNIT", unit(&integrator.units)),

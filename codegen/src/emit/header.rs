@@ -2,7 +2,8 @@
 
 use coadjoint_program::print::{Value, fill};
 use coadjoint_program::quoting::rust_comment;
-use coadjoint_program::{Cost, Kernel, Program};
+use coadjoint_program::schedule::Part;
+use coadjoint_program::{Cost, Kernel};
 
 use crate::drive::Drive;
 use crate::emit::programs::step_operations;
@@ -62,7 +63,7 @@ pub(crate) fn opening(
     values.extend([
         ("NAME", options.name.to_string()),
         ("PARAMETERS", arguments.collect()),
-        ("NOW", if method.moves { ", time" } else { "" }.to_owned()),
+        ("NOW", when(method.moves, ", time")),
         ("COSTS", step.map_or_else(String::new, |step| costs(step.kernel()))),
     ]);
     paragraphs(&values)
@@ -74,12 +75,14 @@ pub(crate) fn paragraphs(values: &[Value]) -> Vec<String> {
     text.lines().map(str::to_owned).collect()
 }
 
-/// Beyond as many coefficients no one looks them up.
-const MOST_LINES: usize = 4000;
+/// The most lines of a legend: no one looks more coefficients up.
+const MOST_LINES: usize = 4001;
 
-/// A line for each slot that holds a coefficient of S: `c[3] = 2 C(p₁ p₂²), of S₃ + S₅`.
+/// A line for each slot that holds a coefficient of S, `c[3] = 2 C(p₁ p₂²), of S₃ + S₅`, after one about them.
 pub(crate) fn legend(coefficients: &Coefficients) -> Vec<String> {
-    let mut lines = Vec::new();
+    let about =
+        "The coefficients of S = Σ C(m) m that programs read, C(m) being that of the monomial m:";
+    let mut lines = vec![about.to_owned()];
     for (slot, &(base, scale)) in coefficients.slots().iter().enumerate() {
         let Some(factors) = coefficients.monomials().get(base) else { continue };
         let monomial: Vec<String> = factors
@@ -102,10 +105,7 @@ pub(crate) fn legend(coefficients: &Coefficients) -> Vec<String> {
             orders.join(" + ")
         ));
     }
-    if lines.len() > MOST_LINES {
-        lines.clear();
-    }
-    lines
+    if (2..=MOST_LINES).contains(&lines.len()) { lines } else { Vec::new() }
 }
 
 pub(crate) fn subscript(number: usize) -> String {
@@ -119,25 +119,28 @@ pub(crate) fn superscript(number: usize) -> String {
     number.to_string().chars().map(digit).collect()
 }
 
-/// The lines of a paragraph, at most `width` columns each; a line that begins with a space stays as it is.
-pub(crate) fn wrapped(paragraph: &str, width: usize) -> Vec<String> {
-    if paragraph.starts_with(' ') {
-        return vec![paragraph.to_owned()];
-    }
-    let mut lines = vec![String::new()];
-    for word in paragraph.split(' ') {
-        let line = lines.last().map_or(0, String::len);
-        if line > 0 && line + 1 + word.len() > width {
-            lines.push(String::new());
-        }
-        if let Some(line) = lines.last_mut() {
-            if !line.is_empty() {
-                line.push(' ');
+/// Paragraphs as lines of a comment, of at most `width` columns each after their mark; one that begins with a space stays a line.
+pub(crate) fn comment(paragraphs: &[String], width: usize, mark: &str) -> String {
+    let mut text = String::new();
+    for paragraph in paragraphs {
+        let mut line = String::new();
+        for word in paragraph.split(' ') {
+            let full = line.len() + word.len() > width && !line.is_empty();
+            if full && !paragraph.starts_with(' ') {
+                text.push_str(&format!("{mark}{line}\n"));
+                line.clear();
             }
+            line.push(' ');
             line.push_str(word);
         }
+        text.push_str(&format!("{mark}{}\n", line.trim_end()));
     }
-    lines
+    text
+}
+
+/// The text where it holds.
+pub(crate) fn when(holds: bool, text: &str) -> String {
+    if holds { text.to_owned() } else { String::new() }
 }
 
 /// The method of a system, for its documentation.
@@ -198,7 +201,6 @@ pub(crate) fn system(
     quoted: fn(&str) -> String,
 ) -> Vec<Value> {
     let Method { source, about, error, moves, series, drive } = method;
-    let when = |holds: bool| if holds { "1" } else { "" }.to_owned();
     let mut values = vec![
         ("VERSION", env!("CARGO_PKG_VERSION").to_owned()),
         ("SYSTEM", quoted(facts.name)),
@@ -206,8 +208,8 @@ pub(crate) fn system(
         ("GROUP", quoted(facts.algebra.name())),
         ("METHOD", about.clone()),
         ("ERROR", error.clone()),
-        ("STEADY", when(!moves)),
-        ("SERIES", when(*series)),
+        ("STEADY", (!moves).to_string()),
+        ("SERIES", series.to_string()),
     ];
     if let Some(Kicks { kick, splitting, .. }) = kicks {
         let (name, flows, order) = (splitting.name(), splitting.flows().len(), splitting.order());
@@ -220,45 +222,35 @@ pub(crate) fn system(
 
 /// The cost of a step with one correction, and with as many as there may be.
 pub(crate) fn costs(kernel: &Kernel) -> String {
-    let programs = &kernel.programs;
-    let [guess, correct, accept, transport, sound] = [
-        &programs.guess,
-        &programs.correct,
-        &programs.accept,
-        &programs.transport,
-        &programs.sound,
-    ]
-    .map(Program::cost);
-    let frame = programs.frame.as_ref().map_or(Cost::default(), Program::cost);
-    let corrections = kernel.corrections;
     let flows = kernel.flows().unwrap_or(1) as usize;
-    let kicks = kernel.kick().map_or((0, Cost::default()), |kick| (flows + 1, kick.cost()));
-    let step = |corrections: u32| {
-        let times = corrections as usize * flows;
-        [(flows, guess), (times, correct), (flows, accept), (flows, transport), kicks]
+    let step = |corrections: u32, checks: usize| {
+        let of = |count: fn(&Cost) -> usize| -> usize {
+            let cost = |&(part, _): &(Part, _)| {
+                let times = match part {
+                    Part::Correct => corrections as usize * flows,
+                    Part::Kick => flows + 1,
+                    Part::Frame | Part::Sound => checks,
+                    Part::Guess | Part::Accept | Part::Transport => flows,
+                };
+                part.program(kernel).map_or(0, |program| times * count(&program.cost()))
+            };
+            Part::ALL.iter().map(cost).sum()
+        };
+        format!(
+            "{} multiplications, {} additions, {} divisions and roots",
+            of(|cost| cost.multiplications),
+            of(|cost| cost.additions),
+            of(|cost| cost.divisions)
+        )
     };
     // Steps that go by those before them are solved in some sweeps, others most often in one correction.
-    let few = if kernel.guesses_from_element() { 5 } else { 1 };
-    let usual = sum(&step(few));
-    let most = sum(&[&step(corrections)[..], &[(1, sound), (1, frame)]].concat());
-    let few = match few {
-        1 => "one correction, as most have".to_owned(),
-        few => format!("{few} corrections, as many have"),
+    let (few, about) = match kernel.guesses_from_element() {
+        true => (5, "5 corrections, as many have"),
+        false => (1, "one correction, as most have"),
     };
+    let (usual, corrections) = (step(few, 0), kernel.corrections);
+    let most = step(corrections, 1);
     format!(
-        "Cost of a step with {few}: {usual}.\nCost at most ({corrections} corrections, and a check of the state): {most}.\n"
-    )
-}
-
-/// The cost of programs that are evaluated a number of times.
-fn sum(programs: &[(usize, Cost)]) -> String {
-    let of = |count: fn(&Cost) -> usize| -> usize {
-        programs.iter().map(|(times, cost)| times * count(cost)).sum()
-    };
-    format!(
-        "{} multiplications, {} additions, {} divisions and roots",
-        of(|cost| cost.multiplications),
-        of(|cost| cost.additions),
-        of(|cost| cost.divisions)
+        "Cost of a step with {about}: {usual}.\nCost at most ({corrections} corrections, and a check of the state): {most}.\n"
     )
 }

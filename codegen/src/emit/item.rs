@@ -112,11 +112,10 @@ pub(super) fn assemble(
     };
     let reduced =
         format!(" The reduced Hamiltonian H_red{of}, with the parameters given at construction.");
-    let when = |holds: bool| if holds { "1" } else { "" }.to_owned();
     let mut values = types.values();
     values.extend(constructor(facts.parameters, parts.symbols, fold, options));
     values.extend([
-        ("BLANK", when(!options.attributes.is_empty())),
+        ("BLANK", (!options.attributes.is_empty()).to_string()),
         ("SUMMARY", header::lines(*facts, method, series, step.as_ref()).iter().map(doc).collect()),
         ("OF_TRUNCATION", doc(of_truncation)),
         ("OF_COEFFICIENTS", doc(of_coefficients)),
@@ -127,10 +126,10 @@ pub(super) fn assemble(
         ("TIME", argument),
         ("NOW", now),
         ("THEN", then),
-        ("SERIES", when(series.is_some())),
+        ("SERIES", series.is_some().to_string()),
         ("PROGRAMS", parts.programs.clone()),
-        ("LANES", when(!method.moves)),
-        ("STEPS", when(step.is_some())),
+        ("LANES", (!method.moves).to_string()),
+        ("STEPS", step.is_some().to_string()),
         ("TOGETHER", parts.together.to_owned()),
         ("ENERGY", parts.energy.clone()),
         ("TABLE", fold_item(fold)),

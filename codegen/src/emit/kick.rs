@@ -32,7 +32,7 @@ pub fn kick(kick: &Kick, options: &Options) -> TokenStream {
     let mut values = types.values();
     values.extend(constructor(&potential.parameters, &potential.symbols, &fold, options));
     values.extend([
-        ("BLANK", if options.attributes.is_empty() { "" } else { "1" }.to_owned()),
+        ("BLANK", (!options.attributes.is_empty()).to_string()),
         ("SUMMARY", summary.iter().map(doc).collect()),
         ("SIZE", size.to_string()),
         ("ENTRIES", (size * size).to_string()),

@@ -1,7 +1,7 @@
 //! Rust as a dialect of programs: a statement for each operation.
 
 use crate::graph::{Node, Program};
-use coadjoint_program::print::{Body, C, Dialect, Field, RowOf, Signature, body};
+use coadjoint_program::print::{Body, C, Dialect, Field, RowOf, Signature, body, tuple};
 
 /// Programs with more operations than this are cut. Shorter ones the compiler takes in its stride, and inlines into a step
 /// for lanes, which makes use of wider registers.
@@ -34,19 +34,6 @@ impl<'a> Rust<'a> {
     /// The dialect for programs that are of no step.
     pub(crate) fn alone(suffix: &'a str) -> Self {
         Self::new(suffix, usize::MAX)
-    }
-
-    /// A call of a function. Where it belongs to many operations the function is not inlined for a single number, since
-    /// the compiler's time grows faster than their count; where they are very many, not for lanes either.
-    pub(crate) fn apart(&self, call: &str) -> String {
-        let called = format!("plumbing::called(|| {call})");
-        if self.operations <= LARGE {
-            call.to_owned()
-        } else if self.operations <= INLINED_IN_LANES {
-            format!("if T::SINGLE {{ {called} }} else {{ {call} }}")
-        } else {
-            called
-        }
     }
 
     /// The text of a program whose inputs have these names.
@@ -111,6 +98,19 @@ impl Dialect for Rust<'_> {
 
     fn bound(&self, name: &str) -> String {
         format!("{name}{}", self.suffix)
+    }
+
+    /// Where a call belongs to many operations the function is not inlined for a single number, since
+    /// the compiler's time grows faster than their count; where they are very many, not for lanes either.
+    fn apart(&self, call: &str) -> String {
+        let called = format!("plumbing::called(|| {call})");
+        if self.operations <= LARGE {
+            call.to_owned()
+        } else if self.operations <= INLINED_IN_LANES {
+            format!("if T::SINGLE {{ {called} }} else {{ {call} }}")
+        } else {
+            called
+        }
     }
 
     fn row(&self, name: &str, row: RowOf<'_>, count: usize) -> [String; 2] {
@@ -191,14 +191,6 @@ impl Dialect for Rust<'_> {
             tuple(&kinds),
             tuple(&results)
         )
-    }
-}
-
-/// One text, or several as a tuple.
-pub(crate) fn tuple(texts: &[String]) -> String {
-    match texts {
-        [one] => one.clone(),
-        several => format!("({})", several.join(", ")),
     }
 }
 

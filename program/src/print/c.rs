@@ -2,7 +2,7 @@
 
 use alloc::borrow::ToOwned;
 use alloc::format;
-use alloc::string::{String, ToString};
+use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::graph::{Node, Program};
@@ -55,6 +55,11 @@ pub trait Dialect {
     /// A name that is bound.
     fn bound(&self, name: &str) -> String {
         name.to_owned()
+    }
+
+    /// A call of a program in the loop.
+    fn apart(&self, call: &str) -> String {
+        call.to_owned()
     }
 
     /// The statement that declares `name` as the value of `expression`.
@@ -247,9 +252,15 @@ impl C {
         slots.into_iter().chain(inputs).chain(["w"])
     }
 
-    /// A number in hexadecimal, which every compiler reads without rounding.
-    pub(super) fn literal(&self, value: f64) -> String {
-        literal(value, |value| hexadecimal(value) + &self.suffix)
+    /// The shortest decimals that are read as this number, in parentheses where it is negative.
+    pub fn literal(&self, value: f64) -> String {
+        match value.abs() {
+            size if size.is_nan() => "NAN".into(),
+            size if size.is_infinite() && value > 0.0 => "INFINITY".into(),
+            size if size.is_infinite() => "(-INFINITY)".into(),
+            size if value.is_sign_negative() => format!("(-{size:?}{})", self.suffix),
+            size => format!("{size:?}{}", self.suffix),
+        }
     }
 }
 
@@ -278,37 +289,6 @@ fn copied(texts: &[String]) -> usize {
     let Some((array, first)) = texts.first().and_then(|text| entry(text)) else { return 0 };
     let next = |(at, text): &(usize, &String)| entry(text) == Some((array, first + at));
     texts.iter().enumerate().take_while(next).count()
-}
-
-/// A number as C has it, in parentheses where it is negative; `digits` writes one that is finite and not negative.
-pub fn literal(value: f64, digits: impl Fn(f64) -> String) -> String {
-    let text = match value.abs() {
-        size if size.is_nan() => return "NAN".into(),
-        size if size.is_infinite() => "INFINITY".into(),
-        size => digits(size),
-    };
-    match value.is_sign_negative() {
-        true => format!("(-{text})"),
-        false => text,
-    }
-}
-
-/// A finite number that is not negative, in C's hexadecimal form; whole numbers below 2²⁴ in decimal.
-fn hexadecimal(value: f64) -> String {
-    let whole = value as u32;
-    if f64::from(whole) == value && whole < 1 << 24 {
-        return whole.to_string() + ".0";
-    }
-    let bits = value.to_bits();
-    let (exponent, mantissa) = ((bits >> 52) as i64, bits & ((1 << 52) - 1));
-    let (lead, exponent) = match exponent {
-        0 => (0, -1022),
-        normal => (1, normal - 1023),
-    };
-    let digits = format!("{mantissa:013x}");
-    let digits = digits.trim_end_matches('0');
-    let point = if digits.is_empty() { "" } else { "." };
-    format!("0x{lead}{point}{digits}p{exponent:+}")
 }
 
 impl Dialect for C {
@@ -430,16 +410,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_written_without_rounding() {
+    fn decimals_are_read_back_to_the_bit() {
         let c = C::default();
-        assert_eq!(c.literal(0.0), "0.0");
-        assert_eq!(c.literal(-0.0), "(-0.0)");
+        for value in [0.1, 1.0 / 3.0, f64::MAX, f64::MIN_POSITIVE, 5e-324, 1e300] {
+            assert_eq!(c.literal(value).parse(), Ok(value));
+        }
         assert_eq!(c.literal(3.0), "3.0");
-        assert_eq!(c.literal(0.1), "0x1.999999999999ap-4");
-        assert_eq!(c.literal(-0.5), "(-0x1p-1)");
-        assert_eq!(c.literal(1e300), "0x1.7e43c8800759cp+996");
-        assert_eq!(c.literal(f64::from_bits(1)), "0x0.0000000000001p-1022");
+        assert_eq!(c.literal(1e-17), "1e-17");
+        assert_eq!(c.literal(-0.0), "(-0.0)");
         assert_eq!(c.literal(f64::NEG_INFINITY), "(-INFINITY)");
         assert_eq!(c.literal(f64::NAN), "NAN");
+        assert_eq!(C { suffix: "f".into(), ..c }.literal(-0.5), "(-0.5f)");
     }
 }

@@ -71,12 +71,13 @@ pub fn device_unit(
     let device = Device::new(kernel, language);
     let style = LoopStyle {
         prefix: PREFIX.into(),
-        count: "COUNT".into(),
+        declare: [&device.c.number, "COUNT", ""].map(String::from),
+        as_number: [format!("({})", device.c.number), String::new()],
         slots: if device.clock.is_some() { "times" } else { "coadjoint_slots" }.into(),
         slots_of_flow: device.places.len().to_string(),
         copy: "coadjoint_copy".into(),
         live: "why == 0u".into(),
-        right: "right == ONE".into(),
+        right: ["right != ONE", "right == ONE"].map(String::from),
         refuse: [REFUSED_STEP, "why = 4u;"].map(String::from),
         clock: device.times_of_step(slots),
         ..LoopStyle::default()

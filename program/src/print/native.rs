@@ -11,6 +11,7 @@ use super::vectors::Vectors;
 use crate::kernel::{Kernel, Trajectories, WIDTH};
 use crate::print::c::signatures;
 use crate::print::steps::{LoopStyle, steps};
+use crate::schedule::{Test, Variable};
 
 /// The version of what [`native_unit`] exports. It changes with the loop, the functions' parameters and the meaning of
 /// the array of sizes.
@@ -71,10 +72,14 @@ pub fn native_unit(kernel: &Kernel, trajectories: Trajectories) -> String {
             .map(|signature| format!("\n{}", function(&lanes, &signature, LONGEST)));
         let style = LoopStyle {
             prefix: "lanes_".into(),
-            count: "M".into(),
+            declare: ["V", "unsigned int", "M"].map(String::from),
+            as_number: ["__builtin_convertvector(", ", V)"].map(String::from),
+            in_lanes: ["update", "pick", "any"].map(String::from),
+            // Flows are counted for all lanes together.
+            of_lanes: |test| !matches!(test, Test::Below(Variable::Flow, _)),
             open: "~(M)(residual_bound <= spread(TOLERANCE)) & (M)(distance <= spread(NEAR))"
                 .into(),
-            right: "right == spread(1.0)".into(),
+            right: ["right != spread(1.0)", "right == spread(1.0)"].map(String::from),
             ..LoopStyle::default()
         };
         let steps = steps(kernel, &lanes, &style, 8);

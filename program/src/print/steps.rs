@@ -1,6 +1,5 @@
 //! The loop of a kernel as statements, in any language.
 
-use alloc::borrow::ToOwned;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -10,28 +9,36 @@ use crate::kernel::Kernel;
 use crate::print::c::Dialect;
 use crate::schedule::{Block, Kept, Kind, Part, Statement, Test, Variable};
 
-/// The words of a language for the loop; the default is the style of a unit of C, with a function around it that declares
-/// `bool live`.
+/// The words of a language for the loop; the default is the style of a unit of C. The function around the loop has g, μ,
+/// `steps` and what the word `live` reads.
 #[derive(Clone, Debug)]
 pub struct LoopStyle {
+    /// True where arrays are assigned and returned as values, as in Rust, and not by pointers, as in C.
+    pub values: bool,
     /// The prefix of the names of programs.
     pub prefix: String,
-    /// The type of a count; `M`, a vector of whole numbers, where numbers, counts and masks are vectors of lanes.
-    pub count: String,
-    /// The lengths of g and of μ.
-    pub sizes: [String; 2],
+    /// The words before the name of a number or an array that is declared, before that of a count, and before that of a mask.
+    pub declare: [String; 3],
+    /// The text around a count that a program reads as a number.
+    pub as_number: [String; 2],
+    /// The text that adds 1 to the count before it.
+    pub next: String,
     /// The list of the coefficients.
     pub slots: String,
     /// The number of coefficients that one flow reads.
     pub slots_of_flow: String,
     /// The name of a function that copies (to, from, length).
     pub copy: String,
+    /// The names of functions that assign arrays and numbers in the lanes of a mask, and of one that says if it has any.
+    pub in_lanes: [String; 3],
+    /// True for a test that has an answer for each lane.
+    pub of_lanes: fn(Test) -> bool,
     /// The condition under which a trajectory moves on.
     pub live: String,
     /// The condition under which an equation is corrected again: not solved to the tolerance, near the guess.
     pub open: String,
-    /// The condition that a program's answer is 1.
-    pub right: String,
+    /// The conditions that a program's answer is not 1, and that it is.
+    pub right: [String; 2],
     /// Statements that stop a trajectory: because of a step, and because of a state.
     pub refuse: [String; 2],
     /// Statements that report the corrections and the residual bound of the step made.
@@ -43,15 +50,19 @@ pub struct LoopStyle {
 impl Default for LoopStyle {
     fn default() -> Self {
         Self {
+            values: false,
             prefix: "scalar_".into(),
-            count: "unsigned long long".into(),
-            sizes: ["ELEMENT", "DIM"].map(String::from),
+            declare: ["double", "unsigned long long", ""].map(String::from),
+            as_number: ["(double)", ""].map(String::from),
+            next: "++".into(),
             slots: "c".into(),
             slots_of_flow: "SLOTS".into(),
             copy: "copy".into(),
+            in_lanes: [const { String::new() }; 3],
+            of_lanes: |_| false,
             live: "live".into(),
             open: "!(residual_bound <= TOLERANCE) && distance <= NEAR".into(),
-            right: "right == 1.0".into(),
+            right: ["right != 1.0", "right == 1.0"].map(String::from),
             refuse: ["live = false;", "live = false;"].map(String::from),
             note: String::new(),
             clock: String::new(),
@@ -59,63 +70,24 @@ impl Default for LoopStyle {
     }
 }
 
-/// A language that writes the statements of the loop. The function around it has g, μ, `steps` and whatever the word `live`
-/// reads.
-pub trait Loop {
-    /// The words.
-    fn style(&self) -> &LoopStyle;
-    /// A name that is bound.
-    fn bound(&self, name: &str) -> String;
-    /// The statement that declares a variable by this name; it, or all its numbers, begin with `initial`.
-    fn variable(&self, variable: Variable, name: &str, initial: Option<u32>) -> String;
-    /// a + b.
-    fn sum(&self, a: &str, b: &str) -> String;
-    /// A count that is known.
-    fn whole(&self, value: u32) -> String;
-    /// The statement that adds 1 to a count, in the lanes of a mask.
-    fn next(&self, count: &str, mask: Option<&str>) -> String;
-    /// The statement that assigns to a variable like this one, in the lanes of a mask.
-    fn assign(&self, mask: Option<&str>, like: Variable, names: [&str; 2]) -> String;
-    /// The statement that evaluates a program, given the names of what it reads and of what it assigns.
-    fn call(&self, part: Part, inputs: &[Name], outputs: &[Name]) -> String;
-    /// True if outputs are assigned while inputs are read.
-    fn assigns_early(&self) -> bool;
-    /// True if a test has an answer for each lane.
-    fn of_lanes(&self, test: Test) -> bool;
-    /// A test, or its opposite.
-    fn test(&self, holds: bool, test: &str, of_lanes: bool) -> String;
-    /// The condition that all tests hold.
-    fn all(&self, tests: &[String], of_lanes: bool) -> String;
-    /// The statement that declares a mask, and the condition that it has any lane.
-    fn mask(&self, name: &str, lanes: &str) -> [String; 2];
-}
-
-/// A variable, and a name for it.
-pub type Name = (Variable, String);
-
 /// The statements of the loop; lines begin with `depth` spaces.
-pub fn statements(kernel: &Kernel, language: &impl Loop, depth: usize) -> String {
-    let mut writer = Writer { kernel, language, depth, masks: 0, text: String::new() };
+pub fn steps(kernel: &Kernel, dialect: &impl Dialect, style: &LoopStyle, depth: usize) -> String {
+    let mut writer = Writer { kernel, dialect, style, depth, masks: 0, text: String::new() };
     writer.block(kernel.schedule(), None);
     writer.text
 }
 
-/// The statements of the loop in a dialect of C.
-pub fn steps(kernel: &Kernel, dialect: &impl Dialect, style: &LoopStyle, depth: usize) -> String {
-    let lanes = style.count == "M";
-    statements(kernel, &CLoop { kernel, dialect, style, lanes }, depth)
-}
-
-struct Writer<'a, L> {
+struct Writer<'a, D> {
     kernel: &'a Kernel,
-    language: &'a L,
+    dialect: &'a D,
+    style: &'a LoopStyle,
     depth: usize,
     /// The number of named masks.
     masks: usize,
     text: String,
 }
 
-impl<L: Loop> Writer<'_, L> {
+impl<D: Dialect> Writer<'_, D> {
     fn line(&mut self, text: &str) {
         for line in text.lines() {
             self.text.push_str(&format!("{:1$}{line}\n", "", self.depth));
@@ -123,11 +95,41 @@ impl<L: Loop> Writer<'_, L> {
     }
 
     fn name(&self, variable: Variable, end: &str) -> String {
-        self.language.bound(&format!("{}{end}", variable.name()))
+        self.dialect.bound(&format!("{}{end}", variable.name()))
+    }
+
+    /// True if a variable is a count, and lanes have one each.
+    fn counts_lanes(&self, variable: Variable) -> bool {
+        (self.style.of_lanes)(Test::Below(variable, 0))
+    }
+
+    /// A known number for a count.
+    fn whole(&self, count: Variable, value: u32) -> String {
+        match (self.counts_lanes(count), self.style.values) {
+            (true, _) => format!("counts({value})"),
+            (_, true) => value.to_string(),
+            (_, false) => format!("{value}u"),
+        }
     }
 
     fn declare(&mut self, variable: Variable, end: &str, initial: Option<u32>) {
-        self.line(&self.language.variable(variable, &self.name(variable, end), initial));
+        let (name, values) = (self.name(variable, end), self.style.values);
+        let [of_number, of_count, of_mask] = &self.style.declare;
+        let number = self.dialect.constant(f64::from(initial.unwrap_or(0)));
+        let text = match (variable.kind(self.kernel), initial) {
+            (Kind::Count, _) => {
+                let of = if self.counts_lanes(variable) { of_mask } else { of_count };
+                format!("{of} {name} = {};", self.whole(variable, 0))
+            }
+            (_, None) if values => format!("{of_number} {name};"),
+            (Kind::Array(len), _) if values => format!("{of_number} {name} = [{number}; {len}];"),
+            (Kind::Array(len), _) => {
+                let zeros = initial.map_or("", |_| " = {0}");
+                format!("{of_number} {name}[{}]{zeros};", len.max(1))
+            }
+            (Kind::Number, _) => format!("{of_number} {name} = {number};"),
+        };
+        self.line(&text);
     }
 
     fn block(&mut self, block: &Block, mask: Option<&str>) {
@@ -140,7 +142,7 @@ impl<L: Loop> Writer<'_, L> {
     }
 
     fn statement(&mut self, statement: &Statement, block: &Block, mask: Option<&str>) {
-        let style = self.language.style();
+        let style = self.style;
         let refused = |step: usize| match mask {
             None => style.refuse[step].clone(),
             Some(mask) => format!("live &= ~{mask};"),
@@ -150,14 +152,15 @@ impl<L: Loop> Writer<'_, L> {
             Statement::While(tests, block) => return self.branch("while", tests, block, mask),
             Statement::If(tests, block) => return self.branch("if", tests, block, mask),
             Statement::Lengthen => {
-                let distance = self.name(Variable::Distance, "");
-                let sum = self.language.sum(&distance, &self.name(Variable::Moved, ""));
-                self.language.assign(mask, Variable::Distance, [&distance, &sum])
+                let [distance, moved] =
+                    [Variable::Distance, Variable::Moved].map(|variable| self.name(variable, ""));
+                let sum = self.dialect.operation(Node::Add(Id(0), Id(0)), &[&distance, &moved]);
+                self.assign(mask, Variable::Distance, [&distance, &sum])
             }
-            Statement::Next(variable) => {
-                let mask = mask.filter(|_| *variable != Variable::Flow);
-                self.language.next(&self.name(*variable, ""), mask)
-            }
+            Statement::Next(count) => match mask.filter(|_| self.counts_lanes(*count)) {
+                Some(mask) => format!("{} -= {mask};", self.name(*count, "")),
+                None => format!("{}{};", self.name(*count, ""), style.next),
+            },
             Statement::Keep(kept) => {
                 self.declare(Variable::Element, end_of(*kept), None);
                 self.declare(Variable::Momentum, end_of(*kept), None);
@@ -181,11 +184,27 @@ impl<L: Loop> Writer<'_, L> {
         self.line(&text);
     }
 
+    /// The statement that assigns to a variable like this one, in the lanes of a mask.
+    fn assign(&self, mask: Option<&str>, like: Variable, [to, from]: [&str; 2]) -> String {
+        let LoopStyle { copy, in_lanes: [update, pick, _], .. } = self.style;
+        match (like.kind(self.kernel), mask) {
+            (Kind::Array(len), None) if !self.style.values => {
+                format!("{copy}({to}, {from}, {len});")
+            }
+            (Kind::Array(len), Some(mask)) if !self.style.values => {
+                format!("{update}({mask}, {to}, {from}, {len});")
+            }
+            (_, None) => format!("{to} = {from};"),
+            (Kind::Array(_), Some(mask)) => format!("{to} = {update}({mask}, {from}, {to});"),
+            (_, Some(mask)) => format!("{to} = {pick}({mask}, {from}, {to});"),
+        }
+    }
+
     /// Copies g and μ between names with these ends.
     fn state(&self, mask: Option<&str>, ends: [&str; 2]) -> String {
         let copy = |variable: Variable| {
             let [to, from] = ends.map(|end| self.name(variable, end));
-            self.language.assign(mask, variable, [&to, &from])
+            self.assign(mask, variable, [&to, &from])
         };
         [Variable::Element, Variable::Momentum].map(copy).join("\n")
     }
@@ -197,69 +216,100 @@ impl<L: Loop> Writer<'_, L> {
         let (mut names, mut moves) = (Vec::new(), Vec::new());
         for &output in outputs {
             let mut name = self.name(output, "");
-            // A value that the program reads, or that may not change in all lanes, is stored beside it first.
-            let early = self.language.assigns_early() && inputs.contains(&output);
+            // A value that is read through a pointer, or that may not change in all lanes, is stored beside it first.
+            let early = !self.style.values && inputs.contains(&output);
             if early || (mask.is_some() && !block.owns(output)) {
                 self.declare(output, beside, None);
                 let next = self.name(output, beside);
-                moves.push(self.language.assign(mask, output, [&name, &next]));
+                moves.push(self.assign(mask, output, [&name, &next]));
                 name = next;
             }
-            names.push((output, name));
+            let pointer = output.kind(self.kernel) == Kind::Number && !self.style.values;
+            names.push(if pointer { format!("&{name}") } else { name });
         }
-        let inputs: Vec<Name> = inputs.iter().map(|&input| (input, self.name(input, ""))).collect();
-        self.line(&self.language.call(part, &inputs, &names));
+        let LoopStyle { slots, slots_of_flow, .. } = self.style;
+        let slots = (!self.dialect.c().slots.is_empty()).then(|| match self.kernel.flows() {
+            Some(_) if part.is_of_flow() => {
+                format!("&{slots}[{} * {slots_of_flow}]", Variable::Flow.name())
+            }
+            _ => slots.clone(),
+        });
+        let input = |&variable: &Variable| {
+            let (name, [before, after]) = (self.name(variable, ""), &self.style.as_number);
+            match variable.kind(self.kernel) {
+                Kind::Count => format!("{before}{name}{after}"),
+                Kind::Array(_) if self.style.values => format!("&{name}"),
+                _ => name,
+            }
+        };
+        let mut arguments: Vec<String> =
+            slots.into_iter().chain(inputs.iter().map(input)).collect();
+        let function = format!("{}{}", self.style.prefix, Part::ALL[part as usize].1);
+        if self.style.values {
+            let call = self.dialect.apart(&format!("{function}({})", arguments.join(", ")));
+            self.line(&format!("{} = {call};", tuple(&names)));
+        } else {
+            arguments.extend(names);
+            self.line(&format!("{function}({});", arguments.join(", ")));
+        }
         moves.iter().for_each(|text| self.line(text));
     }
 
     /// A loop or a branch; its block has a mask of lanes where the condition is one of lanes.
     fn branch(&mut self, word: &str, tests: &[(bool, Test)], block: &Block, mask: Option<&str>) {
+        let style = self.style;
         let all = |of_lanes: bool| -> Vec<String> {
-            let own = tests.iter().filter(|one| self.language.of_lanes(one.1) == of_lanes);
-            own.map(|&(holds, test)| self.test(holds, test, of_lanes)).collect()
+            let own = tests.iter().filter(|one| (style.of_lanes)(one.1) == of_lanes);
+            own.map(|&(holds, test)| self.test(holds, test)).collect()
         };
-        let (lanes, mut plain) = (all(true), all(false));
+        let (lanes, mut plain) = (all(true).join(" & "), all(false));
         let mut own = None;
         if !lanes.is_empty() {
             self.masks += 1;
-            let name = self.language.bound(&format!("lanes{}", self.masks));
-            let lanes = self.language.all(&lanes, true);
+            let name = self.dialect.bound(&format!("lanes{}", self.masks));
             let outer = mask.map_or(String::new(), |mask| format!("{mask} & "));
-            let [declared, any] = self.language.mask(&name, &format!("{outer}{lanes}"));
-            self.line(&declared);
-            plain.push(any);
-            own = Some((name, lanes));
+            self.line(&format!("{} {name} = {outer}{lanes};", style.declare[2]));
+            plain.push(format!("{}({name})", style.in_lanes[2]));
+            own = Some(name);
         }
-        let condition = self.language.all(&plain, false);
+        let condition = plain.join(" && ");
+        let condition = if style.values { condition } else { format!("({condition})") };
         self.line(&format!("{word} {condition} {{"));
         self.depth += 4;
-        self.block(block, own.as_ref().map(|(name, _)| name.as_str()).or(mask));
-        if let Some((name, lanes)) = own.filter(|_| word == "while") {
+        self.block(block, own.as_deref().or(mask));
+        if let Some(name) = own.filter(|_| word == "while") {
             self.line(&format!("{name} = {name} & {lanes};"));
         }
         self.depth -= 4;
         self.line("}");
     }
 
-    fn test(&self, holds: bool, test: Test, of_lanes: bool) -> String {
-        let (language, style) = (self.language, self.language.style());
+    fn test(&self, holds: bool, test: Test) -> String {
+        let style = self.style;
         let text = match test {
             Test::Live => style.live.clone(),
             Test::Remaining => {
-                format!("{} < {}", self.name(Variable::Done, ""), language.bound("steps"))
-            }
-            Test::Below(Variable::Flow, most) if of_lanes => {
-                format!("counts({}) < {}", Variable::Flow.name(), language.whole(most))
+                format!("{} < {}", self.name(Variable::Done, ""), self.dialect.bound("steps"))
             }
             Test::Below(count, most) => {
                 let sign = if holds { "<" } else { ">=" };
-                let text = format!("{} {sign} {}", self.name(count, ""), language.whole(most));
-                return language.test(true, &text, of_lanes);
+                format!("{} {sign} {}", self.name(count, ""), self.whole(count, most))
             }
             Test::Open => style.open.clone(),
-            Test::Right => style.right.clone(),
+            Test::Right => style.right[usize::from(holds)].clone(),
         };
-        language.test(holds, &text, of_lanes)
+        match (style.of_lanes)(test) && !style.values {
+            true => format!("(M)({text})"),
+            false => text,
+        }
+    }
+}
+
+/// One text, or several as a tuple.
+pub fn tuple(texts: &[String]) -> String {
+    match texts {
+        [one] => one.clone(),
+        several => format!("({})", several.join(", ")),
     }
 }
 
@@ -268,130 +318,5 @@ fn end_of(kept: Kept) -> &'static str {
     match kept {
         Kept::Block => "_start",
         Kept::Step => "_before",
-    }
-}
-
-/// The loop in C.
-struct CLoop<'a, D> {
-    kernel: &'a Kernel,
-    dialect: &'a D,
-    style: &'a LoopStyle,
-    /// True if numbers, counts and masks are vectors of lanes.
-    lanes: bool,
-}
-
-impl<D: Dialect> CLoop<'_, D> {
-    fn length(&self, variable: Variable) -> String {
-        let [element, dim] = &self.style.sizes;
-        match (variable, variable.kind(self.kernel)) {
-            (Variable::Element, _) => element.clone(),
-            (Variable::Constants, Kind::Array(len)) => len.to_string(),
-            (_, Kind::Array(len)) if len != self.kernel.dim => len.to_string(),
-            _ => dim.clone(),
-        }
-    }
-}
-
-impl<D: Dialect> Loop for CLoop<'_, D> {
-    fn style(&self) -> &LoopStyle {
-        self.style
-    }
-
-    fn bound(&self, name: &str) -> String {
-        name.to_owned()
-    }
-
-    fn variable(&self, variable: Variable, name: &str, initial: Option<u32>) -> String {
-        let number = &self.dialect.c().number;
-        match variable.kind(self.kernel) {
-            Kind::Array(len) => {
-                let length = if len == 0 { "1".into() } else { self.length(variable) };
-                let zeros = initial.map_or("", |_| if self.lanes { " = {{0}}" } else { " = {0}" });
-                format!("{number} {name}[{length}]{zeros};")
-            }
-            Kind::Number => {
-                let value = self.dialect.constant(f64::from(initial.unwrap_or(0)));
-                format!("{number} {name} = {value};")
-            }
-            // One number for all lanes.
-            Kind::Count if self.lanes && variable == Variable::Flow => {
-                format!("unsigned int {name} = 0u;")
-            }
-            Kind::Count => format!("{} {name} = {};", self.style.count, self.whole(0)),
-        }
-    }
-
-    fn sum(&self, a: &str, b: &str) -> String {
-        self.dialect.operation(Node::Add(Id(0), Id(0)), &[a, b])
-    }
-
-    fn whole(&self, value: u32) -> String {
-        if self.lanes { format!("counts({value})") } else { format!("{value}u") }
-    }
-
-    fn next(&self, count: &str, mask: Option<&str>) -> String {
-        mask.map_or_else(|| format!("{count}++;"), |mask| format!("{count} -= {mask};"))
-    }
-
-    fn assign(&self, mask: Option<&str>, like: Variable, [to, from]: [&str; 2]) -> String {
-        let length = self.length(like);
-        match (like.kind(self.kernel), mask) {
-            (Kind::Array(_), None) => format!("{}({to}, {from}, {length});", self.style.copy),
-            (Kind::Array(_), Some(mask)) => format!("update({mask}, {to}, {from}, {length});"),
-            (_, None) => format!("{to} = {from};"),
-            (_, Some(mask)) => format!("{to} = pick({mask}, {from}, {to});"),
-        }
-    }
-
-    fn call(&self, part: Part, inputs: &[Name], outputs: &[Name]) -> String {
-        let LoopStyle { slots, slots_of_flow, .. } = self.style;
-        let c = self.dialect.c();
-        let slots = (!c.slots.is_empty()).then(|| match self.kernel.flows() {
-            Some(_) if part.is_of_flow() => {
-                format!("&{slots}[{} * {slots_of_flow}]", Variable::Flow.name())
-            }
-            _ => slots.clone(),
-        });
-        let input = |(variable, name): &Name| match variable.kind(self.kernel) {
-            Kind::Count if self.lanes => format!("__builtin_convertvector({name}, V)"),
-            Kind::Count => format!("({}){name}", c.number),
-            _ => name.clone(),
-        };
-        let output = |(variable, name): &Name| match variable.kind(self.kernel) {
-            Kind::Number => format!("&{name}"),
-            _ => name.clone(),
-        };
-        let arguments = inputs.iter().map(input).chain(outputs.iter().map(output));
-        let arguments: Vec<String> = slots.into_iter().chain(arguments).collect();
-        let name = Part::ALL[part as usize].1;
-        format!("{}{name}({});", self.style.prefix, arguments.join(", "))
-    }
-
-    fn assigns_early(&self) -> bool {
-        true
-    }
-
-    fn of_lanes(&self, _: Test) -> bool {
-        self.lanes
-    }
-
-    fn test(&self, holds: bool, test: &str, of_lanes: bool) -> String {
-        match (of_lanes, holds) {
-            (true, true) => format!("(M)({test})"),
-            (true, false) => format!("~(M)({test})"),
-            (false, true) => format!("({test})"),
-            (false, false) => format!("(!({test}))"),
-        }
-    }
-
-    fn all(&self, tests: &[String], of_lanes: bool) -> String {
-        match tests {
-            [one] => one.clone(),
-            several => format!("({})", several.join(if of_lanes { " & " } else { " && " })),
-        }
-    }
-
-    fn mask(&self, name: &str, lanes: &str) -> [String; 2] {
-        [format!("M {name} = {lanes};"), format!("(any({name}))")]
     }
 }

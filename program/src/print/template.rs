@@ -9,7 +9,8 @@ pub type Value = (&'static str, String);
 /// A template with its places filled.
 ///
 /// A place is a name in capitals, `/*NAME*/`; a line that is nothing else is replaced by the lines of its text. Lines from
-/// `//? NAME` to `//.` are left out where the text of that name is empty or missing, those from `//? !NAME` where it is not.
+/// `//? NAME` to `//.` are left out where the text of that name is empty, missing, `0` or `false`, those from `//? !NAME` where
+/// it is not.
 pub fn fill(template: &str, values: &[Value]) -> String {
     let value =
         |name: &str| values.iter().find(|value| value.0 == name).map_or("", |value| &value.1);
@@ -18,11 +19,11 @@ pub fn fill(template: &str, values: &[Value]) -> String {
     for line in template.lines() {
         let within = shown.last().copied().unwrap_or(true);
         if let Some(section) = line.strip_prefix("//? ") {
-            let holds = match section.strip_prefix('!') {
-                Some(name) => value(name).is_empty(),
-                None => !value(section).is_empty(),
+            let (name, missing) = match section.strip_prefix('!') {
+                Some(name) => (name, true),
+                None => (section, false),
             };
-            shown.push(within && holds);
+            shown.push(within && matches!(value(name), "" | "0" | "false") == missing);
         } else if line == "//." {
             shown.pop();
         } else if within {
@@ -66,6 +67,7 @@ mod tests {
         let template = "a /* b */ /*ONE*/;\n/*ROWS*/\n//? ONE\nwith\n//? TWO\nboth\n//.\n//.\n//? !TWO\nnone /*TWO*/\n//.\n";
         let values = [("ONE", String::from("1")), ("ROWS", String::from("x\ny\n"))];
         assert_eq!(fill(template, &values), "a /* b */ 1;\nx\ny\nwith\nnone \n");
-        assert_eq!(fill(template, &[("TWO", String::from("2"))]), "a /* b */ ;\n");
+        let values = [("ONE", String::from("0")), ("TWO", String::from("2"))];
+        assert_eq!(fill(template, &values), "a /* b */ 0;\n");
     }
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use coadjoint_program::Node;
-use coadjoint_program::print::{C, Dialect, literal};
+use coadjoint_program::print::{C, Dialect};
 
 use super::names::Names;
 
@@ -33,16 +33,12 @@ impl Portable {
 
 /// The shortest decimals that are read as this number.
 pub(crate) fn decimal(value: f64) -> String {
-    literal(value, |value| format!("{value:?}"))
+    C::default().literal(value)
 }
 
 impl Dialect for Portable {
     fn c(&self) -> &C {
         &self.c
-    }
-
-    fn constant(&self, value: f64) -> String {
-        decimal(value)
     }
 
     fn slot(&self, index: usize) -> String {
@@ -57,23 +53,5 @@ impl Dialect for Portable {
             (Node::Exponent(_), [a]) => format!("(double)ilogb({a})"),
             _ => self.c.operation(node, operands),
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn decimals_are_read_back_to_the_bit() {
-        for value in
-            [0.1, 1.0 / 3.0, f64::MAX, f64::MIN_POSITIVE, 5e-324, 1e300, 4.0 * f64::EPSILON]
-        {
-            assert_eq!(decimal(value).parse(), Ok(value));
-        }
-        assert_eq!(decimal(3.0), "3.0");
-        assert_eq!(decimal(1e-17), "1e-17");
-        assert_eq!(decimal(-0.5), "(-0.5)");
-        assert_eq!(decimal(f64::INFINITY), "INFINITY");
     }
 }

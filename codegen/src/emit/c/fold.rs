@@ -12,6 +12,7 @@ use crate::emit::c::HeaderError;
 use crate::emit::c::dialect::decimal;
 use crate::emit::c::names::Names;
 use crate::emit::c::parameter;
+use crate::emit::header::when;
 use crate::integrator::{FoldTable, Kicks};
 use crate::step::{Origin, Step};
 
@@ -107,37 +108,36 @@ impl Folding {
         let symbols = own.iter().zip(&expressions).enumerate().map(|(i, (symbol, expression))| {
             format!("    symbol[{i}] = {expression}; /* {} */\n", c_comment(&symbol.text))
         });
-        let when = |holds: bool, text: &str| if holds { names.fill(text) } else { String::new() };
         let read = products > 0 && has(parameter::MEMBER);
-        let size = |size: usize| when(size > 0, &format!("{size}u"));
         let mut values = vec![
             ("TABLES", tables),
-            ("POWER", when(has(parameter::POWER_OF), "1")),
-            ("UNREAD", when(!read && !given.is_empty(), "1")),
-            ("PARAMETER", when(!given.is_empty(), ", const @p@_parameters *parameters")),
+            ("POWER", has(parameter::POWER_OF).to_string()),
+            ("UNREAD", (!read && !given.is_empty()).to_string()),
+            (
+                "PARAMETER",
+                when(!given.is_empty(), &names.fill(", const @p@_parameters *parameters")),
+            ),
             ("PASSED", when(!given.is_empty(), ", parameters")),
             ("SET_SYMBOLS", symbols.collect()),
             ("BYTES", (8 * stack).to_string()),
-            ("SYMBOLS", size(own.len())),
-            ("PRODUCTS", size(products)),
-            ("POWERS", size(powers)),
-            ("BASES", size(fold.bases.len())),
-            ("BOUND", size(fold.bound.len())),
-            ("LAST", size(fold.last.len())),
-            ("PLACES", size(places)),
-            ("DEGREES", size(degrees)),
+            ("SYMBOLS", own.len().to_string()),
+            ("PRODUCTS", products.to_string()),
+            ("POWERS", powers.to_string()),
+            ("BASES", fold.bases.len().to_string()),
+            ("BOUND", fold.bound.len().to_string()),
+            ("LAST", fold.last.len().to_string()),
+            ("PLACES", places.to_string()),
+            ("DEGREES", degrees.to_string()),
         ];
         if let (Some(kick_at), Some(Kicks { splitting, .. })) = (self.kick_at, origin.kicks()) {
-            let list = |lengths: Vec<f64>| -> String {
-                lengths.iter().map(|length| format!("        {length:?},\n")).collect()
-            };
+            let number = |length: f64| format!("{length:?}");
             // After the last kick there is no flow.
-            let flows = splitting.flows().chain(splitting.flows().next()).collect();
+            let flows = splitting.flows().chain(splitting.flows().next());
             values.extend([
                 ("KICK", ", double kick".to_owned()),
                 ("KICK_AT", format!("{kick_at}u")),
-                ("FLOWS", list(flows)),
-                ("KICKS", list(splitting.kicks().collect())),
+                ("FLOWS", rows_of(flows.map(number), 1)),
+                ("KICKS", rows_of(splitting.kicks().map(number), 1)),
             ]);
         }
         values
@@ -184,24 +184,19 @@ fn declare(fold: &Fold<'_>, degrees: usize, text: &mut String) {
 
 fn numbers(name: &str, list: impl ExactSizeIterator<Item = f64>, text: &mut String) {
     let _ = writeln!(text, "    static const double {name}[{}] = {{", list.len());
-    let number = |value: f64| match value < 0.0 {
-        true => format!("{value:?}"),
-        false => decimal(value),
-    };
-    rows(list.map(number), 4, text);
+    let number = |value| decimal(value).trim_matches(['(', ')']).to_owned();
+    text.push_str(&(rows_of(list.map(number), 4) + "    };\n"));
 }
 
 fn integers(name: &str, list: impl ExactSizeIterator<Item = u32> + Clone, text: &mut String) {
     let short = list.clone().all(|value| u16::try_from(value).is_ok());
     let of = if short { "uint16_t" } else { "uint32_t" };
     let _ = writeln!(text, "    static const {of} {name}[{}] = {{", list.len());
-    rows(list.map(|value| format!("{value}u")), 12, text);
+    text.push_str(&(rows_of(list.map(|value| format!("{value}u")), 12) + "    };\n"));
 }
 
-fn rows(list: impl Iterator<Item = String>, width: usize, text: &mut String) {
+/// The rows of a table, with as many entries each.
+pub(super) fn rows_of(list: impl Iterator<Item = String>, width: usize) -> String {
     let list: Vec<String> = list.collect();
-    for row in list.chunks(width) {
-        let _ = writeln!(text, "        {},", row.join(", "));
-    }
-    text.push_str("    };\n");
+    list.chunks(width).map(|row| format!("        {},\n", row.join(", "))).collect()
 }

@@ -97,12 +97,11 @@ pub(super) fn values(step: &Step, fold: &Folding, names: &Names) -> Vec<Value> {
     });
     let style = LoopStyle {
         prefix: prefix.clone(),
-        count: "uint32_t".into(),
-        sizes: ["@P@_ELEMENT", "@P@_DIMENSION"].map(|size| names.fill(size)),
+        declare: ["double", "uint32_t", ""].map(String::from),
         copy: names.fill("@p@_internal_copy"),
         live: names.fill("status == @P@_OK"),
         open: names.fill("@p@_internal_open(residual_bound, distance)"),
-        right: "right > 0.5".into(),
+        right: ["!(right > 0.5)", "right > 0.5"].map(String::from),
         slots_of_flow: names.fill("@P@_COEFFICIENTS"),
         refuse: [&refused, "status = @p@_internal_broken(g, mu);"].map(|text| names.fill(text)),
         clock: names.fill(&clock),

@@ -8,17 +8,13 @@ use coadjoint_program::quoting::c_comment;
 use num_traits::ToPrimitive;
 
 use crate::emit::c::dialect::decimal;
-use crate::emit::c::fold::Folding;
+use crate::emit::c::fold::{Folding, rows_of};
 use crate::emit::c::names::Names;
 use crate::emit::c::programs::casimirs;
 use crate::emit::c::{HeaderOptions, Language, parameter};
-use crate::emit::header::{self, Method};
+use crate::emit::header::{self, Method, when};
+use crate::problem::Parameter;
 use crate::step::{Origin, Step};
-
-/// A size where there is one.
-fn positive(size: usize) -> String {
-    if size > 0 { size.to_string() } else { String::new() }
-}
 
 /// The opening, the sizes, and the types, for the template.
 pub(super) fn values(
@@ -29,7 +25,6 @@ pub(super) fn values(
     options: &HeaderOptions,
 ) -> Vec<Value> {
     let (facts, kernel) = (origin.facts(), step.kernel());
-    let when = |holds: bool, text: &str| if holds { names.fill(text) } else { String::new() };
     let mut members = String::new();
     for (parameter, name) in facts.parameters.iter().zip(&names.parameters) {
         let member = parameter::member(&parameter.shape, name);
@@ -46,30 +41,26 @@ pub(super) fn values(
     let rows = kernel.programs.matrix.outputs().len().isqrt();
     let identity: Vec<f64> =
         (0..rows * rows).map(|at| f64::from(u8::from(at / rows == at % rows))).collect();
-    let mut numbers = String::new();
-    for row in step.element_of(&identity).chunks(8) {
-        let row: Vec<String> = row.iter().map(|&value| decimal(value)).collect();
-        let _ = writeln!(numbers, "        {},", row.join(", "));
-    }
+    let numbers = step.element_of(&identity);
     let inverse =
         |(at, rows)| format!("    @p@_internal_invert(&state->g[{at}], &back[{at}], {rows}u);\n");
-    let inverses: String = step.inverted().into_iter().map(inverse).collect();
+    let inverted = step.inverted().into_iter();
     let (clock, kicks) = (kernel.clock().is_some(), origin.kicks().is_some());
     let given = !facts.parameters.is_empty();
     let lists = if kicks { "(@P@_FLOWS + 1u) * @P@_COEFFICIENTS" } else { "@P@_COEFFICIENTS" };
     vec![
         ("OPENING", opening(origin, step, fold, names, options)),
         ("VERSION", env!("CARGO_PKG_VERSION").to_owned()),
-        ("CPP", when(options.language == Language::Cpp, "1")),
+        ("CPP", (options.language == Language::Cpp).to_string()),
         ("DIMENSIONS", kernel.dim.to_string()),
         ("NUMBERS", kernel.element.to_string()),
         ("ROWS", rows.to_string()),
-        ("CASIMIRS", positive(casimirs(step))),
-        ("FLOW_COUNT", positive(kernel.flows().map_or(0, |flows| flows as usize))),
+        ("CASIMIRS", casimirs(step).to_string()),
+        ("FLOW_COUNT", kernel.flows().unwrap_or(0).to_string()),
         ("COEFFICIENTS", fold.len().to_string()),
-        ("TIMES", positive(kernel.clock().map_or(0, |clock| clock.times.len()))),
+        ("TIMES", kernel.clock().map_or(0, |clock| clock.times.len()).to_string()),
         ("BLOCK", BLOCK.to_string()),
-        ("LARGEST", positive(step.inverted().iter().map(|&(_, rows)| rows).max().unwrap_or(0))),
+        ("LARGEST", inverted.clone().map(|of| of.1).max().unwrap_or(0).to_string()),
         ("LEARNED", when(options.only_step.is_some(), ", or not the one step that was learned")),
         ("UNRESOLVED", when(origin.series().is_none(), ", or its nodes do not resolve it")),
         ("PARAMETERS", members),
@@ -79,13 +70,13 @@ pub(super) fn values(
         ("COORDINATES", coordinates),
         ("LENGTH", names.fill(lists)),
         ("ONLY", options.only_step.map_or_else(String::new, decimal)),
-        ("CLOCK", when(clock, "1")),
+        ("CLOCK", clock.to_string()),
         ("TIME", when(clock, ", double time")),
         ("NOW", when(clock, ", time")),
         ("FROM", when(clock, " from this time")),
         ("OR_TIME", when(clock, ", or the time,")),
-        ("IDENTITY", numbers),
-        ("INVERTED", names.fill(&inverses)),
+        ("IDENTITY", rows_of(numbers.into_iter().map(decimal), 8)),
+        ("INVERTED", names.fill(&inverted.map(inverse).collect::<String>())),
         ("OF", when(kicks, "state->g, ")),
         ("POTENTIAL", when(kicks, " and the potential")),
         ("DEFAULTS", defaults(origin, names)),
@@ -96,21 +87,15 @@ pub(super) fn values(
 fn defaults(origin: &Origin, names: &Names) -> String {
     let facts = origin.facts();
     let scalars = parameter::scalars(facts.parameters, names);
-    let values = facts.parameters.iter().flat_map(|parameter| {
-        (0..parameter.shape.len()).map(move |i| {
-            let value = parameter.default.as_ref().and_then(|list| list.get(i));
-            value.and_then(ToPrimitive::to_f64).unwrap_or(f64::NAN)
-        })
+    let values = facts.parameters.iter().flat_map(|Parameter { shape, default, .. }| {
+        (0..shape.len()).map(move |i| default.as_ref()?.get(i)?.to_f64())
     });
-    let mut text = String::new();
     if facts.parameters.iter().all(|parameter| parameter.default.is_none()) {
-        return text;
+        return String::new();
     }
-    for (scalar, value) in scalars.iter().zip(values) {
-        let value = if value.is_nan() { "(double)NAN".to_owned() } else { decimal(value) };
-        let _ = writeln!(text, "    {scalar} = {value};");
-    }
-    text
+    let value = |value: Option<f64>| value.map_or_else(|| "(double)NAN".to_owned(), decimal);
+    let lines = scalars.iter().zip(values);
+    lines.map(|(scalar, own)| format!("    {scalar} = {};\n", value(own))).collect()
 }
 
 /// Columns of a comment.
@@ -124,28 +109,8 @@ fn opening(
     names: &Names,
     options: &HeaderOptions,
 ) -> String {
-    let mut text = String::from("/*\n");
-    for paragraph in paragraphs(origin, step, fold, names, options) {
-        for line in header::wrapped(&paragraph, WIDTH) {
-            text.push_str(if line.is_empty() { " *" } else { " * " });
-            text.push_str(&line);
-            text.push('\n');
-        }
-    }
-    text.push_str(" */\n");
-    text
-}
-
-fn paragraphs(
-    origin: &Origin,
-    step: &Step,
-    fold: &Folding,
-    names: &Names,
-    options: &HeaderOptions,
-) -> Vec<String> {
     let (facts, kernel) = (origin.facts(), step.kernel());
     let numbers = fold.len() * kernel.flows().map_or(1, |flows| flows as usize + 1);
-    let when = |holds: bool, text: &str| if holds { text.to_owned() } else { String::new() };
     let language = match options.language {
         Language::C => " for C99 and C++11",
         Language::Cpp => " for C++11",
@@ -161,15 +126,15 @@ fn paragraphs(
         ("PARAMETERS", when(!facts.parameters.is_empty(), ", &parameters")),
         ("NOW", when(kernel.clock().is_some(), ", time")),
         ("UNIT", unit.unwrap_or_default()),
-        ("MEMORY", positive(step.memory())),
-        ("NEITHER", when(origin.series().is_none() && step.memory() == 0, "1")),
+        ("MEMORY", step.memory().to_string()),
+        ("NEITHER", (origin.series().is_none() && step.memory() == 0).to_string()),
         ("COSTS", header::costs(kernel)),
         ("COEFFICIENTS", numbers.to_string()),
         ("MAP_BYTES", (8 * numbers).to_string()),
         ("STATE_BYTES", (8 * (kernel.dim + kernel.element)).to_string()),
-        ("FRAME", when(kernel.programs.frame.is_some(), "1")),
-        ("CLOCK", when(kernel.clock().is_some(), "1")),
+        ("FRAME", kernel.programs.frame.is_some().to_string()),
+        ("CLOCK", kernel.clock().is_some().to_string()),
         ("LEARNED", options.only_step.map_or_else(String::new, |step| format!("{step:?}"))),
     ]);
-    header::paragraphs(&values)
+    format!("/*\n{} */\n", header::comment(&header::paragraphs(&values), WIDTH, " *"))
 }
