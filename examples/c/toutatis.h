@@ -961,16 +961,16 @@ static inline toutatis_status toutatis_advance(const toutatis_map *map, toutatis
     toutatis_status status = map->status;
     toutatis_internal_copy(g, state->g, TOUTATIS_ELEMENT);
     toutatis_internal_copy(mu, state->mu, TOUTATIS_DIMENSION);
-    double x[TOUTATIS_DIMENSION] = {0};
+    double x[3] = {0};
     uint32_t done = 0u;
     while ((status == TOUTATIS_OK) && (done < steps)) {
         uint32_t count = 0u;
-        double g_start[TOUTATIS_ELEMENT];
-        double mu_start[TOUTATIS_DIMENSION];
-        toutatis_internal_copy(g_start, g, TOUTATIS_ELEMENT);
-        toutatis_internal_copy(mu_start, mu, TOUTATIS_DIMENSION);
+        double g_start[4];
+        double mu_start[3];
+        toutatis_internal_copy(g_start, g, 4u);
+        toutatis_internal_copy(mu_start, mu, 3u);
         while ((status == TOUTATIS_OK) && (done < steps) && (count < 256u)) {
-            double p[TOUTATIS_DIMENSION];
+            double p[3];
             double k[2];
             double residual_bound = 1.0;
             double distance = 0.0;
@@ -979,9 +979,9 @@ static inline toutatis_status toutatis_advance(const toutatis_map *map, toutatis
             toutatis_internal_guess(c, mu, p, k);
             while ((tried < 12u) && (toutatis_internal_open(residual_bound, distance))) {
                 double moved = 0.0;
-                double p_next[TOUTATIS_DIMENSION];
+                double p_next[3];
                 toutatis_internal_correct(c, p, mu, k, p_next, x, &residual_bound, &moved);
-                toutatis_internal_copy(p, p_next, TOUTATIS_DIMENSION);
+                toutatis_internal_copy(p, p_next, 3u);
                 distance = distance + moved;
                 tried++;
             }
@@ -990,11 +990,11 @@ static inline toutatis_status toutatis_advance(const toutatis_map *map, toutatis
                 status = toutatis_internal_reason(c, mu, residual_bound, distance);
             }
             if (right > 0.5) {
-                double g_next[TOUTATIS_ELEMENT];
-                double mu_next[TOUTATIS_DIMENSION];
+                double g_next[4];
+                double mu_next[3];
                 toutatis_internal_transport(c, g, mu, x, g_next, mu_next);
-                toutatis_internal_copy(g, g_next, TOUTATIS_ELEMENT);
-                toutatis_internal_copy(mu, mu_next, TOUTATIS_DIMENSION);
+                toutatis_internal_copy(g, g_next, 4u);
+                toutatis_internal_copy(mu, mu_next, 3u);
                 done++;
                 count++;
             }
@@ -1004,8 +1004,8 @@ static inline toutatis_status toutatis_advance(const toutatis_map *map, toutatis
             toutatis_internal_sound(c, g, mu, &right);
             if (!(right > 0.5)) {
                 status = toutatis_internal_broken(g, mu);
-                toutatis_internal_copy(g, g_start, TOUTATIS_ELEMENT);
-                toutatis_internal_copy(mu, mu_start, TOUTATIS_DIMENSION);
+                toutatis_internal_copy(g, g_start, 4u);
+                toutatis_internal_copy(mu, mu_start, 3u);
                 done -= count;
             }
         }

@@ -875,16 +875,16 @@ static inline rigid_body_status rigid_body_advance(const rigid_body_map *map, ri
     rigid_body_status status = map->status;
     rigid_body_internal_copy(g, state->g, RIGID_BODY_ELEMENT);
     rigid_body_internal_copy(mu, state->mu, RIGID_BODY_DIMENSION);
-    double x[RIGID_BODY_DIMENSION] = {0};
+    double x[3] = {0};
     uint32_t done = 0u;
     while ((status == RIGID_BODY_OK) && (done < steps)) {
         uint32_t count = 0u;
-        double g_start[RIGID_BODY_ELEMENT];
-        double mu_start[RIGID_BODY_DIMENSION];
-        rigid_body_internal_copy(g_start, g, RIGID_BODY_ELEMENT);
-        rigid_body_internal_copy(mu_start, mu, RIGID_BODY_DIMENSION);
+        double g_start[4];
+        double mu_start[3];
+        rigid_body_internal_copy(g_start, g, 4u);
+        rigid_body_internal_copy(mu_start, mu, 3u);
         while ((status == RIGID_BODY_OK) && (done < steps) && (count < 256u)) {
-            double p[RIGID_BODY_DIMENSION];
+            double p[3];
             double k[2];
             double residual_bound = 1.0;
             double distance = 0.0;
@@ -893,9 +893,9 @@ static inline rigid_body_status rigid_body_advance(const rigid_body_map *map, ri
             rigid_body_internal_guess(c, mu, p, k);
             while ((tried < 12u) && (rigid_body_internal_open(residual_bound, distance))) {
                 double moved = 0.0;
-                double p_next[RIGID_BODY_DIMENSION];
+                double p_next[3];
                 rigid_body_internal_correct(c, p, mu, k, p_next, x, &residual_bound, &moved);
-                rigid_body_internal_copy(p, p_next, RIGID_BODY_DIMENSION);
+                rigid_body_internal_copy(p, p_next, 3u);
                 distance = distance + moved;
                 tried++;
             }
@@ -904,11 +904,11 @@ static inline rigid_body_status rigid_body_advance(const rigid_body_map *map, ri
                 status = rigid_body_internal_reason(c, mu, residual_bound, distance);
             }
             if (right > 0.5) {
-                double g_next[RIGID_BODY_ELEMENT];
-                double mu_next[RIGID_BODY_DIMENSION];
+                double g_next[4];
+                double mu_next[3];
                 rigid_body_internal_transport(c, g, mu, x, g_next, mu_next);
-                rigid_body_internal_copy(g, g_next, RIGID_BODY_ELEMENT);
-                rigid_body_internal_copy(mu, mu_next, RIGID_BODY_DIMENSION);
+                rigid_body_internal_copy(g, g_next, 4u);
+                rigid_body_internal_copy(mu, mu_next, 3u);
                 done++;
                 count++;
             }
@@ -918,8 +918,8 @@ static inline rigid_body_status rigid_body_advance(const rigid_body_map *map, ri
             rigid_body_internal_sound(c, g, mu, &right);
             if (!(right > 0.5)) {
                 status = rigid_body_internal_broken(g, mu);
-                rigid_body_internal_copy(g, g_start, RIGID_BODY_ELEMENT);
-                rigid_body_internal_copy(mu, mu_start, RIGID_BODY_DIMENSION);
+                rigid_body_internal_copy(g, g_start, 4u);
+                rigid_body_internal_copy(mu, mu_start, 3u);
                 done -= count;
             }
         }

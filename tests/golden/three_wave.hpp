@@ -818,16 +818,16 @@ static inline three_wave_status three_wave_advance(const three_wave_map *map, th
     three_wave_status status = map->status;
     three_wave_internal_copy(g, state->g, THREE_WAVE_ELEMENT);
     three_wave_internal_copy(mu, state->mu, THREE_WAVE_DIMENSION);
-    double x[THREE_WAVE_DIMENSION] = {0};
+    double x[3] = {0};
     uint32_t done = 0u;
     while ((status == THREE_WAVE_OK) && (done < steps)) {
         uint32_t count = 0u;
-        double g_start[THREE_WAVE_ELEMENT];
-        double mu_start[THREE_WAVE_DIMENSION];
-        three_wave_internal_copy(g_start, g, THREE_WAVE_ELEMENT);
-        three_wave_internal_copy(mu_start, mu, THREE_WAVE_DIMENSION);
+        double g_start[4];
+        double mu_start[3];
+        three_wave_internal_copy(g_start, g, 4u);
+        three_wave_internal_copy(mu_start, mu, 3u);
         while ((status == THREE_WAVE_OK) && (done < steps) && (count < 256u)) {
-            double p[THREE_WAVE_DIMENSION];
+            double p[3];
             double k[2];
             double residual_bound = 1.0;
             double distance = 0.0;
@@ -836,9 +836,9 @@ static inline three_wave_status three_wave_advance(const three_wave_map *map, th
             three_wave_internal_guess(c, mu, p, k);
             while ((tried < 12u) && (three_wave_internal_open(residual_bound, distance))) {
                 double moved = 0.0;
-                double p_next[THREE_WAVE_DIMENSION];
+                double p_next[3];
                 three_wave_internal_correct(c, p, mu, k, p_next, x, &residual_bound, &moved);
-                three_wave_internal_copy(p, p_next, THREE_WAVE_DIMENSION);
+                three_wave_internal_copy(p, p_next, 3u);
                 distance = distance + moved;
                 tried++;
             }
@@ -847,11 +847,11 @@ static inline three_wave_status three_wave_advance(const three_wave_map *map, th
                 status = three_wave_internal_reason(c, mu, residual_bound, distance);
             }
             if (right > 0.5) {
-                double g_next[THREE_WAVE_ELEMENT];
-                double mu_next[THREE_WAVE_DIMENSION];
+                double g_next[4];
+                double mu_next[3];
                 three_wave_internal_transport(c, g, mu, x, g_next, mu_next);
-                three_wave_internal_copy(g, g_next, THREE_WAVE_ELEMENT);
-                three_wave_internal_copy(mu, mu_next, THREE_WAVE_DIMENSION);
+                three_wave_internal_copy(g, g_next, 4u);
+                three_wave_internal_copy(mu, mu_next, 3u);
                 done++;
                 count++;
             }
@@ -861,8 +861,8 @@ static inline three_wave_status three_wave_advance(const three_wave_map *map, th
             three_wave_internal_sound(c, g, mu, &right);
             if (!(right > 0.5)) {
                 status = three_wave_internal_broken(g, mu);
-                three_wave_internal_copy(g, g_start, THREE_WAVE_ELEMENT);
-                three_wave_internal_copy(mu, mu_start, THREE_WAVE_DIMENSION);
+                three_wave_internal_copy(g, g_start, 4u);
+                three_wave_internal_copy(mu, mu_start, 3u);
                 done -= count;
             }
         }

@@ -189,10 +189,10 @@ impl<D: Dialect> Writer<'_, D> {
         let LoopStyle { copy, in_lanes: [update, pick, _], .. } = self.style;
         match (like.kind(self.kernel), mask) {
             (Kind::Array(len), None) if !self.style.values => {
-                format!("{copy}({to}, {from}, {len});")
+                format!("{copy}({to}, {from}, {len}u);")
             }
             (Kind::Array(len), Some(mask)) if !self.style.values => {
-                format!("{update}({mask}, {to}, {from}, {len});")
+                format!("{update}({mask}, {to}, {from}, {len}u);")
             }
             (_, None) => format!("{to} = {from};"),
             (Kind::Array(_), Some(mask)) => format!("{to} = {update}({mask}, {from}, {to});"),
@@ -272,8 +272,12 @@ impl<D: Dialect> Writer<'_, D> {
             plain.push(format!("{}({name})", style.in_lanes[2]));
             own = Some(name);
         }
-        let condition = plain.join(" && ");
-        let condition = if style.values { condition } else { format!("({condition})") };
+        let condition = match (style.values, &plain[..]) {
+            (true, tests) => tests.join(" && "),
+            (false, [test]) => format!("({test})"),
+            // Rule 12.1 of MISRA asks for all of these.
+            (false, tests) => format!("(({}))", tests.join(") && (")),
+        };
         self.line(&format!("{word} {condition} {{"));
         self.depth += 4;
         self.block(block, own.as_deref().or(mask));
