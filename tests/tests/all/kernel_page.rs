@@ -29,7 +29,10 @@ fn the_step_of_the_map_is_made_by_its_programs() {
     let mut call = |name: &str, program: &Program, inputs: &[f64]| {
         let outputs = program.run(inputs, &slots);
         let (from, to) = (inputs.len(), outputs.len());
-        lines.push(format!("{name:<9} {:>3} operations  {from:>2} -> {to:<2}  {{}}", program.operations()));
+        lines.push(format!(
+            "{name:<9} {:>3} operations  {from:>2} -> {to:<2}  {{}}",
+            program.operations()
+        ));
         outputs
     };
     let (g, mu) = (vec![1.0, 0.0, 0.0, 0.0], vec![2.0, 0.5, 1.0]);
