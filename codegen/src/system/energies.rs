@@ -20,8 +20,9 @@ const POTENTIAL: &str = "potential = \"m*g[2][2]\"";
 pub(super) fn hamiltonian(
     root: &Table<'_>,
     algebra: Option<&LieAlgebra>,
-    (coordinates, inputs): (&[(String, Span)], &[(Signal, Span)]),
+    coordinates: &[(String, Span)],
     parameters: &Parameters,
+    inputs: &[(Signal, Span)],
     alone: bool,
 ) -> Formula {
     let mut names = Names::of_coordinates(coordinates, root.diagnostics);

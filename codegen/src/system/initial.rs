@@ -158,19 +158,22 @@ pub(super) fn coordinates(
 /// A and b of ∂H/∂μ = A μ + b at the start, at the defaults of parameters that are kept.
 type Linear = (RationalMatrix, Vec<Rational>);
 
+/// A function of the momentum.
+type Values<'a> = dyn Fn(&[f64]) -> Vec<f64> + 'a;
+
 /// ∂H/∂μ at the start, at the defaults of parameters that are kept.
 pub(super) struct Gradient<'a> {
     /// It as a linear function, where it is one.
     linear: Option<Linear>,
     /// Its values.
-    at: Box<dyn Fn(&[f64]) -> Vec<f64> + 'a>,
+    at: Box<Values<'a>>,
 }
 
 /// Steps of Newton's method at most, and halvings of one.
 const STEPS: u32 = 60;
 const HALVINGS: u32 = 30;
 /// The largest residual, relative to the velocity, and the spacing of differences of a gradient.
-const SOLVED: f64 = 1e-14;
+const CLOSE: f64 = 1e-14;
 const SPACING: f64 = 1e-6;
 
 /// The momentum of which ∂H/∂μ has the stated velocities; reports a Hamiltonian of which they do not determine it.
@@ -212,11 +215,7 @@ pub(super) fn momentum(
 }
 
 /// The momentum with these last coordinates of which the first components of the gradient are the velocity.
-fn newton(
-    gradient: &dyn Fn(&[f64]) -> Vec<f64>,
-    velocity: &[f64],
-    others: &[f64],
-) -> Option<Vec<f64>> {
+fn newton(gradient: &Values<'_>, velocity: &[f64], others: &[f64]) -> Option<Vec<f64>> {
     let size = |list: &[f64]| list.iter().map(|x| x.abs()).sum::<f64>();
     let left = |mu: &[f64]| -> Vec<f64> {
         gradient(mu).iter().zip(velocity).map(|(found, wanted)| found - wanted).collect()
@@ -225,7 +224,7 @@ fn newton(
     let mut mu = [velocity, others].concat();
     let mut residual = left(&mu);
     for _ in 0..STEPS {
-        if size(&residual) <= SOLVED * size(velocity) {
+        if size(&residual) <= CLOSE * size(velocity) {
             return Some(mu);
         }
         let mut entries = Vec::new();
@@ -254,7 +253,7 @@ fn newton(
         });
         let Some((next, there)) = better else {
             // Rounding alone is left.
-            return (size(&residual) <= 1e3 * SOLVED * size(velocity)).then_some(mu);
+            return (size(&residual) <= 1e3 * CLOSE * size(velocity)).then_some(mu);
         };
         (mu, residual) = (next, there);
     }

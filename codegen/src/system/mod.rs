@@ -328,8 +328,8 @@ fn system<H>(
     let hamiltonian = match &kind.given.energy {
         None => {
             let alone = kind.given.acting[0].is_some();
-            let names = (&coordinates[..], &inputs[..]);
-            energies::hamiltonian(&root, algebra.as_ref(), names, &parameters, alone)
+            let algebra = algebra.as_ref();
+            energies::hamiltonian(&root, algebra, &coordinates, &parameters, &inputs, alone)
         }
         Some((name, _)) => {
             let parameters = parameters.all();
