@@ -54,7 +54,7 @@ pub trait Group<const N: usize, const M: usize> {
     /// Ad\*_g μ
     fn coadjoint<T: Number>(g: [T; M], mu: [T; N]) -> [T; N];
 
-    /// The square of the share of x in a half turn of a chart that ends at this limit; not a number where x is not finite.
+    /// (|x|/limit)² of the rotations in x, for a chart that ends at this limit; NaN where x is not finite.
     fn extent<T: Number>(x: [T; N], limit: f64) -> T;
 
     /// The distance of g from the group; not a number where g is not finite.

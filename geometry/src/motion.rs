@@ -238,7 +238,7 @@ impl Group<6, 7> for Motions {
         let [pi, gamma] = [rotate([w, i, j, k], pi), rotate([w, i, j, k], gamma)];
         whole(sum(pi, cross([a, b, c], gamma)), gamma)
     }
-    /// The square of the share of ω in a half turn of a chart that ends at |ω| = limit; not a number where v is not finite.
+    /// (|ω|/limit)², for a chart that ends at |ω| = limit; NaN where v is not finite.
     #[inline(always)]
     fn extent<T: Number>(x: [T; 6], limit: f64) -> T {
         let [omega, v] = halves(x);

@@ -76,7 +76,7 @@ fn bent<T: Number>(b: T, c: T, x: V3<T>, mu: V3<T>) -> [V3<T>; 3] {
     [plus(plus(mu, b, once), c, twice), once, twice]
 }
 
-/// (d^R exp_x)ᵀ μ and its derivative in x, for |x| up to a quarter turn:
+/// (d^R exp_x)ᵀ μ and its derivative in x, for |x| up to a quarter turn, with b′ and c′ by |x|²:
 /// v ↦ b μ×v + c [(μ×v)×x + (μ×x)×v] + (x·v)(2b′ μ×x + 2c′ (μ×x)×x), with (μ×v)×x = v (μ·x) − μ (v·x).
 #[inline(always)]
 pub fn pull_back_with_derivative<T: Number>(
@@ -111,7 +111,7 @@ pub fn cayley_pull_back_of_cover<T: Number>(x: V3<T>, mu: V3<T>) -> (V3<T>, [V3<
     let m = one + n;
     let factor = one / (m * m);
     let value = scaled(factor, y);
-    // ∂y/∂a = 2(aμᵀ − μaᵀ + a·μ + μ̂), ∂(m⁻²)/∂a = −4 m⁻³ aᵀ, ∂a/∂x = ¼.
+    // ∂y/∂a = 2(aμᵀ − μaᵀ + (a·μ)1 + μ̂), ∂(m⁻²)/∂a = −4 m⁻³ aᵀ, ∂a/∂x = ¼.
     let slope = plus_outer(plus_outer(turned(mu, along), a, mu), minus(mu), a);
     let (weight, shrink) = (factor.by(0.5), one / m);
     let row = |i: usize| each(|j| slope[i][j].times_plus(weight, -(value[i] * a[j] * shrink)));
@@ -196,7 +196,7 @@ impl<const COVER: bool> Group<3, 4> for Quaternions<COVER> {
     fn coadjoint<T: Number>(g: [T; 4], mu: V3<T>) -> V3<T> {
         rotate(g, mu)
     }
-    /// The square of the share of x in a half turn of a chart that ends at |x| = limit.
+    /// (|x|/limit)², for a chart that ends at |x| = limit.
     #[inline(always)]
     fn extent<T: Number>(x: V3<T>, limit: f64) -> T {
         T::squares(x).by(1.0 / (limit * limit))

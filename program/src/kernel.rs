@@ -51,7 +51,7 @@ pub struct Programs {
     pub frame: Option<Program>,
     /// g (m), μ (n) ↦ 1 if finite and on the group, else 0.
     pub sound: Program,
-    /// g (m), μ (n) ↦ what is conserved: energy, Casimirs, spatial momentum.
+    /// g (m), μ (n) ↦ the energy, then the Casimirs of low degree that are conserved.
     pub watch: Program,
     /// g (m) ↦ the matrix of g, row by row.
     pub matrix: Program,

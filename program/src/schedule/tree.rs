@@ -7,7 +7,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Steps after which a comoving frame moves on and the state is checked.
+/// Steps after which, as at the end, a comoving frame moves on and the state is checked.
 pub const BLOCK: u64 = 256;
 
 /// The variables of the loop. The function around it has g, μ, the number of steps asked for, and whether a trajectory
@@ -30,7 +30,7 @@ pub enum Variable {
     Distance,
     /// The length of a correction.
     Moved,
-    /// 1 if a step or a state is right.
+    /// 1 if a step or a state is accepted.
     Right,
     /// Steps made.
     Done,
@@ -67,7 +67,7 @@ impl Variable {
     }
 }
 
-/// The programs that the loop calls, those of [`Programs`](crate::Programs).
+/// The programs that the loop calls: those of [`Programs`](crate::Programs) that move a state, and the kick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs)]
 pub enum Part {
@@ -122,7 +122,7 @@ pub enum Test {
     Right,
 }
 
-/// Tests that hold all (`true`) or fail all (`false`) as is said beside each.
+/// A conjunction: each test must hold (`true`) or fail (`false`).
 type Condition = Vec<(bool, Test)>;
 
 /// Statements, and the variables that only they know.
@@ -155,7 +155,7 @@ pub enum Statement {
     Next(Variable),
     /// Keeps the state.
     Keep(Kept),
-    /// Takes it back from there; the steps of a block are then counted no more.
+    /// Restores that state; for a block, its steps are subtracted from those done.
     Restore(Kept),
     /// Reports the corrections and the residual bound of the step made, where a target reports them.
     Note,

@@ -155,7 +155,7 @@ impl<'a> Motion<'a> {
         Ok(self.map.get_or_init(|| made))
     }
 
-    /// A step of this size without programs. The error of one that cannot be made names a size that works.
+    /// A step of this size without programs. The error of one that cannot be made names a size that works, if one is found.
     fn rescue(&self, state: &mut Numbers, time: f64, size: f64) -> Result<Solves, StepError> {
         let (kicked, phase) = (self.kicked.as_ref(), self.space.phase(state));
         let step = |phase: &mut Phase<Tables>, size: f64| match size == self.grid.step {
@@ -211,7 +211,7 @@ impl<'a> Motion<'a> {
         Ok(total)
     }
 
-    /// The first step of a grid's from this one on in which there are breaks.
+    /// The first step of the grid from this one on that contains a break.
     pub(crate) fn divided(&self, first: u64) -> Option<u64> {
         self.breaks.next(self.grid, first)
     }
@@ -220,13 +220,13 @@ impl<'a> Motion<'a> {
     fn in_parts(&self, state: &mut Numbers, number: u64) -> Result<Solves, StepError> {
         *state = self.beside(state, self.grid.time(number), self.grid.step)?;
         if let Some(compiled) = &self.space.compiled {
-            // The parts have other rates than the next step.
+            // The sizes of the parts differ, so that their rates do not extrapolate.
             compiled.forget(state);
         }
         Ok(self.space.compiled.is_some().then_some(Solved::one(0, f64::EPSILON)))
     }
 
-    /// Makes `count` steps without breaks after the first ones.
+    /// Makes `count` steps, none of which contains a break, after the first ones.
     fn undivided(
         &self,
         state: &mut Numbers,

@@ -373,7 +373,7 @@ impl<'a> Assembly<'a> {
         sum
     }
 
-    /// g, μ ↦ the rates of the steps before, extrapolated by the polynomial through them, or none; the momentum in the middle
+    /// g, μ ↦ the rates of the steps before, extrapolated by the polynomial through them, or zeros; the momentum in the middle
     /// and h times the slope there, which the linear model is made of; g, where a drive reads it.
     fn guess(&self) -> Program {
         let graph = Graph::new();
@@ -673,7 +673,7 @@ impl<'a> Assembly<'a> {
     }
 
     /// The square of the farthest way that an argument of H's functions goes from the start to a node, from node to node, and to
-    /// the end.
+    /// the end, as a share of its limit.
     fn reach(&self, graph: &Graph, mu: &[Id], momenta: &Rows, end: &[Id]) -> Id {
         let nodes = self.nodes();
         // The time of the last node stands for that of the end.
@@ -838,7 +838,7 @@ impl<'a> Assembly<'a> {
         largest(graph, &sums)
     }
 
-    /// μ, the solution, the error left, the distance ↦ 1 where the step is solved, in the chart, and resolved by its nodes.
+    /// μ, the solution, the error left, 0 or, where a number is not finite, NaN ↦ 1 where the step is solved, in the chart, and resolved by its nodes.
     fn accept(&self) -> Program {
         let (graph, n) = (Graph::new(), self.n);
         let momenta = n + MEASURES + self.solved();
@@ -849,7 +849,7 @@ impl<'a> Assembly<'a> {
         let tolerance = graph.constant(SOLVED / f64::EPSILON);
         let tolerance = graph.mul(tolerance, graph.epsilon());
         let (zero, one) = (graph.zero(), graph.constant(1.0));
-        // The formulas hold up to half a half turn.
+        // The formulas hold up to a quarter turn.
         let extent = graph.mul(graph.constant(4.0), self.group.extent(&graph, &solution[..n]));
         let measures = solution[n..n + MEASURES].iter().map(|&measure| (measure, one));
         let tests = [(left, tolerance), (distance, zero), (extent, one)].into_iter();

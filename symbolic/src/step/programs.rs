@@ -14,7 +14,7 @@ use crate::step::StepError;
 use crate::step::product::{ESTIMATED, Part, Product};
 
 /// The programs of a step; the integrator's folded coefficients come first, after them those of the bound on the
-/// Hessian, and the square of the radius.
+/// Hessian, the square of the radius, and with kicks the length of one.
 pub(crate) fn kernel(
     integrator: &Integrator,
     scheme: Scheme,
@@ -90,7 +90,7 @@ fn followed(group: &Product, transport: &Program, frame: &Program) -> Program {
     graph.finish(m + n + n, &graph.call(frame, &moved))
 }
 
-/// μ, x, the residual bound, the distance from the guess ↦ 1 where the step is right.
+/// μ, x, the residual bound, the distance from the guess ↦ 1 where the step is accepted.
 fn accept(integrator: &Integrator, scheme: Scheme, group: &Product, radius: usize) -> Program {
     let n = group.dim();
     let graph = Graph::new();
@@ -164,7 +164,7 @@ pub(super) fn sound(group: &Product) -> Program {
 pub(super) struct Acting<'a> {
     /// V, and the number of its first slot, where it has a potential.
     pub energy: Option<(&'a Program, usize)>,
-    /// The potential, or the torque without one, if there is a torque.
+    /// The force: the potential, else the torque; none without one.
     pub torque: Option<&'a Potential>,
 }
 

@@ -79,6 +79,17 @@ fn links_lead_to_files_and_headings() {
 }
 
 /// The manual's table of contents and its chapters are the same.
+/// No page has marks that a merge left.
+#[test]
+fn pages_are_merged() {
+    for page in pages() {
+        let marked = read(&page)
+            .lines()
+            .any(|line| ["<<<<<<< ", ">>>>>>> "].iter().any(|mark| line.starts_with(mark)));
+        assert!(!marked, "{page}");
+    }
+}
+
 #[test]
 fn every_chapter_is_in_the_contents() {
     let mut listed: Vec<String> =
