@@ -244,6 +244,16 @@ fn mistakes() {
             "fn h(mu: [f64; 3]) -> f64 { mu[0].powi(200) + other(mu[1]) }",
         ),
         (
+            "group = SO3",
+            "fn h(mu: [f64; 3]) -> f64 {\n    #[torque]\n    fn a(mu: [f64; 3]) -> [f64; 2] { [mu[0], mu[1]] }\n    \
+             #[velocity]\n    fn b(g: [f64; 3], omega: f64, step: f64) -> f64 { g[0] }\n    mu[0]\n}",
+        ),
+        (
+            "group = SO3",
+            "fn h(mu: [f64; 3], c: f64) -> f64 {\n    #[torque]\n    fn a(c: f64) -> [f64; 3] { [c, d, 0.0] }\n    \
+             #[torque]\n    fn b(c: [f64; 3]) -> [f64; 3] { c }\n    mu[0]\n}",
+        ),
+        (
             "group = SO3, truncation = 5",
             "fn h(mu: [f64; 3], p: f64) -> f64 { let s = mu[0] + mu[1] + mu[2] + 1.0; s.powi(90) * s.powf(p) }",
         ),
