@@ -31,6 +31,9 @@ EventFunction = Callable[[float, Floats, Floats], Real]
 #: An energy H(t, μ), and its gradient ∂H/∂μ, as functions of the time and the momentum.
 Energy = Callable[[float, Floats], Real]
 Gradient = Callable[[float, Floats], Numbers]
+#: A velocity or a torque, a function of the time, the matrix g and the momentum μ; and what may be given as one.
+Push = Callable[[float, Floats, Floats], Numbers]
+Acting = Iterable["str | sympy.Expr"] | Push
 #: An input u(t), a function of the time.
 Input = Callable[[float], Real]
 
@@ -50,7 +53,7 @@ class System:
     ``"collocation"``, if it is not to follow from the Hamiltonian), and for a ``potential`` V(g),
     a function of ``g[0][0]``, …, the ``splitting``. A ``velocity`` is added to ω = ∂H/∂μ, or takes its place where there is no
     Hamiltonian, and a ``torque`` to the change of μ: lists of functions of ``g[0][0]``, …, the coordinates, ``omega[0]``, …, ``t`` and the
-    inputs. ``damping`` is that of the double bracket, a number or one for each coordinate. ``momentum``, ``group_element``, ``t0`` (the time at the start), ``step`` or ``tolerance``,
+    inputs, or one function of Python of (t, g, μ) each, with g as a matrix; steps are then made one by one. ``damping`` is that of the double bracket, a number or one for each coordinate. ``momentum``, ``group_element``, ``t0`` (the time at the start), ``step`` or ``tolerance``,
     ``region`` and ``time`` (the duration) are defaults of runs.
 
     >>> import numpy as np
@@ -79,8 +82,8 @@ class System:
         inputs: Mapping[str, Any] | None = None,
         units: Mapping[str, str] | None = None,
         potential: str | sympy.Expr | None = None,
-        velocity: Iterable[str | sympy.Expr] | None = None,
-        torque: Iterable[str | sympy.Expr] | None = None,
+        velocity: Acting | None = None,
+        torque: Acting | None = None,
         damping: Real | str | Numbers | None = None,
         truncation: int | None = None,
         chart: str | None = None,
@@ -101,8 +104,9 @@ class System:
             coordinates = _arrays.listed(coordinates, "coordinates")
         arguments = [(key, value) for key, value in locals().items() if key not in ("self", "__class__")]
         name = _arrays.text(name, "name")
-        velocity = None if velocity is None else _arrays.listed(velocity, "velocity")
-        torque = None if torque is None else _arrays.listed(torque, "torque")
+        acting = {key: own for key, own in (("velocity", velocity), ("torque", torque)) if callable(own)}
+        velocity = None if velocity is None or callable(velocity) else _arrays.listed(velocity, "velocity")
+        torque = None if torque is None or callable(torque) else _arrays.listed(torque, "torque")
         given = tuple(pair for pair in arguments if pair[1] is not None and pair != ("name", "system"))
         functions = _functions(hamiltonian, gradient)
         given_inputs = _text.mapping(inputs, "inputs")
@@ -126,7 +130,7 @@ class System:
             return None if values is None else _text.strings([_text.expression(own, what) for own in values])
 
         whole = isinstance(group, str)
-        alone = functions or (hamiltonian is None and velocity is not None)
+        alone = functions or (hamiltonian is None and (velocity is not None or "velocity" in acting))
         top = {
             "name": text(name),
             "group": text(group) if whole else None,
@@ -163,7 +167,7 @@ class System:
         lines = _text.table(None, top)
         for title, entries in tables.items():
             lines += _text.table(title, entries)
-        self._read("\n".join(lines) + "\n", name, given, known, functions, called_inputs)
+        self._read("\n".join(lines) + "\n", name, given, known, functions, called_inputs, acting)
 
     @classmethod
     def from_text(cls, text: str, name: str = "system") -> System:
@@ -173,7 +177,7 @@ class System:
         >>> ca.System.from_text('group = "SO3"\\nhamiltonian = "mu[0]^2"').group
         'SO3'
         """
-        return _restored(cls, _arrays.text(text, "text"), _arrays.text(name, "name"), None, {}, None, {})
+        return _restored(cls, _arrays.text(text, "text"), _arrays.text(name, "name"), None, {}, None, {}, {})
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> System:
@@ -221,11 +225,12 @@ class System:
         known: dict[str, Any],
         functions: tuple[Energy, Gradient] | None,
         inputs: dict[str, Input],
+        acting: dict[str, Push],
         core: _core.Core | None = None,
     ) -> None:
         self._text_, self._name, self._given, self._known = text, name, given, known
-        self._functions, self._inputs = functions, inputs
-        self._core = _core.Core(text, name, functions, list(inputs.items())) if core is None else core
+        self._functions, self._inputs, self._acting = functions, inputs, acting
+        self._core = _core.Core(text, name, functions, list(inputs.items()), **acting) if core is None else core
         self._facts = self._core.facts()
         self._steppers: dict[tuple[float | None, str, tuple[str, ...]], _core.Stepper] = {}
 
@@ -699,6 +704,8 @@ class System:
         """Refuses functions of Python, with which the system ``lacks`` something."""
         if self._functions:
             raise InputError(f"a system whose Hamiltonian is a function {lacks}: give it as an expression")
+        if self._acting:
+            raise InputError(f"a system whose {next(iter(self._acting))} is a function {lacks}: give it as expressions")
         if self._inputs:
             first = next(iter(self._inputs))
             raise InputError(f"a system with the function {first} as an input {lacks}: give its values at times")
@@ -756,14 +763,15 @@ class System:
         return _arrays.state(momentum, group_element, self._find, self._facts["units"], self.matrix_size)
 
     def __reduce__(self) -> Any:
-        parts = self._text_, self._name, self._given, self._known, self._functions, self._inputs
+        parts = self._text_, self._name, self._given, self._known, self._functions, self._inputs, self._acting
         return _same, (self._facts["inputs_sha256"], type(self), *parts)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, System):
             return NotImplemented
         mine, others = self._facts["inputs_sha256"], other._facts["inputs_sha256"]
-        functions = (self._functions, self._inputs) == (other._functions, other._inputs)
+        mine_called = self._functions, self._inputs, self._acting
+        functions = mine_called == (other._functions, other._inputs, other._acting)
         return functions and (self._text_, mine) == (other._text_, others)
 
     def __hash__(self) -> int:
@@ -886,7 +894,7 @@ def hardly_converges(ratio: float) -> str:
 
 def of_core(core: _core.Core, text: str, name: str) -> System:
     """The system of an extension's object; ``text`` is what it was made of."""
-    return _restored(System, text, name, None, {}, None, {}, core)
+    return _restored(System, text, name, None, {}, None, {}, {}, core)
 
 
 def _restored(kind: type[System], *parts: Any) -> System:

@@ -1,11 +1,12 @@
-//! Hamiltonians and inputs as functions of Python.
+//! Hamiltonians, velocities, torques and inputs as functions of Python.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use coadjoint_codegen::drive::{Actor, Acts};
 use coadjoint_codegen::signal::Signal;
 use coadjoint_codegen::smooth::{Given, Oracle};
-use numpy::{PyArray1, PyReadonlyArray1};
+use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 /// The spacing of the differences by which a gradient is checked, relative to the momentum.
@@ -64,6 +65,65 @@ pub fn input(name: String, function: Py<PyAny>, failures: Arc<Failures>) -> Sign
     })
 }
 
+/// A velocity or a torque, a function of the time, the matrix of g and the momentum.
+struct Called {
+    function: Py<PyAny>,
+    name: &'static str,
+    failures: Arc<Failures>,
+}
+
+/// A velocity or a torque by this name; NaN where it fails, which is noted.
+pub fn acting(name: &'static str, function: Py<PyAny>, failures: Arc<Failures>) -> Acts {
+    Acts(Arc::new(Called { function, name, failures }))
+}
+
+impl Actor for Called {
+    fn acting(&self, time: f64, entries: &[f64], mu: &[f64]) -> Vec<f64> {
+        let size = entries.len().isqrt();
+        let found = Python::attach(|py| {
+            let matrix = PyArray1::from_slice(py, entries).reshape([size, size])?;
+            let found =
+                self.function.bind(py).call1((time, matrix, PyArray1::from_slice(py, mu)))?;
+            numbers(&found)
+        });
+        told(&self.failures, (self.name, mu.len()), found, || format!("time {time}, momentum {mu:?}"))
+    }
+}
+
+/// The numbers of a list or an array.
+fn numbers(found: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+    match found.extract::<PyReadonlyArray1<'_, f64>>() {
+        Ok(array) => Ok(array.as_array().to_vec()),
+        Err(_) => found.extract::<Vec<f64>>(),
+    }
+}
+
+/// The numbers that a function gave, as many as are needed; NaN where it failed, which is noted.
+fn told(
+    failures: &Failures,
+    (name, count): (&str, usize),
+    called: PyResult<Vec<f64>>,
+    place: impl Fn() -> String,
+) -> Vec<f64> {
+    match called {
+        Ok(numbers) if numbers.len() == count => {
+            if let Some(number) = numbers.iter().find(|number| !number.is_finite()) {
+                failures.note(format!("{name} is {number} at {}", place()), None);
+            }
+            numbers
+        }
+        Ok(numbers) => {
+            let found = numbers.len();
+            failures.note(format!("{name} has {found} numbers; {count} are needed"), None);
+            vec![f64::NAN; count]
+        }
+        Err(error) => {
+            failures.note(format!("{name} raised {error}, at {}", place()), Some(error));
+            vec![f64::NAN; count]
+        }
+    }
+}
+
 impl Callables {
     /// The function of a system, of these two.
     pub fn given(energy: Py<PyAny>, gradient: Py<PyAny>, failures: Arc<Failures>) -> Given {
@@ -82,31 +142,9 @@ impl Callables {
         };
         let called = Python::attach(|py| {
             let found = function.bind(py).call1((time, PyArray1::from_slice(py, mu)))?;
-            if !gradient {
-                return Ok(vec![found.extract::<f64>()?]);
-            }
-            match found.extract::<PyReadonlyArray1<'_, f64>>() {
-                Ok(array) => Ok(array.as_array().to_vec()),
-                Err(_) => found.extract::<Vec<f64>>(),
-            }
+            if gradient { numbers(&found) } else { Ok(vec![found.extract::<f64>()?]) }
         });
-        match called {
-            Ok(numbers) if numbers.len() == count => {
-                if let Some(number) = numbers.iter().find(|number| !number.is_finite()) {
-                    self.fail(format!("{name} is {number} at time {time}, momentum {mu:?}"), None);
-                }
-                numbers
-            }
-            Ok(numbers) => {
-                let found = numbers.len();
-                self.fail(format!("{name} has {found} numbers; {count} are needed"), None);
-                vec![f64::NAN; count]
-            }
-            Err(error) => {
-                self.fail(format!("{name} raised {error}, at time {time}"), Some(error));
-                vec![f64::NAN; count]
-            }
-        }
+        told(&self.failures, (name, count), called, || format!("time {time}, momentum {mu:?}"))
     }
 
     /// Checks that the energy is independent of the time, at a few times, and that the gradient agrees with central

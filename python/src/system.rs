@@ -31,7 +31,7 @@ use crate::control::{Control, work};
 use crate::emit::emitted;
 use crate::error::{raised, raised_by, refused};
 use crate::event::Watched;
-use crate::function::{Callables, Failures, input};
+use crate::function::{Callables, Failures, acting, input};
 use crate::outcome::result_of;
 use crate::record::{Keeper, Trace};
 use crate::stepper::Stepper;
@@ -217,15 +217,17 @@ impl Core {
     }
 
     /// Reads the text of a system file; one without a Hamiltonian where `functions` are the energy and its gradient, and with
-    /// these functions as inputs.
+    /// these functions as inputs, and as velocity and torque.
     #[new]
-    #[pyo3(signature = (text, name, functions=None, inputs=Vec::new()))]
+    #[pyo3(signature = (text, name, functions=None, inputs=Vec::new(), velocity=None, torque=None))]
     fn new(
         py: Python<'_>,
         text: String,
         name: String,
         functions: Option<(Py<PyAny>, Py<PyAny>)>,
         inputs: Vec<(String, Py<PyAny>)>,
+        velocity: Option<Py<PyAny>>,
+        torque: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
         let failures: Arc<Failures> = Arc::default();
         let energy = functions.map(|(energy, gradient)| {
@@ -235,11 +237,16 @@ impl Core {
         });
         let inputs = inputs.into_iter();
         let inputs = inputs.map(|(name, function)| input(name, function, failures.clone()));
-        let given = Functions { energy, inputs: inputs.collect() };
+        let inputs = inputs.collect();
+        let own = |name, function: Option<Py<PyAny>>| {
+            function.map(|function| acting(name, function, failures.clone()))
+        };
+        let acting = [own("the velocity", velocity), own("the torque", torque)];
+        let given = Functions { energy, inputs, acting };
         let made = work(py, None, move |_| {
             let system = read_given(&name, &text, Options::default(), &[], &given)?;
             let made = Self::of(name, text.into(), system);
-            let given = Functions { energy: given.energy, ..made.given };
+            let given = Functions { inputs: made.given.inputs, ..given };
             Ok(Self { given, failures, ..made })
         })?;
         made.map_err(|error: RunError| raised(py, &error))

@@ -95,7 +95,7 @@ fn written(path: &Path, system: System) -> Result<Derived, RunError> {
 
 /// The error of a Hamiltonian of which no code can be written.
 fn of_function(path: &Path) -> RunError {
-    let what = "no code is written of a Hamiltonian that is a function: give it as an expression";
+    let what = "no code is written of a Hamiltonian, a velocity or a torque that is a function: give it as an expression";
     RunError::Option(format!("{}: {what}", path.display()))
 }
 

@@ -97,7 +97,7 @@ struct Moving<'a> {
 impl<'a> Moving<'a> {
     /// ∂H/∂μ, and what a drive adds at the identity, at this momentum, where they depend on time.
     fn new(smooth: &'a Smooth, breaks: Breaks, parameters: &[f64], mu: &'a [f64]) -> Option<Self> {
-        if smooth.given.is_none() && !smooth.depends_on_time() {
+        if !smooth.is_function() && !smooth.depends_on_time() {
             return None;
         }
         let symbols = smooth.symbols_at(parameters);

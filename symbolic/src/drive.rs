@@ -5,6 +5,7 @@
 //! are functions of t, g, μ and ω = ∂H/∂μ.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use coadjoint_program::{Graph, Id, Node, Program};
 
@@ -12,6 +13,23 @@ use crate::lie::LieAlgebra;
 use crate::potential::{Force, Potential, Programs};
 use crate::problem::Symbol;
 use crate::signal::{self, Signal};
+use crate::spatial::Spatial;
+
+/// A velocity or a torque that is a function of the user's.
+pub trait Actor: Send + Sync {
+    /// η or τ at (t, g, μ), as many numbers as μ has, by the entries of g's matrix, row by row; NaN where it is not defined.
+    fn acting(&self, time: f64, entries: &[f64], mu: &[f64]) -> Vec<f64>;
+}
+
+/// A function of the user's, shared.
+#[derive(Clone)]
+pub struct Acts(pub Arc<dyn Actor>);
+
+impl std::fmt::Debug for Acts {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Acts").finish_non_exhaustive()
+    }
+}
 
 /// The velocity and the torque that act on a motion beside its Hamiltonian, as straight-line programs.
 ///
@@ -23,6 +41,8 @@ pub struct Drive {
     pub program: Program,
     /// As [`Programs::watched`].
     pub watched: Program,
+    /// A velocity and a torque beside those of the program, functions of the user's.
+    pub functions: [Option<Acts>; 2],
     /// The texts of the expressions watched.
     pub expressions: Vec<String>,
     /// The texts of expressions that have a kink, across which steps are less accurate.
@@ -37,6 +57,8 @@ pub struct Drive {
     pub entries: usize,
     /// True if time or signals are read.
     pub moves: bool,
+    /// The reason for which no energy is conserved, where a torque is given or a potential depends on time.
+    pub no_energy: Option<&'static str>,
     /// True if there is a velocity.
     pub velocity: bool,
     /// True if the velocity is damping alone, along which the energy falls.
@@ -53,15 +75,17 @@ pub struct Ingredients {
     /// η and τ as the user gives them, with the inputs of a [`Drive`], one after the other as far as they are
     /// [`given`](Ingredients::given); what is watched in them, the texts of that, and their symbols.
     pub own: Option<(Program, Program, Vec<String>, Vec<Symbol>)>,
-    /// True if η, and τ, are among them.
-    pub given: [bool; 2],
+    /// True if they are among them: η and τ in the body, η and τ in space.
+    pub given: [bool; 4],
+    /// A velocity and a torque that are functions of the user's.
+    pub functions: [Option<Acts>; 2],
     /// True if they read the time or signals.
     pub moves: bool,
     /// The texts of expressions in them that have a kink.
     pub kinks: Vec<String>,
     /// The diagonal of Γ, where η has damping by the double bracket: Γ (ad\*_ω μ + τ′) with the torque τ′ of the potential.
     pub damping: Option<Vec<f64>>,
-    /// A potential, whose torque is a part of τ.
+    /// A potential, whose torque is a part of τ; where it depends on the time its programs read that and the signals after the entries.
     pub potential: Option<Potential>,
     /// The keys with their values, as the user wrote them.
     pub source: String,
@@ -90,13 +114,19 @@ impl Layout {
 }
 
 impl Drive {
-    /// From its parts; `None` where a potential is none of programs.
+    /// From its parts; `None` where a potential is none of programs, or where η or τ is given in space, and the group is not [one of
+    /// motions](Spatial).
     pub fn new(algebra: &LieAlgebra, signals: &[Signal], parts: Ingredients) -> Option<Self> {
-        let Ingredients { own, given, moves, kinks, damping, potential, source } = parts;
+        let Ingredients { own, given, functions, moves, kinks, damping, potential, source } = parts;
         let dim = algebra.dim();
-        let reads = own.is_some() || potential.is_some();
+        let called = functions.each_ref().map(Option::is_some);
+        let reads = own.is_some() || potential.is_some() || called.contains(&true);
         let entries = if reads { algebra.matrix_size().pow(2) } else { 0 };
         let places = Layout { entries, dim, signals: signals.len() };
+        let in_space = given[2] || given[3];
+        let spatial = if in_space { Spatial::new(algebra) } else { None };
+        let [eta_given, tau_given] =
+            [0, 1].map(|kind| given[kind] || given[kind + 2] || called[kind]);
         let graph = Graph::new();
         let all: Vec<Id> = (0..places.count()).map(|at| graph.input(at)).collect();
         let (mut eta, mut tau) = (vec![graph.zero(); dim], vec![graph.zero(); dim]);
@@ -106,22 +136,28 @@ impl Drive {
         };
         if let Some((program, of_own, texts, own_symbols)) = own {
             let outputs = graph.call(&program, &all);
-            let mut lists = outputs.chunks(dim);
-            for (sum, _) in [&mut eta, &mut tau].into_iter().zip(given).filter(|(_, given)| *given)
-            {
-                add(sum, lists.next().unwrap_or_default());
+            let present = (0..given.len()).filter(|&kind| given[kind]);
+            for (kind, list) in present.zip(outputs.chunks(dim)) {
+                let g = &all[..entries];
+                match kind {
+                    0 => add(&mut eta, list),
+                    1 => add(&mut tau, list),
+                    2 => add(&mut eta, &spatial.as_ref()?.velocity(&graph, g, list)),
+                    _ => add(&mut tau, &spatial.as_ref()?.torque(&graph, g, list)),
+                }
             }
             watched.extend(graph.call(&of_own, &all));
             expressions.extend(texts);
             symbols.extend(own_symbols);
         }
         let mut force = vec![graph.zero(); dim];
+        let moving = potential.as_ref().is_some_and(|own| own.alone().is_some());
         let of_potential = symbols.len();
         if let Some(potential) = &potential {
             let Force::Smooth(programs) = &potential.force else { return None };
-            let entries = &all[..places.entries];
-            force = graph.call_from(&programs.torque, entries, of_potential);
-            watched.extend(graph.call_from(&programs.watched, entries, of_potential));
+            let inputs = [&all[..entries], &all[places.omega().end..]].concat();
+            force = graph.call_from(&programs.torque, &inputs, of_potential);
+            watched.extend(graph.call_from(&programs.watched, &inputs, of_potential));
             expressions.extend(programs.expressions.iter().cloned());
             symbols.extend(potential.symbols.iter().cloned());
             add(&mut tau, &force);
@@ -136,12 +172,17 @@ impl Drive {
             }
         }
         let finish = |outputs: &[Id]| graph.finish(places.count(), outputs);
+        // Nothing is known of the torque that a function is.
+        let anything =
+            (0..if called[1] { dim } else { 0 }).map(|i| graph.input(places.count() + i));
+        let mut of_all = tau.clone();
+        add(&mut of_all, &anything.collect::<Vec<_>>());
         let alone = || Potential {
             name: "torque".to_owned(),
             algebra: algebra.clone(),
             force: Force::Smooth(Box::new(Programs {
                 value: None,
-                torque: finish(&tau),
+                torque: graph.finish(places.count() + if called[1] { dim } else { 0 }, &of_all),
                 watched: finish(&[]),
                 expressions: Vec::new(),
             })),
@@ -149,20 +190,28 @@ impl Drive {
             parameters: Vec::new(),
             source: String::new(),
         };
-        let torque = if given[1] { Some(alone()) } else { potential.clone() };
+        let no_energy = match (tau_given, moving) {
+            (true, _) => Some("not conserved: a torque acts, which is not Hamiltonian"),
+            (_, true) => Some("not conserved: the potential depends on time"),
+            _ => None,
+        };
+        let lasting = potential.filter(|own| own.alone().is_none());
+        let torque = if no_energy.is_some() { Some(alone()) } else { lasting.clone() };
         Some(Self {
             program: finish(&[eta.clone(), tau.clone()].concat()),
             watched: finish(&watched),
+            functions,
             expressions,
             kinks,
             symbols,
             first: 0,
             source,
             entries,
-            moves,
-            velocity: damping.is_some() || given[0],
-            damps: damping.is_some() && !given[0],
-            potential: potential.map(|potential| (potential, of_potential)),
+            moves: moves || called.contains(&true),
+            no_energy,
+            velocity: damping.is_some() || eta_given,
+            damps: damping.is_some() && !eta_given,
+            potential: lasting.map(|potential| (potential, of_potential)),
             torque,
         })
     }
@@ -180,7 +229,8 @@ impl Drive {
         let dim = outputs.len() / 2;
         outputs[..dim].fill(graph.zero());
         let program = graph.finish(inputs.len(), &outputs);
-        Self { program, velocity: false, damps: false, ..self.clone() }
+        let functions = [None, self.functions[1].clone()];
+        Self { program, functions, velocity: false, damps: false, ..self.clone() }
     }
 
     /// A program of it with slots for all symbols of the system.
@@ -205,9 +255,17 @@ impl Drive {
         signal::inputs(inputs, omega, time, signals)
     }
 
-    /// True if its programs read entries of the group element's matrix.
+    /// True if a part of it is a function of the user's, of which there are no programs.
+    pub fn is_function(&self) -> bool {
+        self.functions.iter().any(Option::is_some)
+    }
+
+    /// True if it reads entries of the group element's matrix.
     pub fn reads_element(&self) -> bool {
         let entries = self.entries;
+        if self.is_function() {
+            return true;
+        }
         self.program
             .nodes()
             .iter()

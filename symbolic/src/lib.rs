@@ -43,6 +43,7 @@ pub mod potential;
 pub mod problem;
 pub mod signal;
 pub mod smooth;
+pub mod spatial;
 pub mod step;
 pub mod tolerance;
 mod units;

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use coadjoint_program::{Argument, Graph, Id, Program};
+use coadjoint_program::{Graph, Id, Program};
 use num_traits::{ToPrimitive, Zero};
 
 use crate::lie::{LieAlgebra, RationalMatrix, null_space};
@@ -39,30 +39,28 @@ pub struct Programs {
 }
 
 impl Programs {
-    /// Of a potential, by programs for V, its derivatives in the entries, and what is watched, whose inputs are the entries and
-    /// the time, of which they do not depend.
+    /// Of a potential, by programs for V, its derivatives in the entries, and what is watched, whose inputs are the entries, the time
+    /// and signals. Where it depends on the time its programs have all of these inputs, and there is no value that is conserved.
     pub fn of_potential(
         algebra: &LieAlgebra,
         [value, gradient, watched]: [&Program; 3],
         expressions: Vec<String>,
+        moves: bool,
     ) -> Self {
-        let size = algebra.matrix_size();
-        let entries = || -> (Graph, Vec<Id>) {
+        let entries = algebra.matrix_size().pow(2);
+        let count = if moves { gradient.inputs() } else { entries };
+        let by = |outputs: &dyn Fn(&Graph, &[Id]) -> Vec<Id>| {
             let graph = Graph::new();
-            let mut inputs: Vec<Id> = (0..size * size).map(|at| graph.input(at)).collect();
-            inputs.push(graph.zero());
-            (graph, inputs)
+            let mut inputs: Vec<Id> = (0..count).map(|at| graph.input(at)).collect();
+            inputs.resize(gradient.inputs().max(entries + 1), graph.zero());
+            graph.finish(count, &outputs(&graph, &inputs))
         };
-        let autonomous = |program: &Program| {
-            let (graph, inputs) = entries();
-            let outputs = graph.call(program, &inputs);
-            graph.finish(size * size, &outputs)
-        };
-        let (graph, g) = entries();
-        let slopes = graph.call(gradient, &g);
-        let outputs = along(&graph, algebra, -1.0, [&g, &slopes]);
-        let torque = graph.finish(size * size, &outputs);
-        let (value, watched) = (Some(autonomous(value)), autonomous(watched));
+        let torque = by(&|graph, inputs| {
+            let slopes = graph.call(gradient, inputs);
+            along(graph, algebra, -1.0, [&inputs[..entries], &slopes])
+        });
+        let value = (!moves).then(|| by(&|graph, inputs| graph.call(value, inputs)));
+        let watched = by(&|graph, inputs| graph.call(watched, inputs));
         Self { value, torque, watched, expressions }
     }
 
@@ -70,12 +68,6 @@ impl Programs {
     pub fn undefined(&self, inputs: &[f64], symbols: &[f64]) -> Option<(&str, f64)> {
         let (number, argument) = undefined(&self.watched.run(inputs, symbols))?;
         Some((&self.expressions[number], argument))
-    }
-
-    /// V's derivatives in the entries.
-    fn slopes(&self, entries: usize) -> Option<Program> {
-        let arguments: Vec<Argument> = (0..entries).map(Argument::Input).collect();
-        Some(self.value.as_ref()?.gradient(&arguments))
     }
 }
 
@@ -189,7 +181,7 @@ const TERMS: usize = 30;
 
 impl Potential {
     /// A basis of the ξ ∈ 𝔤 with ⟨J_L, ξ⟩ conserved, their largest coordinate being 1: of a polynomial exactly, of another V by
-    /// its formula. Of a torque without potential there are none.
+    /// its formula, and so of a torque without potential.
     pub(crate) fn directions(&self) -> Vec<Vec<f64>> {
         let found = match &self.force {
             Force::Polynomial(energy) => {
@@ -247,21 +239,23 @@ impl Potential {
         sums.values().all(Zero::is_zero)
     }
 
-    /// The ξ along which V does not change, whatever values its functions have: an identity of its formula, tested at random
-    /// elements and values (J. T. Schwartz, J. ACM 27 (1980) 701). So a force that is next to nothing almost everywhere is
-    /// seen as well as any other.
+    /// The ξ along which no torque acts, ⟨τ, Ad_{g⁻¹} ξ⟩ = 0, whatever values its functions have: an identity of its formula, tested
+    /// at random elements and values (J. T. Schwartz, J. ACM 27 (1980) 701). So a force that is next to nothing almost everywhere
+    /// is seen as well as any other.
     fn level(&self, programs: &Programs) -> Vec<Vec<f64>> {
-        let (n, size) = (self.algebra.dim(), self.size());
-        let Some(slopes) = programs.slopes(size * size) else { return Vec::new() };
-        let slopes = slopes.with_open_functions();
-        let (symbols, generators, mut random) =
-            (values(&self.symbols), self.generators(), random());
-        // Σ ∂V/∂g_ij (e g)_ij for each e, relative to the largest sum of the terms' sizes.
-        let row = |g: Vec<f64>| -> Vec<f64> {
-            let slopes = slopes.run(&opened(g.clone(), &slopes, &mut random), &symbols);
+        let (n, size, generators) = (self.algebra.dim(), self.size(), self.generators());
+        let Some(dual) = self.algebra.dual_matrices() else { return Vec::new() };
+        let dual: Vec<Vec<f64>> = dual.iter().map(|matrix| dense(matrix, size)).collect();
+        let torque = programs.torque.with_open_functions();
+        let (symbols, mut random) = (values(&self.symbols), random());
+        // For each e relative to the largest sum of the terms' sizes.
+        let row = |[g, back]: [Vec<f64>; 2]| -> Vec<f64> {
+            let inputs = self.inputs(programs, g.clone(), &mut random);
+            let torque = torque.run(&opened(inputs, &torque, &mut random), &symbols);
             let along = |e: &Vec<f64>| {
-                let moved = product(e, &g, size);
-                let terms = moved.iter().zip(&slopes).map(|(a, b)| a * b);
+                let turned = product(&back, &product(e, &g, size), size);
+                let entry = |dual: &Vec<f64>| dual.iter().zip(&turned).map(|(a, b)| a * b).sum();
+                let terms = dual.iter().map(entry).zip(&torque).map(|(a, b): (f64, _)| a * b);
                 terms.fold((0.0, 0.0), |(sum, size), x| (sum + x, size + x.abs()))
             };
             let sums: Vec<(f64, f64)> = generators.iter().map(along).collect();
@@ -274,6 +268,19 @@ impl Potential {
         if rows.len() < n + 2 { Vec::new() } else { kernel(rows, n) }
     }
 
+    /// Inputs of the programs of a force at this element, whatever else they read being random.
+    fn inputs(
+        &self,
+        programs: &Programs,
+        g: Vec<f64>,
+        random: &mut impl FnMut() -> f64,
+    ) -> Vec<f64> {
+        let (mut inputs, count) = (g, programs.torque.inputs());
+        inputs.truncate(count);
+        inputs.resize_with(count, random);
+        inputs
+    }
+
     /// The sum Σ_k ∂C/∂μ_k τ_k vanishes whatever values the functions in τ have, as in [`Self::level`].
     fn seems_to_keep(&self, programs: &Programs, casimir: &Polynomial) -> bool {
         let (n, generators, symbols) =
@@ -283,12 +290,9 @@ impl Potential {
         let torque = programs.torque.with_open_functions();
         let mut random = random();
         let mut tried = 0;
-        for g in self.elements(&generators, n + 5) {
+        for [g, _] in self.elements(&generators, n + 5) {
             let mu: Vec<f64> = (0..n).map(|_| random()).collect();
-            let mut inputs = [g, mu.clone()].concat();
-            let count = programs.torque.inputs();
-            inputs.truncate(count);
-            inputs.resize_with(count, &mut random);
+            let inputs = self.inputs(programs, [g, mu.clone()].concat(), &mut random);
             let torque = torque.run(&opened(inputs, &torque, &mut random), &symbols);
             let terms = slopes.iter().zip(&torque).map(|(slope, torque)| slope.value(&mu) * torque);
             let (sum, size) = terms.fold((0.0, 0.0), |(sum, size), x| (sum + x, size + x.abs()));
@@ -301,41 +305,44 @@ impl Potential {
     }
 
     fn generators(&self) -> Vec<Vec<f64>> {
-        let size = self.size();
-        let dense = |e: &RationalMatrix| {
-            let mut matrix = vec![0.0; size * size];
-            for (i, j, value) in e.entries() {
-                matrix[i * size + j] = value.to_f64().unwrap_or(f64::NAN);
-            }
-            matrix
-        };
-        self.algebra.matrices().iter().map(dense).collect()
+        self.algebra.matrices().iter().map(|e| dense(e, self.size())).collect()
     }
 
-    /// Random elements of the group, row by row; none where they would take long.
-    fn elements(&self, generators: &[Vec<f64>], count: usize) -> Vec<Vec<f64>> {
+    /// Random elements of the group and their inverses, row by row; none where they would take long.
+    fn elements(&self, generators: &[Vec<f64>], count: usize) -> Vec<[Vec<f64>; 2]> {
         let size = self.size();
         let places = (0..size * size).filter(|&at| generators.iter().any(|e| e[at] != 0.0));
         if count * TERMS * size * places.count() > OPERATIONS {
             return Vec::new();
         }
         let mut random = random();
+        let one: Vec<f64> =
+            (0..size * size).map(|at| f64::from(u8::from(at / size == at % size))).collect();
         let mut element = || {
             let mut x = vec![0.0; size * size];
             for e in generators {
                 let factor = random();
                 x.iter_mut().zip(e).for_each(|(x, e)| *x += factor * e);
             }
-            let one: Vec<f64> =
-                (0..size * size).map(|at| f64::from(u8::from(at / size == at % size))).collect();
             // 1 + x (1 + x/2 (1 + x/3 (…)))
-            (1..=TERMS).rev().fold(one.clone(), |sum, k| {
-                let next = product(&x, &sum, size);
-                next.iter().zip(&one).map(|(next, one)| one + next / k as f64).collect()
+            [1.0, -1.0].map(|sign| {
+                (1..=TERMS).rev().fold(one.clone(), |sum, k| {
+                    let next = product(&x, &sum, size);
+                    next.iter().zip(&one).map(|(next, one)| one + sign * next / k as f64).collect()
+                })
             })
         };
         (0..count).map(|_| element()).collect()
     }
+}
+
+/// A matrix row by row.
+fn dense(matrix: &RationalMatrix, size: usize) -> Vec<f64> {
+    let mut entries = vec![0.0; size * size];
+    for (i, j, value) in matrix.entries() {
+        entries[i * size + j] = value.to_f64().unwrap_or(f64::NAN);
+    }
+    entries
 }
 
 /// The product of two square matrices, row by row, the first of which has few entries.

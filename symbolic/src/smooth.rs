@@ -6,7 +6,7 @@ use coadjoint_program::splitting::Splitting;
 use coadjoint_program::{Argument, Node, Program};
 use num_traits::ToPrimitive;
 
-use crate::drive::Drive;
+use crate::drive::{Acts, Drive};
 use crate::integrator::{Kick, Kicks};
 use crate::lie::LieAlgebra;
 use crate::potential::undefined;
@@ -86,6 +86,8 @@ pub struct Functions {
     pub energy: Option<(String, Given)>,
     /// Inputs, in place of those of the text with these names and beside the others.
     pub inputs: Vec<Signal>,
+    /// The velocity and the torque, in the body; the text then has none.
+    pub acting: [Option<Acts>; 2],
 }
 
 /// The facts of a system that hold however its steps are made.
@@ -164,7 +166,11 @@ impl Smooth {
         let Some(drive) = &self.drive else { return [vec![0.0; mu.len()], vec![0.0; mu.len()]] };
         let inputs = drive.inputs(entries, [mu, omega], time, &self.signals);
         let mut velocity = drive.program.run(&inputs, symbols.get(drive.first..).unwrap_or(&[]));
-        let torque = velocity.split_off(mu.len());
+        let mut torque = velocity.split_off(mu.len());
+        for (sum, function) in [&mut velocity, &mut torque].into_iter().zip(&drive.functions) {
+            let own = function.iter().flat_map(|function| function.0.acting(time, entries, mu));
+            sum.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
+        }
         [velocity, torque]
     }
 
@@ -181,6 +187,11 @@ impl Smooth {
         let watched = drive.watched.run(&inputs, symbols.get(drive.first..).unwrap_or(&[]));
         let (number, argument) = undefined(&watched)?;
         Some((&drive.expressions[number], argument))
+    }
+
+    /// True if a part of the system is a function of the user's, of which there are no programs.
+    pub fn is_function(&self) -> bool {
+        self.given.is_some() || self.drive.as_ref().is_some_and(|drive| drive.is_function())
     }
 
     /// True if H is known to be of degree at most two in the momentum.

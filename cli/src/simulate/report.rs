@@ -153,6 +153,9 @@ fn remark(end: &Outcome, number: usize) -> String {
             let count = end.momenta;
             format!(" ({count} of its components; the potential breaks the other symmetries)")
         }
+        0 if end.momenta < end.momentum.len() => {
+            format!(" ({} of its components; a torque acts along the others)", end.momenta)
+        }
         _ => String::new(),
     };
     if let Some(time) = end.unmeasured[number] {

@@ -29,7 +29,7 @@ pub(crate) enum Mistake {
     #[error("unknown variable `{0}`{did}", did = did_you_mean(.1))]
     UnknownVariable(String, Option<String>, Vec<String>),
     #[error(
-        "unknown variable `{0}`: only Hamiltonians, torques and events depend on time, which is called t"
+        "unknown variable `{0}`: only Hamiltonians, potentials, torques and events of files depend on time, which is called t"
     )]
     Time(String),
     #[error("`{0}` is not known")]
@@ -245,8 +245,8 @@ impl Mistake {
                 return Some(format!("known here: {}", list(known)));
             }
             Self::Time(_) => {
-                "write `t` in the Hamiltonian, a torque or an event; of a potential that moves give the body torque −g⁻¹dV as \
-                 `torque = […]`, or see docs/book/src/forces.md; a constant torque is a potential that is linear on R1"
+                "write `t` in the Hamiltonian, a potential, a torque or an event of a file; in Rust give `Kicked` a torque of the time; a \
+                 constant torque is a potential that is linear on R1, see docs/book/src/forces.md"
             }
             Self::Inverse(_) => {
                 "inv(J) is the inverse of a square matrix J under [parameters] and needs indices: \

@@ -6,7 +6,7 @@ use super::frame;
 use super::polynomial::{Sum, polynomial};
 use super::program::{Kinked, Lowered, lower};
 use crate::diagnostic::{Diagnostic, Diagnostics, Mistake, Span};
-use crate::drive::{Drive, Ingredients};
+use crate::drive::{Acts, Drive, Ingredients};
 use crate::expr::{Arena, ExprId, Node};
 use crate::lie::{Chart, LieAlgebra};
 use crate::number::Rational;
@@ -44,7 +44,7 @@ impl Formula {
         sum
     }
 
-    fn moves(&self) -> bool {
+    pub(crate) fn moves(&self) -> bool {
         let of_time = |node: &Node| matches!(node, Node::Time | Node::Signal(_));
         self.arena.iter().any(|(_, node, _)| of_time(node))
     }
@@ -408,7 +408,7 @@ pub(crate) fn assemble_potential(
         let (polynomial, symbols) = exact(sum?, size * size, &mut table, &names);
         (Force::Polynomial(polynomial), symbols)
     } else {
-        let (programs, symbols) = smooth_potential(&algebra, energy, diagnostics)?;
+        let (programs, symbols) = smooth_potential(&algebra, energy, &[], diagnostics)?;
         (Force::Smooth(Box::new(programs)), symbols)
     };
     let (parameters, source) = (energy.parameters.clone(), energy.source.clone());
@@ -419,11 +419,12 @@ pub(crate) fn assemble_potential(
 fn smooth_potential(
     algebra: &LieAlgebra,
     energy: &Formula,
+    inputs: &[String],
     diagnostics: &Diagnostics,
 ) -> Option<(Programs, Vec<Symbol>)> {
     let (entries, scalars) = (entries(algebra.matrix_size()), energy.scalar_names());
     let (root, place) = energy.root?;
-    let names = [&entries[..], &scalars, &[]];
+    let names = [&entries[..], &scalars, inputs];
     let Lowered { value, gradient, watched, expressions, symbols, .. } =
         formula(&energy.arena, &[root], names, POTENTIAL, diagnostics)?;
     if gradient.nodes().iter().all(|node| *node == coadjoint_program::Node::Zero) {
@@ -431,7 +432,7 @@ fn smooth_potential(
         return None;
     }
     let programs = [&value, &gradient, &watched];
-    Some((Programs::of_potential(algebra, programs, expressions), symbols))
+    Some((Programs::of_potential(algebra, programs, expressions, energy.moves()), symbols))
 }
 
 /// Lowers expressions that are not H, and says of mistakes what they are in.
@@ -461,23 +462,24 @@ pub(crate) fn entries(size: usize) -> Vec<String> {
 pub(crate) struct Acting {
     /// The nodes of the expressions, of which none is an energy.
     pub energy: Formula,
-    /// The components of the velocity and of the torque, where they are given.
-    pub roots: [Option<Vec<ExprId>>; 2],
+    /// The components of the velocity and of the torque in the body, and of those in space, where they are given.
+    pub roots: [Option<Vec<ExprId>>; 4],
 }
 
 /// Checks what was read and turns it into a drive, with the diagonal of the damping and with a potential that joins it; `None` where
 /// something is wrong, which has then been reported.
 pub(crate) fn assemble_drive(
     algebra: &LieAlgebra,
-    coordinates: &[String],
-    signals: &[Signal],
+    (coordinates, signals): (&[String], &[Signal]),
     read: Option<(Acting, Option<Vec<f64>>)>,
+    functions: [Option<Acts>; 2],
     potential: Option<&Formula>,
     diagnostics: &Diagnostics,
 ) -> Option<Drive> {
     let size = algebra.matrix_size();
+    let inputs: Vec<String> = signals.iter().map(|signal| signal.name.clone()).collect();
     let (acting, damping) = read.map_or((None, None), |(acting, damping)| (Some(acting), damping));
-    let mut parts = Ingredients { damping, ..Ingredients::default() };
+    let mut parts = Ingredients { damping, functions, ..Ingredients::default() };
     let named = |energy: &Formula| format!("potential = {}", energy.source);
     let sources = acting.iter().map(|own| own.energy.source.clone()).chain(potential.map(named));
     parts.source = sources.collect::<Vec<_>>().join(", ");
@@ -487,18 +489,18 @@ pub(crate) fn assemble_drive(
         let omega = (0..coordinates.len()).map(|i| format!("omega[{i}]"));
         let names: Vec<String> =
             entries(size).into_iter().chain(coordinates.iter().cloned()).chain(omega).collect();
-        let inputs: Vec<String> = signals.iter().map(|signal| signal.name.clone()).collect();
         let names = [&names[..], &energy.scalar_names(), &inputs];
         let all: Vec<ExprId> = roots.iter().flatten().flatten().copied().collect();
-        let of = if roots[1].is_some() { "torque" } else { "velocity" };
+        let of = if roots[1].is_some() || roots[3].is_some() { "torque" } else { "velocity" };
         let lowered = formula(&energy.arena, &all, names, [of, "the state"], diagnostics)?;
-        parts.given = [roots[0].is_some(), roots[1].is_some()];
+        parts.given = roots.each_ref().map(Option::is_some);
         parts.moves = energy.moves();
         parts.kinks = lowered.kinks;
         parts.own = Some((lowered.value, lowered.watched, lowered.expressions, lowered.symbols));
     }
     if let Some(potential) = potential {
-        let (programs, symbols) = smooth_potential(algebra, potential, diagnostics)?;
+        let (programs, symbols) = smooth_potential(algebra, potential, &inputs, diagnostics)?;
+        parts.moves |= potential.moves();
         parts.potential = Some(Potential {
             name: "potential".to_owned(),
             algebra: algebra.clone(),

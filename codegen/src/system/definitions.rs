@@ -37,6 +37,11 @@ impl Definitions {
         Self(table.entries().into_iter().filter_map(part).collect())
     }
 
+    /// True if a part has this name.
+    pub(super) fn define(&self, name: &str) -> bool {
+        self.0.iter().any(|own| own.name == name)
+    }
+
     /// Adds their names to others, which they are made of.
     pub(super) fn add_to(&self, root: &Table<'_>, names: &mut Names) {
         let part = |text: &str, (own, place): &(String, Span)| Name::Part {

@@ -1,7 +1,9 @@
-//! The keys `velocity`, `torque` and `damping`: motion beside that of the Hamiltonian.
+//! The keys `velocity`, `torque`, both also in space, and `damping`: motion beside that of the Hamiltonian.
+
+use coadjoint_symbolic::spatial::Spatial;
 
 use super::definitions::Definitions;
-use super::energies::attitude;
+use super::energies::{attitude, time};
 use super::initial::coordinates;
 use super::parameters::Parameters;
 use super::table::{Table, span};
@@ -17,12 +19,17 @@ const DAMPING: &str = "damping = \"1/100\"";
 const VELOCITY: &str = "velocity = [\"0\", \"0\", \"c*z\"]";
 const TORQUE: &str = "torque = [\"-c*x\", \"-c*y\", \"-c*z\"]";
 
-/// The keys that make a drive.
-const KEYS: [&str; 3] = ["velocity", "torque", "damping"];
+/// The lists of expressions that make a drive, each with an example.
+const LISTS: [(&str, &str); 4] = [
+    ("velocity", VELOCITY),
+    ("torque", TORQUE),
+    ("velocity_in_space", "velocity_in_space = [\"0\", \"0\", \"c\"]"),
+    ("torque_in_space", "torque_in_space = [\"0\", \"0\", \"cos(t)\"]"),
+];
 
 /// True if a file has a key that makes a drive.
 pub(super) fn is_given(root: &Table<'_>) -> bool {
-    KEYS.iter().any(|key| root.has(key))
+    root.has("damping") || LISTS.iter().any(|(key, _)| root.has(key))
 }
 
 /// The content of the keys; none where there is no such key, or where it is a mistake.
@@ -44,7 +51,8 @@ pub(super) fn read(
     inputs: &[(Signal, Span)],
 ) -> Option<Stated> {
     let damping = damping(root, algebra);
-    let entries = entries(algebra?.matrix_size());
+    let algebra = algebra?;
+    let entries = entries(algebra.matrix_size());
     let entry = |name: &String| (name.clone(), Span::Whole);
     let all: Vec<_> = entries.iter().map(entry).chain(coordinates.iter().cloned()).collect();
     let mut names = Names::of_coordinates(&all, root.diagnostics);
@@ -57,30 +65,26 @@ pub(super) fn read(
     for i in (0..dim).filter(|_| !own) {
         names.alias(format!("omega[{i}]"), Name::Coordinate(entries.len() + dim + i));
     }
-    for (i, (signal, place)) in inputs.iter().enumerate() {
-        names.add(&signal.name, Name::Signal(i), *place, root.diagnostics);
-    }
-    names.known("t", Name::Time);
-    attitude(algebra?, &mut names);
-    Definitions::read(root).add_to(root, &mut names);
-    let lists = [("velocity", VELOCITY), ("torque", TORQUE)].map(|(key, example)| {
-        let vector = root.get(key).and_then(|value| Some((value.get_ref().as_str()?, span(value))));
-        let found = vector.and_then(|(text, place)| {
-            let entries = components(text, &names)?;
-            Some((entries.map(|entry| (entry, place)).to_vec(), place))
-        });
-        (
-            key,
-            example,
-            found.or_else(|| root.strings(key, "a list of expressions, or a vector", example)),
-        )
-    });
+    time(&mut names, inputs, root);
+    let parts = Definitions::read(root);
+    attitude(algebra, &parts, &mut names);
+    parts.add_to(root, &mut names);
+    let lists = LISTS.map(|(key, example)| (key, example, list(root, key, example, (&names, dim))));
     let (mut arena, mut sources, mut sound) = (Arena::new(), Vec::new(), true);
     let roots = lists.map(|(key, example, list)| {
         let (list, place) = list?;
         if list.len() != dim {
             let message = format!("`{key}` has {} components, and the momentum {dim}", list.len());
             root.diagnostics.report_other(place, message, &format!("write for example {example}"));
+            sound = false;
+            return None;
+        }
+        if key.ends_with("in_space") && Spatial::new(algebra).is_none() {
+            let message = format!(
+                "`{key}`: elements of {} are not rotations and motions, whose axes are those of space",
+                algebra.name()
+            );
+            root.diagnostics.report_other(place, message, "give it in the body, without `_in_space`");
             sound = false;
             return None;
         }
@@ -91,13 +95,37 @@ pub(super) fn read(
         };
         Some(list.iter().map(parse).collect::<Vec<ExprId>>())
     });
-    let wrong = KEYS[..2].iter().zip(&roots).any(|(key, roots)| root.has(key) && roots.is_none());
+    let wrong = LISTS.iter().zip(&roots).any(|((key, _), roots)| root.has(key) && roots.is_none());
     if wrong || !sound {
         return None;
     }
     sources.extend(damping.iter().map(|rates| format!("damping = {rates:?}")));
     let energy = Formula { arena, root: None, parameters: kept, source: sources.join(", ") };
     Some(Stated { acting: Acting { energy, roots }, damping })
+}
+
+/// The components of a list of expressions, or of one vector: those in the list may be vectors too, three components each.
+fn list(
+    root: &Table<'_>,
+    key: &str,
+    example: &str,
+    (names, dim): (&Names, usize),
+) -> Option<(Vec<(String, Span)>, Span)> {
+    let value = root.get(key)?;
+    let (list, place) = match value.get_ref().as_str() {
+        Some(text) if components(text, names).is_some() => {
+            (vec![(text.to_owned(), span(value))], span(value))
+        }
+        _ => root.strings(key, "a list of expressions, or a vector", example)?,
+    };
+    if list.len() == dim {
+        return Some((list, place));
+    }
+    let entries = |(text, place): (String, Span)| match components(&text, names) {
+        Some(entries) => entries.map(|entry| (entry, place)).to_vec(),
+        None => vec![(text, place)],
+    };
+    Some((list.into_iter().flat_map(entries).collect(), place))
 }
 
 /// Reads `damping`: a number, or a list of one for each coordinate. None where all of them are 0.

@@ -15,13 +15,15 @@ const COORDINATES: &str = "coordinates = [\"x\", \"y\", \"z\"]";
 const HAMILTONIAN: &str = "hamiltonian = \"x^2/2 + y^2/4\"";
 const POTENTIAL: &str = "potential = \"m*g[2][2]\"";
 
-/// Reads `hamiltonian`, in these coordinates; without any it would be full of unknown names.
+/// Reads `hamiltonian`, in these coordinates; without any it would be full of unknown names. None is needed where a velocity is all that
+/// moves: a key, or, if `alone`, a function.
 pub(super) fn hamiltonian(
     root: &Table<'_>,
     algebra: Option<&LieAlgebra>,
     coordinates: &[(String, Span)],
     parameters: &Parameters,
     inputs: &[(Signal, Span)],
+    alone: bool,
 ) -> Formula {
     let mut names = Names::of_coordinates(coordinates, root.diagnostics);
     match algebra {
@@ -38,13 +40,10 @@ pub(super) fn hamiltonian(
         let dim = algebra.map_or(0, LieAlgebra::dim);
         (0..dim).for_each(|i| names.alias(format!("mu[{i}]"), Name::Coordinate(i)));
     }
-    for (i, (signal, place)) in inputs.iter().enumerate() {
-        names.add(&signal.name, Name::Signal(i), *place, root.diagnostics);
-    }
-    // Anything else called t comes first.
-    names.known("t", Name::Time);
+    time(&mut names, inputs, root);
     Definitions::read(root).add_to(root, &mut names);
-    if !root.has("hamiltonian") && root.has("velocity") {
+    let moved = ["velocity", "velocity_in_space"].iter().any(|key| root.has(key));
+    if !root.has("hamiltonian") && (alone || moved) {
         // A velocity may be all that moves.
         let (mut arena, place) = (Arena::new(), Span::Whole);
         let zero = text::parse("0", 0, &[], &names, &mut arena, root.diagnostics);
@@ -61,6 +60,14 @@ pub(super) fn hamiltonian(
     root.energy("hamiltonian", HAMILTONIAN, &names, kept).unwrap_or_default()
 }
 
+/// Adds the time, unless something else is called t, and the inputs to names.
+pub(super) fn time(names: &mut Names, inputs: &[(Signal, Span)], root: &Table<'_>) {
+    for (i, (signal, place)) in inputs.iter().enumerate() {
+        names.add(&signal.name, Name::Signal(i), *place, root.diagnostics);
+    }
+    names.known("t", Name::Time);
+}
+
 /// Reports inputs that none of these has.
 pub(super) fn check_inputs(root: &Table<'_>, inputs: &[(Signal, Span)], energies: &[&Formula]) {
     // Of one that could not be read it is not known.
@@ -73,7 +80,7 @@ pub(super) fn check_inputs(root: &Table<'_>, inputs: &[(Signal, Span)], energies
             |energy: &&Formula| energy.arena.iter().any(|(_, node, _)| *node == Node::Signal(i));
         if !energies.iter().any(has) {
             let what = format!(
-                "the input `{}` does not occur in the Hamiltonian, a velocity or a torque",
+                "the input `{}` does not occur in the Hamiltonian, a potential, a velocity or a torque",
                 signal.name
             );
             root.diagnostics.report_other(*place, what, "name it there, or leave it out");
@@ -106,32 +113,45 @@ pub(super) fn coordinates(
     (names, whole)
 }
 
-/// Calls the attitude of a body R, from body to space, where the group is one of motions in space and no other name is R.
-pub(super) fn attitude(algebra: &LieAlgebra, names: &mut Names) {
+/// Calls the attitude of a body R, from body to space, where the group is one of motions in space, and its place x, where there is one:
+/// each unless a name is that.
+pub(super) fn attitude(algebra: &LieAlgebra, parts: &Definitions, names: &mut Names) {
     let is = |name: &&str| {
         catalogue::lookup(name).is_ok_and(|known| known.renamed(algebra.name()) == *algebra)
     };
-    if names.entries("R").is_some() || !["SO3", "SE3"].iter().any(is) {
+    if !["SO3", "SE3"].iter().any(is) {
         return;
     }
     let size = algebra.matrix_size();
-    for (i, j) in (0..9).map(|at| (at / 3, at % 3)) {
-        names.alias(format!("R[{i}][{j}]"), Name::Coordinate(i * size + j));
+    let free =
+        |name| names.entries(name).is_none() && names.get(name).is_none() && !parts.define(name);
+    let [turned, placed] = [free("R"), free("x") && size > 3];
+    for i in 0..3 {
+        for j in (0..3).filter(|_| turned) {
+            names.alias(format!("R[{i}][{j}]"), Name::Coordinate(i * size + j));
+        }
+        if placed {
+            names.alias(format!("x[{i}]"), Name::Coordinate(i * size + 3));
+        }
     }
 }
 
-/// Reads `potential`, if the file has one and its group is known: a polynomial in the entries of the group element's matrix.
+/// Reads `potential`, if the file has one and its group is known: a function of the entries of the group element's matrix, the time and
+/// the inputs.
 pub(super) fn potential(
     root: &Table<'_>,
     algebra: Option<&LieAlgebra>,
     parameters: &Parameters,
+    inputs: &[(Signal, Span)],
 ) -> Option<Formula> {
     root.string("potential", POTENTIAL)?;
     let names = entries(algebra?.matrix_size());
     let entries: Vec<_> = names.into_iter().map(|name| (name, Span::Whole)).collect();
     let mut names = Names::of_coordinates(&entries, root.diagnostics);
     let kept = parameters.add_to(&mut names, root.diagnostics);
-    attitude(algebra?, &mut names);
-    Definitions::read(root).add_to(root, &mut names);
+    time(&mut names, inputs, root);
+    let parts = Definitions::read(root);
+    attitude(algebra?, &parts, &mut names);
+    parts.add_to(root, &mut names);
     root.energy("potential", POTENTIAL, &names, kept)
 }

@@ -8,30 +8,42 @@ use super::table::{Table, Value, span};
 use crate::diagnostic::{Mistake, Span};
 use crate::lie::{LieAlgebra, RationalMatrix};
 use crate::number::{Rational, integer, nearest_float};
-use crate::poly::split_at;
+use crate::poly::{Numeric, split_at};
 use crate::problem::Problem;
 use crate::smooth::Smooth;
 
 const TIME: &str = "time = 5.0";
 const MOMENTUM: &str = "momentum = [2.0, 0.5, 1.0]";
 const VELOCITY: &str = "angular_velocity = [0.1, 0, 2]";
+const LINEAR: &str = "linear_velocity = [0, 0, 1]";
 const ELEMENT: &str = "group_element = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]";
 const QUATERNION: &str = "quaternion = [1, 0, 0, 0]";
 const TRANSLATION: &str = "translation = [0, 0, 0]";
 /// The largest difference of a quaternion's length from 1 without `project`.
 const UNIT: f64 = 1e-9;
 
-/// Reads `[initial]` into `run`; returns a velocity and its place, from which [`momentum`] finds the momentum.
+/// Velocities at the start, of which the first coordinates of the momentum follow.
+pub(super) struct Velocities {
+    /// The first coordinates of ∂H/∂μ.
+    velocity: Vec<Rational>,
+    /// The other coordinates of the momentum.
+    others: Vec<Rational>,
+    place: Span,
+}
+
+/// Reads `[initial]` into `run`; returns velocities from which [`momentum`] finds the momentum.
 pub(super) fn read(
     root: &Table<'_>,
     algebra: Option<&LieAlgebra>,
     run: &mut Run,
-) -> Option<(Vec<Rational>, Span)> {
+) -> Option<Velocities> {
     let table = root.table("initial")?;
     table.check_keys(&[
         "time",
         "momentum",
         "angular_velocity",
+        "linear_velocity",
+        "linear_momentum",
         "group_element",
         "quaternion",
         "translation",
@@ -44,16 +56,55 @@ pub(super) fn read(
     run.group_element = element(&table, algebra);
     let momentum = coordinates(&table, "momentum", MOMENTUM, algebra);
     run.momentum = momentum.map(|(list, _)| list.iter().map(nearest_float).collect());
-    let velocity = coordinates(&table, "angular_velocity", VELOCITY, algebra)?;
+    let stated = stated(&table, algebra)?;
     if table.has("momentum") {
         let what = "`momentum` and `angular_velocity` are both given: keep one";
-        table.refuse(velocity.1, what, MOMENTUM);
+        table.refuse(stated.place, what, MOMENTUM);
     }
+    Some(stated)
+}
+
+/// Reads `angular_velocity`, on SE3 with the velocity or the momentum of translations beside it.
+fn stated(table: &Table<'_>, algebra: Option<&LieAlgebra>) -> Option<Velocities> {
+    let beside = [("linear_velocity", LINEAR), ("linear_momentum", "linear_momentum = [0, 0, 1]")];
+    if algebra.is_some_and(|algebra| algebra.name() == "SE3") {
+        let three = |key: &str, example: &str| {
+            let (list, place) = table.array(key, example)?;
+            if list.len() != 3 {
+                table.refuse(place, &format!("`{key}` must be three numbers"), example);
+                return None;
+            }
+            Some((table.numbers(key, list, example)?, place))
+        };
+        let angular = three("angular_velocity", VELOCITY);
+        let [linear, momentum] = beside.map(|(key, example)| three(key, example));
+        let (mut velocity, place) = angular?;
+        let others = match (linear, momentum) {
+            (Some((linear, _)), None) => {
+                velocity.extend(linear);
+                Vec::new()
+            }
+            (None, Some((momentum, _))) => momentum,
+            _ => {
+                let what = "beside an angular velocity of SE3 stands either `linear_velocity` or `linear_momentum`, in the body";
+                table.refuse(place, what, LINEAR);
+                return None;
+            }
+        };
+        return Some(Velocities { velocity, others, place });
+    }
+    for (key, example) in beside {
+        if let Some(value) = table.get(key) {
+            let what = format!("`{key}` stands beside an `angular_velocity` on SE3");
+            table.refuse(span(value), &what, example);
+        }
+    }
+    let (velocity, place) = coordinates(table, "angular_velocity", VELOCITY, algebra)?;
     if !algebra.is_none_or(|algebra| matches!(factor(algebra).0, "SO3" | "SU2")) {
-        let what = "an angular velocity is one of SO3, SU2 or a power of them: give the momentum";
-        table.refuse(velocity.1, what, MOMENTUM);
+        let what = "an angular velocity is one of SO3, SU2 or a power of them, or of SE3: give the momentum";
+        table.refuse(place, what, MOMENTUM);
     }
-    Some(velocity)
+    Some(Velocities { velocity, others: Vec::new(), place })
 }
 
 /// The group of which `algebra` is a power, and how many factors it has.
@@ -105,63 +156,151 @@ pub(super) fn coordinates(
 }
 
 /// A and b of ∂H/∂μ = A μ + b at the start, at the defaults of parameters that are kept.
-pub(super) type Linear = (RationalMatrix, Vec<Rational>);
+type Linear = (RationalMatrix, Vec<Rational>);
 
-/// The momentum with ∂H/∂μ = `velocity`; reports a Hamiltonian that is no quadratic function of which the velocity determines the
-/// momentum.
+/// A function of the momentum.
+type Values<'a> = dyn Fn(&[f64]) -> Vec<f64> + 'a;
+
+/// ∂H/∂μ at the start, at the defaults of parameters that are kept.
+pub(super) struct Gradient<'a> {
+    /// It as a linear function, where it is one.
+    linear: Option<Linear>,
+    /// Its values.
+    at: Box<Values<'a>>,
+}
+
+/// Steps of Newton's method at most, and halvings of one.
+const STEPS: u32 = 60;
+const HALVINGS: u32 = 30;
+/// The largest residual, relative to the velocity, and the spacing of differences of a gradient.
+const CLOSE: f64 = 1e-14;
+const SPACING: f64 = 1e-6;
+
+/// The momentum of which ∂H/∂μ has the stated velocities; reports a Hamiltonian of which they do not determine it.
 pub(super) fn momentum(
-    gradient: Option<Linear>,
-    (velocity, place): &(Vec<Rational>, Span),
+    gradient: &Gradient<'_>,
+    stated: &Velocities,
     root: &Table<'_>,
 ) -> Option<Vec<f64>> {
-    let solved = |(matrix, bias): Linear| {
-        let right = velocity.iter().zip(bias).enumerate().map(|(i, (w, b))| (i, 0, w - b));
-        let right = RationalMatrix::from_entries(velocity.len(), 1, right);
-        let momentum = matrix.inverse()?.times(&right);
-        Some((0..velocity.len()).map(|i| nearest_float(&momentum.get(i, 0))).collect())
+    let Velocities { velocity, others, place } = stated;
+    let count = velocity.len();
+    let others = others.iter().map(nearest_float);
+    let momentum = match &gradient.linear {
+        Some((matrix, bias)) => {
+            let known = |i: usize| -> Rational {
+                let terms = stated.others.iter().enumerate();
+                terms.map(|(j, own)| matrix.get(i, count + j) * own).sum()
+            };
+            let right = velocity.iter().zip(bias).enumerate();
+            let right = right.map(|(i, (w, b))| (i, 0, w - b - known(i)));
+            let right = RationalMatrix::from_entries(count, 1, right);
+            let own = matrix.entries().filter(|(i, j, _)| *i.max(j) < count);
+            let own = own.map(|(i, j, value)| (i, j, value.clone()));
+            let inverse = RationalMatrix::from_entries(count, count, own).inverse();
+            inverse.map(|inverse| {
+                let own = inverse.times(&right);
+                (0..count).map(|i| nearest_float(&own.get(i, 0))).chain(others).collect()
+            })
+        }
+        None => {
+            let velocity: Vec<f64> = velocity.iter().map(nearest_float).collect();
+            newton(&gradient.at, &velocity, &others.collect::<Vec<_>>())
+        }
     };
-    let momentum = gradient.and_then(solved);
     if momentum.is_none() {
-        let what = "this does not determine the momentum: the Hamiltonian is not a quadratic function with an inverse, or has \
-                    inputs that stand in a file";
+        let what = "this does not determine the momentum: ∂H/∂μ has no inverse there";
         root.refuse(*place, what, MOMENTUM);
     }
     momentum
 }
 
-/// The linear gradient of a smooth Hamiltonian at this time, if it is quadratic and has no inputs in files.
-pub(super) fn of_smooth(smooth: &Smooth, time: f64) -> Option<Linear> {
-    if !smooth.is_quadratic() {
-        return None;
-    }
-    let dim = smooth.algebra.dim();
-    let symbols = smooth.symbols_at(&smooth.facts().defaults());
-    let at = |mu: &[f64]| -> Option<Vec<Rational>> {
-        smooth.gradient(&symbols, time, mu).into_iter().map(Rational::from_float).collect()
+/// The momentum with these last coordinates of which the first components of the gradient are the velocity.
+fn newton(gradient: &Values<'_>, velocity: &[f64], others: &[f64]) -> Option<Vec<f64>> {
+    let size = |list: &[f64]| list.iter().map(|x| x.abs()).sum::<f64>();
+    let left = |mu: &[f64]| -> Vec<f64> {
+        gradient(mu).iter().zip(velocity).map(|(found, wanted)| found - wanted).collect()
     };
-    let mut mu = vec![0.0; dim];
-    let bias = at(&mu)?;
-    let mut entries = Vec::new();
-    for j in 0..dim {
-        mu[j] = 1.0;
-        let column = at(&mu)?.into_iter().zip(&bias).enumerate();
-        entries.extend(column.map(|(i, (value, bias))| (i, j, value - bias)));
-        mu[j] = 0.0;
+    let count = velocity.len();
+    let mut mu = [velocity, others].concat();
+    let mut residual = left(&mu);
+    for _ in 0..STEPS {
+        if size(&residual) <= CLOSE * size(velocity) {
+            return Some(mu);
+        }
+        let mut entries = Vec::new();
+        for j in 0..count {
+            let (here, by) = (mu[j], SPACING * mu[j].abs().max(1.0));
+            let [above, below] = [by, -by].map(|by| {
+                mu[j] = here + by;
+                left(&mu)
+            });
+            mu[j] = here;
+            for (i, (above, below)) in above.iter().zip(&below).enumerate() {
+                entries.push((i, j, Rational::from_float((above - below) / (2.0 * by))?));
+            }
+        }
+        let right =
+            residual.iter().enumerate().map(|(i, x)| Some((i, 0, Rational::from_float(*x)?)));
+        let right = RationalMatrix::from_entries(count, 1, right.collect::<Option<Vec<_>>>()?);
+        let step = RationalMatrix::from_entries(count, count, entries).inverse()?.times(&right);
+        let better = (0..HALVINGS).map(|halvings| 0.5_f64.powi(halvings as i32)).find_map(|part| {
+            let mut next = mu.clone();
+            for (i, own) in next.iter_mut().take(count).enumerate() {
+                *own -= part * nearest_float(&step.get(i, 0));
+            }
+            let there = left(&next);
+            (size(&there) < size(&residual)).then_some((next, there))
+        });
+        let Some((next, there)) = better else {
+            // Rounding alone is left.
+            return (size(&residual) <= 1e3 * CLOSE * size(velocity)).then_some(mu);
+        };
+        (mu, residual) = (next, there);
     }
-    Some((RationalMatrix::from_entries(dim, dim, entries), bias))
+    None
 }
 
-/// The linear gradient of a polynomial, if it is quadratic.
-pub(super) fn of_polynomial(problem: &Problem) -> Option<Linear> {
+/// The gradient of a smooth Hamiltonian at this time.
+pub(super) fn of_smooth(smooth: &Smooth, time: f64) -> Gradient<'_> {
+    let dim = smooth.algebra.dim();
+    let symbols = smooth.symbols_at(&smooth.facts().defaults());
+    let at = move |mu: &[f64]| smooth.gradient(&symbols, time, mu);
+    let exact = |mu: &[f64]| -> Option<Vec<Rational>> {
+        at(mu).into_iter().map(Rational::from_float).collect()
+    };
+    let linear = || {
+        let mut mu = vec![0.0; dim];
+        let bias = exact(&mu)?;
+        let mut entries = Vec::new();
+        for j in 0..dim {
+            mu[j] = 1.0;
+            let column = exact(&mu)?.into_iter().zip(&bias).enumerate();
+            entries.extend(column.map(|(i, (value, bias))| (i, j, value - bias)));
+            mu[j] = 0.0;
+        }
+        Some((RationalMatrix::from_entries(dim, dim, entries), bias))
+    };
+    let linear = if smooth.is_quadratic() { linear() } else { None };
+    Gradient { linear, at: Box::new(at) }
+}
+
+/// The gradient of a polynomial.
+pub(super) fn of_polynomial(problem: &Problem) -> Gradient<'_> {
     let dim = problem.algebra.dim();
-    let defaults =
-        problem.parameters.iter().flat_map(|parameter| parameter.default.iter().flatten());
-    let defaults: Vec<f64> = defaults.map(nearest_float).collect();
-    let symbols: Option<Vec<Rational>> = problem
-        .symbols
-        .iter()
-        .map(|symbol| Rational::from_float(symbol.expr.evaluate(&defaults)))
-        .collect();
+    let defaults = problem.facts().defaults();
+    let symbols: Vec<f64> =
+        problem.symbols.iter().map(|symbol| symbol.expr.evaluate(&defaults)).collect();
+    let slope = |i| Numeric::new(&problem.hamiltonian.derivative(i), dim, &symbols);
+    let slopes: Vec<Numeric> = (0..dim).map(slope).collect();
+    let at = move |mu: &[f64]| slopes.iter().map(|slope| slope.value(mu)).collect();
+    Gradient { linear: linear(problem, &symbols), at: Box::new(at) }
+}
+
+/// The gradient of a polynomial as a linear function, if it is one.
+fn linear(problem: &Problem, symbols: &[f64]) -> Option<Linear> {
+    let dim = problem.algebra.dim();
+    let symbols: Option<Vec<Rational>> =
+        symbols.iter().map(|value| Rational::from_float(*value)).collect();
     let symbols = symbols?;
     // H = μᵀAμ/2 + bᵀμ.
     let mut bias = vec![integer(0); dim];

@@ -38,7 +38,8 @@
 //!
 //! A force that breaks the symmetry is a `potential = "…"`, a polynomial in the entries `g[0][0]`, …
 //! of the group element's matrix; its kicks are composed by the `splitting` of `[integrator]`. A `velocity`, a `torque` and `damping` act
-//! within the step, as a potential beside them does.
+//! within the step, as a potential beside them does, and one that depends on time or inputs. `velocity_in_space` and
+//! `torque_in_space` are along the axes of space.
 //!
 //! `t` in the Hamiltonian is the time. `[inputs]` has functions of it by their values, `u = [0, 0.5, 0.2, 0]` at `times = [0, 1, 2, 3]`,
 //! between which they are cubic splines.
@@ -208,10 +209,12 @@ pub fn read_given(
         Some((_, function)) => assemble_given(draft, function.clone(), diagnostics),
         None => assemble_either(draft, diagnostics),
     };
-    let gradient = |system: &Hamiltonian, time: f64| match system {
-        Hamiltonian::Polynomial(problem, _) => initial::of_polynomial(problem),
-        Hamiltonian::Smooth(smooth) => initial::of_smooth(smooth, time),
-    };
+    fn gradient(system: &Hamiltonian, time: f64) -> initial::Gradient<'_> {
+        match system {
+            Hamiltonian::Polynomial(problem, _) => initial::of_polynomial(problem),
+            Hamiltonian::Smooth(smooth) => initial::of_smooth(smooth, time),
+        }
+    }
     let quadratic = Hamiltonian::is_quadratic;
     let moves = |system: &Hamiltonian| system.smooth().is_some_and(Smooth::depends_on_time);
     let kind = Adapter { assemble: &assemble, gradient, moves, quadratic, given };
@@ -237,8 +240,8 @@ pub fn read_group(text: &str) -> Result<LieAlgebra, Diagnostics> {
 struct Adapter<'a, H> {
     /// Turns a draft into a system.
     assemble: &'a dyn Fn(Draft, &Diagnostics) -> Option<H>,
-    /// Its gradient at the start, if it is linear.
-    gradient: fn(&H, f64) -> Option<initial::Linear>,
+    /// Its gradient at the start.
+    gradient: fn(&H, f64) -> initial::Gradient<'_>,
     /// True if it depends on time.
     moves: fn(&H) -> bool,
     /// True if it is known to be of degree at most two.
@@ -303,8 +306,10 @@ fn system<H>(
         "coordinates",
         "hamiltonian",
         "velocity",
+        "velocity_in_space",
         "potential",
         "torque",
+        "torque_in_space",
         "damping",
         "parameters",
         "inputs",
@@ -321,19 +326,27 @@ fn system<H>(
     let (coordinates, coordinates_span) = energies::coordinates(&root, algebra.as_ref());
     let inputs = inputs::read(&root, &kind.given.inputs);
     let hamiltonian = match &kind.given.energy {
-        None => energies::hamiltonian(&root, algebra.as_ref(), &coordinates, &parameters, &inputs),
+        None => {
+            let alone = kind.given.acting[0].is_some();
+            let algebra = algebra.as_ref();
+            energies::hamiltonian(&root, algebra, &coordinates, &parameters, &inputs, alone)
+        }
         Some((name, _)) => {
             let parameters = parameters.all();
             Formula { source: name.clone(), parameters, ..Formula::default() }
         }
     };
-    let driven = drive::is_given(&root);
+    let called = kind.given.acting.iter().any(Option::is_some);
+    let driven = drive::is_given(&root) || called;
     let read = || drive::read(&root, algebra.as_ref(), &coordinates, &parameters, &inputs);
     let acting = if driven { read() } else { None };
+    let of_potential = energies::potential(&root, algebra.as_ref(), &parameters, &inputs);
+    let moving = of_potential.as_ref().is_some_and(Formula::moves);
     // Of a wrong drive it is not known.
     if acting.is_some() || !driven {
         let drive = acting.as_ref().map(|read| &read.acting.energy);
-        let energies: Vec<_> = drive.into_iter().chain([&hamiltonian]).collect();
+        let energies: Vec<_> =
+            drive.into_iter().chain(&of_potential).chain([&hamiltonian]).collect();
         energies::check_inputs(&root, &inputs, &energies);
     }
     let coordinates: Vec<String> = coordinates.into_iter().map(|(name, _)| name).collect();
@@ -346,20 +359,21 @@ fn system<H>(
     if integrator.as_ref().is_some_and(|table| table.has("truncation")) {
         run.truncation = choice.truncation;
     }
-    let of_potential = energies::potential(&root, algebra.as_ref(), &parameters);
-    let splitting = Asked::read(&root, integrator.as_ref());
+    let splitting = Asked::read(&root, integrator.as_ref(), moving || called);
     // Mistakes of both energies at once.
-    let potential = of_potential.as_ref().and_then(|energy| {
+    let potential = of_potential.as_ref().filter(|_| !moving).and_then(|energy| {
         assemble_potential("potential".to_owned(), algebra.clone(), None, energy, diagnostics)
     });
     let signals: Vec<Signal> = inputs.into_iter().map(|(signal, _)| signal).collect();
-    // Beside a velocity or a torque a potential has no kicks, nor where none are asked for.
-    let joined = driven || matches!(splitting, Asked::None);
-    let drive = match (&algebra, acting.is_some() || potential.is_some()) {
+    // Beside a velocity or a torque a potential has no kicks, nor one that depends on time, nor where none are asked for.
+    let joined = driven || moving || matches!(splitting, Asked::None);
+    let drive = match (&algebra, acting.is_some() || potential.is_some() || moving) {
         (Some(algebra), true) if joined => {
-            let of_potential = of_potential.as_ref().filter(|_| potential.is_some());
+            let of_potential = of_potential.as_ref().filter(|_| moving || potential.is_some());
             let read = acting.map(|read| (read.acting, read.damping));
-            assemble_drive(algebra, &coordinates, &signals, read, of_potential, diagnostics)
+            let called = kind.given.acting.clone();
+            let names = (&coordinates[..], &signals[..]);
+            assemble_drive(algebra, names, read, called, of_potential, diagnostics)
         }
         _ => None,
     };
@@ -377,9 +391,9 @@ fn system<H>(
         choice,
     };
     let problem = (kind.assemble)(draft, diagnostics)?;
-    if let Some(velocity) = velocity {
+    if let Some(stated) = velocity {
         let gradient = (kind.gradient)(&problem, run.initial_time);
-        run.momentum = initial::momentum(gradient, &velocity, &root);
+        run.momentum = initial::momentum(&gradient, &stated, &root);
         run.velocity_time = (kind.moves)(&problem).then_some(run.initial_time);
     }
     let quadratic = (kind.quadratic)(&problem);

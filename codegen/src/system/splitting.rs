@@ -21,8 +21,8 @@ pub(super) enum Asked {
 
 impl Asked {
     /// Reads `splitting`; it means nothing without a potential, which is a mistake, as it is beside a `velocity`, a `torque` or
-    /// `damping`, unless it is `none`.
-    pub(super) fn read(root: &Table<'_>, integrator: Option<&Table<'_>>) -> Self {
+    /// `damping`, or with a potential that depends on time, unless it is `none`.
+    pub(super) fn read(root: &Table<'_>, integrator: Option<&Table<'_>>, moves: bool) -> Self {
         let text = integrator.and_then(|table| table.string("splitting", "splitting = \"rkn4\""));
         let Some((name, place)) = text else { return Self::Open };
         if !root.has("potential") && !super::drive::is_given(root) {
@@ -34,10 +34,10 @@ impl Asked {
         if name == NONE {
             return Self::None;
         }
-        if super::drive::is_given(root) {
+        if moves || super::drive::is_given(root) {
             let message = format!(
-                "`splitting = \"{name}\"`: a velocity, a torque or damping acts within the step, of order K + 1, and a potential \
-                 beside it too"
+                "`splitting = \"{name}\"`: a velocity, a torque, damping or a potential that depends on time acts within the step, \
+                 of order K + 1, and a potential beside it too"
             );
             root.diagnostics.report_other(place, message, "remove it");
             return Self::Open;

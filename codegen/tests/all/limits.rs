@@ -27,11 +27,6 @@ fn too_many_generators_by_brackets_are_refused_before_anything_is_allocated() {
 
 #[test]
 fn a_bracket_of_a_generator_with_itself_is_told_as_such() {
-    let text = "hamiltonian = \"mu[0]^2\"\n[algebra]\ngenerators = [\"A\", \"B\", \"C\"]\n\
-                brackets = [\"[A, B] = C\", \"[A, A] = C\"]\n";
-    let said = said(text);
-    assert!(said.contains("file.toml:4:27: error: [A, A] = 0 always"), "{said}");
-    assert!(!said.contains("twice"), "{said}");
     let names = ["A", "B"].map(String::from).to_vec();
     let brackets = [(0, 0, vec![(1, integer(1))])];
     let error = LieAlgebra::from_brackets("wrong", names, brackets).unwrap_err();
@@ -39,38 +34,6 @@ fn a_bracket_of_a_generator_with_itself_is_told_as_such() {
     let entries = [(1, 1, 0, integer(1))];
     let error = LieAlgebra::from_structure_constants("wrong", 2, entries).unwrap_err();
     assert_eq!(error, LieAlgebraError::SelfBracket { generator: "e2".into(), index: 1 });
-}
-
-const BODY: &str = r#"name = "body"
-group = "SO3"
-coordinates = ["x", "y", "z"]
-hamiltonian = "x^2 + y^2/2"
-[algebra_of_comments] # with a " in it
-"#;
-
-#[test]
-fn a_missing_quote_is_one_mistake_at_the_quote_that_has_no_partner() {
-    for (whole, cut, place) in [
-        ("\"body\"", "\"body", "1:8"),
-        ("\"SO3\"", "\"SO3", "2:9"),
-        ("[\"x\", ", "[\"x, ", "3:16"),
-        ("\"z\"]", "\"z]", "3:26"),
-        ("y^2/2\"", "y^2/2", "4:15"),
-        ("\"body\"", "\"\"\"body\"", "1:8"),
-        ("\"body\"", "'body\"", "1:8"),
-    ] {
-        let text = BODY.replacen(whole, cut, 1);
-        assert_ne!(text, BODY);
-        let said = said(&text);
-        assert_eq!(said.matches("error: ").count(), 1, "{said}");
-        assert!(
-            said.contains(&format!("file.toml:{place}: error: this quote has no partner")),
-            "{said}"
-        );
-    }
-    // Other mistakes are reported as such.
-    let said = said(&BODY.replacen("name =", "name", 1));
-    assert!(said.contains("TOML") && !said.contains("partner"), "{said}");
 }
 
 /// The momentum grows as e^t, and with it what a missing term does.

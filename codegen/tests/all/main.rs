@@ -2,6 +2,7 @@
 #![allow(missing_docs, clippy::panic)]
 
 mod c_header;
+mod cases;
 mod expressions;
 mod given;
 mod limits;

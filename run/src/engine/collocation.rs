@@ -112,7 +112,7 @@ impl<'a, const M: usize, D: Drive<Tables> + Clone> Collocated<'a, M, D> {
         drive: D,
     ) -> Result<Self, StepError> {
         let energy = Interpreted::new(step::Energy::smooth(smooth, parameters));
-        let remembers = smooth.given.is_some() && smooth.kicks.is_none();
+        let remembers = smooth.is_function() && smooth.kicks.is_none();
         let whole = || Collocation::driven((**group).clone(), energy.clone(), drive.clone(), size);
         let whole = remembers.then(whole).transpose()?.map(Mutex::new);
         Ok(Self { smooth, energy, drive, whole })

@@ -30,7 +30,7 @@ impl Expression {
     /// # Errors
     /// [`JudgeError::Given`] of a function that has no formula.
     pub(super) fn new(smooth: &Smooth) -> Result<Self, JudgeError> {
-        if smooth.given.is_some() {
+        if smooth.is_function() {
             return Err(JudgeError::Given);
         }
         let program = &smooth.value;

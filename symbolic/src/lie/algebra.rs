@@ -260,6 +260,22 @@ impl LieAlgebra {
         };
         self.basis.clone().unwrap_or_else(|| (0..n).map(adjoint).collect())
     }
+
+    /// Matrices Dₖ in the span of the [matrices](Self::matrices) Eₗ with ⟨Dₖ, Eₗ⟩ = δₖₗ; `None` where these are linearly dependent.
+    pub(crate) fn dual_matrices(&self) -> Option<Vec<RationalMatrix>> {
+        let (basis, n, size) = (self.matrices(), self.dim(), self.matrix_size());
+        let mut gram = Vec::new();
+        for (k, a) in basis.iter().enumerate() {
+            for (l, b) in basis.iter().enumerate() {
+                gram.extend(a.entries().map(|(i, j, value)| (k, l, value * b.get(i, j))));
+            }
+        }
+        let mut dual = vec![RationalMatrix::zero(size, size); n];
+        for (k, l, weight) in RationalMatrix::from_entries(n, n, gram).inverse()?.entries() {
+            dual[k] = dual[k].plus(&basis[l], weight);
+        }
+        Some(dual)
+    }
 }
 
 fn default_names(dimension: usize) -> Vec<String> {

@@ -63,15 +63,12 @@ impl Invariants {
         let of_drive = drive.and_then(|drive| drive.potential.as_ref());
         let energetic = of_drive.map(|(potential, _)| potential).or(potential);
         let force = drive.and_then(|drive| drive.torque.as_ref()).or(potential);
-        let torque = force.is_some_and(|force| force.alone().is_some());
-        let no_energy = match (torque, moves) {
-            (true, _) => Some("not conserved: a torque acts, which is not Hamiltonian"),
-            (_, true) => Some("not conserved: the Hamiltonian depends on time"),
-            _ => None,
-        };
+        let of_torque = drive.and_then(|drive| drive.no_energy);
+        let of_time = moves.then_some("not conserved: the Hamiltonian depends on time");
+        let no_energy = of_torque.or(of_time);
         let hamiltonian = hamiltonian.filter(|_| no_energy.is_none());
         let smooth = hamiltonian.and_then(Hamiltonian::smooth);
-        let potential_of_energy = energetic.filter(|_| !torque);
+        let potential_of_energy = energetic.filter(|_| of_torque.is_none());
         let mut casimirs = watched_casimirs(algebra);
         casimirs.retain(|casimir| force.is_none_or(|force| force.keeps(casimir)));
         let mut symbols =

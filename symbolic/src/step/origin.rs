@@ -154,9 +154,9 @@ impl Origin {
         self.smooth()?.drive.as_deref()
     }
 
-    /// True if the Hamiltonian is a function of the user's, of which there are no programs.
+    /// True if a part of the system is a function of the user's, of which there are no programs.
     pub fn is_function(&self) -> bool {
-        matches!(self, Self::Collocation(smooth) if smooth.given.is_some())
+        self.smooth().is_some_and(Smooth::is_function)
     }
 
     /// The order of accuracy: K + 1, or that of the splitting where it is lower.

@@ -66,7 +66,7 @@ impl Tables {
         let basis = matrices.iter().map(entries).collect();
         let dual = match (chart, algebra.basis()) {
             (Chart::Exponential, None) => Vec::new(),
-            _ => dual_of(&matrices)?.iter().map(entries).collect(),
+            _ => algebra.dual_matrices()?.iter().map(entries).collect(),
         };
         let orthogonal = matrices.iter().all(RationalMatrix::is_antisymmetric);
         Some(Self { chart, dim, size, structure, basis, dual, slope, orthogonal })
@@ -282,22 +282,6 @@ fn row_norm(graph: &Graph, matrix: &Matrix) -> Id {
 
 fn factorial(n: usize) -> f64 {
     (2..=n).map(|i| i as f64).product()
-}
-
-/// Matrices Dₖ in the span of the Eₗ with ⟨Dₖ, Eₗ⟩ = δₖₗ; `None` where these are linearly dependent.
-fn dual_of(basis: &[RationalMatrix]) -> Option<Vec<RationalMatrix>> {
-    let (n, size) = (basis.len(), basis.first().map_or(0, RationalMatrix::rows));
-    let mut gram = Vec::new();
-    for (k, a) in basis.iter().enumerate() {
-        for (l, b) in basis.iter().enumerate() {
-            gram.extend(a.entries().map(|(i, j, value)| (k, l, value * b.get(i, j))));
-        }
-    }
-    let mut dual = vec![RationalMatrix::zero(size, size); n];
-    for (k, l, weight) in RationalMatrix::from_entries(n, n, gram).inverse()?.entries() {
-        dual[k] = dual[k].plus(&basis[l], weight);
-    }
-    Some(dual)
 }
 
 impl Part for Tables {

@@ -114,24 +114,9 @@ fn cayley_where_it_exists() {
     }
 }
 
+/// `codegen/tests/cases/system_files.cases` has the messages.
 #[test]
-fn messages() {
-    let message = |text: &str| catalogue::lookup(text).unwrap_err().to_string();
-    assert!(message("SO3 * Heisenbreg").contains("did you mean `Heisenberg`"));
-    assert!(message("so3").contains("did you mean `SO3`"));
-    assert!(message("SE_2(4)").contains("unknown group"));
-    assert!(message("Sp5").contains("unknown group"));
-    assert!(message("E8").contains("unknown group"));
-    assert!(message("SO3 *").contains("expected a group such as SO3 but found the end"));
-    assert!(message("SO3 SO3").contains("found `SO3`"));
-    assert!(message("SO3^0").contains("positive whole number"));
-    assert!(message("SO3 |x R4").contains("R3 and Sym3"));
-    assert!(message("SO3^99999999").contains("too large"));
-    assert!(message("SU99").contains("too large"));
-    assert!(message("SO3 + SO3").contains("`+`"));
-    assert!(message("").contains("the end"));
-    assert!(message(&"(".repeat(100_000)).contains("cannot read"));
-    assert!(message("SO0").contains("unknown group"));
-    assert!(message("SO3 | R3").contains("`|`"));
-    assert!(message("SO3(").contains("found `(`"));
+fn a_name_of_any_length_is_refused() {
+    let said = catalogue::lookup(&"(".repeat(100_000)).unwrap_err().to_string();
+    assert!(said.contains("cannot read"), "{said}");
 }

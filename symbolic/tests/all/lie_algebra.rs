@@ -126,9 +126,3 @@ fn cayley_needs_matrices() {
     assert!(matches!(error, ChartError::NoMatrices { .. }));
     assert!(error.to_string().contains("exponential chart"));
 }
-
-#[test]
-fn unknown_group() {
-    let error = catalogue::lookup("so33").unwrap_err().to_string();
-    assert!(error.contains("did you mean `SO3`"), "{error}");
-}

@@ -21,6 +21,7 @@ mod hygiene;
 mod implementations;
 mod inline_algebra;
 mod judged_collocation;
+mod kernel_page;
 mod kernels;
 mod kicked;
 mod lanes;

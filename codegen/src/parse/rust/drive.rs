@@ -93,8 +93,17 @@ pub(super) fn read(
     }
     let (arena, parameters) = (evaluator.into_arena(), parameters.clone());
     let energy = Formula { arena, root: None, parameters, source: sources.join(", ") };
-    let acting = Acting { energy, roots };
-    assemble_drive(algebra?, coordinates, &[], Some((acting, None)), None, diagnostics)
+    let [velocity, torque] = roots;
+    // None is given in space.
+    let acting = Acting { energy, roots: [velocity, torque, None, None] };
+    assemble_drive(
+        algebra?,
+        (coordinates, &[]),
+        Some((acting, None)),
+        [const { None }; 2],
+        None,
+        diagnostics,
+    )
 }
 
 /// Binds the arguments of a function: a parameter of the Hamiltonian by its name; the time `t`, the matrix `g` of the group element,
