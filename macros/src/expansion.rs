@@ -1,6 +1,7 @@
 //! The work that both attributes share: read the function, keep it, report mistakes.
 
 use coadjoint_codegen::emit;
+use coadjoint_codegen::parse::rust;
 use proc_macro2::{Ident, TokenStream};
 use quote::{ToTokens, quote};
 use syn::ItemFn;
@@ -48,6 +49,7 @@ pub(crate) fn expand(
         let own = items.struct_and_methods;
         emit::Items { struct_and_methods: quote!(#errors #own), ..items }
     });
+    let function = rust::without_attributes(function);
     // Many users only want what is generated; then the function is not dead code either.
     quote!(#[allow(dead_code)] #function #struct_and_methods #programs)
 }

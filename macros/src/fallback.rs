@@ -8,6 +8,7 @@
 use coadjoint_codegen::diagnostic::nearest;
 use coadjoint_codegen::emit::{Items, Options};
 use coadjoint_codegen::lie::catalogue;
+use coadjoint_codegen::parse::rust;
 use proc_macro2::{TokenStream, TokenTree};
 use quote::quote;
 use syn::{Block, FnArg, ItemFn, parse_quote};
@@ -24,8 +25,9 @@ pub(crate) fn items(
     first: &TokenStream,
 ) -> Items {
     // Of an array or a vector, of an array of arrays, of a matrix.
+    let beside = rust::faultless(function);
     let bodies: [Block; 3] = [
-        parse_quote!({ coordinates[0] }),
+        parse_quote!({ #(#beside)* coordinates[0] }),
         parse_quote!({ coordinates[0][0] }),
         parse_quote!({ coordinates[(0, 0)] }),
     ];

@@ -153,6 +153,37 @@ mod table;
 /// # }
 /// ```
 ///
+/// # Velocities and torques
+///
+/// A function with the attribute `#[velocity]` or `#[torque]` in the body acts beside the Hamiltonian: with ω = ∂H/∂μ, a velocity η
+/// and a torque τ the motion is ġ = g (ω + η), μ̇ = ad\*_(ω + η) μ + τ. It returns a number for each coordinate of the momentum, and
+/// has any of these arguments: the time `t: f64`, the matrix `g: [[f64; m]; m]` of the group element, the momentum `mu` and the
+/// velocity `omega`, each `[f64; n]` or a vector of nalgebra; parameters of the Hamiltonian, by their names; and parameters of its
+/// own, which `new` takes after those. Steps are made by collocation.
+///
+/// ```
+/// use coadjoint::{Phase, SO3, lie_poisson};
+///
+/// /// A body that the air slows down.
+/// #[lie_poisson(group = SO3)]
+/// fn slow_body(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
+///     #[torque]
+///     fn drag(mu: [f64; 3], rate: f64) -> [f64; 3] {
+///         mu.map(|m| -rate * m)
+///     }
+///     0.5 * (mu[0] * mu[0] / inertia[0] + mu[1] * mu[1] / inertia[1] + mu[2] * mu[2] / inertia[2])
+/// }
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let step = SlowBody::new(0.1, [1.5, 2.0, 2.5], 0.2)?;
+/// let mut state = Phase::<SO3>::at_identity([2.0, 0.5, 1.0]);
+/// let before = state.momentum.norm();
+/// step.advance_by(&mut state, 100)?;
+/// assert!((state.momentum.norm() / before - f64::exp(-0.2 * 10.0)).abs() < 1e-10);
+/// # Ok(())
+/// # }
+/// ```
+///
 /// # What it generates
 ///
 /// A struct named after the function in camel case, generic over the scalar ([`Scalar`]): `new(step,

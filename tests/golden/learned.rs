@@ -683,9 +683,9 @@ const _: () = {
         let mut driven = Driven::none(c.of(0.0));
         let mut live = true;
         let mut x = [c.of(0.0); 3];
-        let mut done: u64 = 0;
+        let mut done = 0;
         while live && done < steps {
-            let mut count: u64 = 0;
+            let mut count = 0;
             let mut g_start;
             let mut mu_start;
             g_start = g;
@@ -696,7 +696,7 @@ const _: () = {
                 let mut residual_bound = c.of(1.0);
                 let mut distance = c.of(0.0);
                 let mut right = c.of(0.0);
-                let mut tried: u64 = 0;
+                let mut tried = 0;
                 (p, k) = guess(c, &mu);
                 let mut lanes1 = open(c, residual_bound, distance);
                 while tried < 12 && T::any(lanes1) {

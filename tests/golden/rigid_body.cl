@@ -29,55 +29,55 @@
 #define WIDTH 8
 #define DIM_ARRAY 3
 #define ELEMENT_ARRAY 4
-#define TOLERANCE 0x1p-21f
-#define NEAR 0x1.99999ap-5f
+#define TOLERANCE 4.76837158203125e-7f
+#define NEAR 0.05000000074505806f
 
 __constant NUMBER coadjoint_slots[46] = {
-    0x1.111112p-4f,
-    0x1.8daea2p-19f,
-    0x1.f11a4ap-21f,
-    0x1.99999ap-5f,
-    0x1.2a42fap-21f,
-    0x1.47ae14p-5f,
-    0x1.f11a4ap-20f,
-    0x1.8daea2p-18f,
-    0x1.2a42fap-20f,
-    (-0x1.47ae14p-8f),
-    0x1.65e9f8p-21f,
-    0x1.bf6476p-23f,
+    0.06666667014360428f,
+    2.9629629807459423e-6f,
+    9.259259172722523e-7f,
+    0.05000000074505806f,
+    5.555555731007189e-7f,
+    0.03999999910593033f,
+    1.8518518345445045e-6f,
+    5.925925961491885e-6f,
+    1.1111111462014378e-6f,
+    (-0.004999999888241291f),
+    6.666666649834951e-7f,
+    2.0833333280734223e-7f,
     1.0f,
-    (-0x1.46394p-13f),
-    0x1.a4ccfep-29f,
-    (-0x1.d208a6p-16f),
-    (-0x1.2e3d0ap-26f),
-    (-0x1.23a232p-28f),
-    0x1.2a42fap-20f,
-    (-0x1.a831bep-27f),
-    (-0x1.a831bep-27f),
+    (-0.00015555555000901222f),
+    3.0617284263456668e-9f,
+    (-2.7777778086601757e-5f),
+    (-1.759259227185339e-8f),
+    (-4.243827067540451e-9f),
+    1.1111111462014378e-6f,
+    (-1.2345679145653321e-8f),
+    (-1.2345679145653321e-8f),
     1.0f,
-    (-0x1.a36e2ep-14f),
-    0x1.1d0efep-29f,
-    (-0x1.dd37f6p-28f),
-    0x1.b4e81cp-7f,
-    (-0x1.1660a4p-20f),
-    0x1.2a42fap-20f,
-    (-0x1.36b06ep-16f),
-    0x1.8bea28p-27f,
-    (-0x1.cb8b38p-29f),
-    0x1.091f16p-22f,
-    0x1.1acbd4p-28f,
+    (-9.999999747378752e-5f),
+    2.0740740236391275e-9f,
+    (-6.944444574941144e-9f),
+    0.013333333656191826f,
+    (-1.0370370091550285e-6f),
+    1.1111111462014378e-6f,
+    (-1.851851811807137e-5f),
+    1.1522633514005065e-8f,
+    (-3.3436213797699565e-9f),
+    2.469135722549254e-7f,
+    4.11522638188444e-9f,
     1.0f,
-    0x1.5d867cp-14f,
-    (-0x1.316b7ep-28f),
-    0x1.dd37f6p-29f,
-    (-0x1.111112p-7f),
-    0x1.2a42fap-20f,
-    (-0x1.36b06ep-21f),
-    0x1.36b06ep-15f,
-    (-0x1.f1b8a8p-30f),
-    (-0x1.2c7892p-27f),
-    (-0x1.4b66dcp-21f),
-    0x1.1acbd4p-28f,
+    8.333333244081587e-5f,
+    (-4.444444368090217e-9f),
+    3.472222287470572e-9f,
+    (-0.008333333767950535f),
+    1.1111111462014378e-6f,
+    (-5.787036911897303e-7f),
+    3.703703623614274e-5f,
+    (-1.8106995902655854e-9f),
+    (-8.744856394571343e-9f),
+    (-6.172839448481682e-7f),
+    4.11522638188444e-9f,
     INFINITY,
 };
 
@@ -137,7 +137,7 @@ INLINE void coadjoint_guess(const float *RESTRICT mu, float *RESTRICT p, float *
     const float t85 = (t84 <= t83) ? t83 : t84;
     const float t86 = fabs(mu[2]);
     const float t87 = (t86 <= t85) ? t85 : t86;
-    const float t88 = 0x1p-126f + t87;
+    const float t88 = 1.1754943508222875e-38f + t87;
     const float t90 = 1.0f / t88;
     p[0] = t30;
     p[1] = t55;
@@ -172,36 +172,36 @@ INLINE void coadjoint_correct(const float *RESTRICT p, const float *RESTRICT mu,
     const float t38 = t37 * t37;
     const float t39 = t38 * t38;
     const float t40 = t39 * t39;
-    const float t43 = fma(t37, (-0x1.555556p-5f), 0x1p-1f);
-    const float t46 = fma(t37, (-0x1.a01a02p-16f), 0x1.6c16c2p-10f);
+    const float t43 = fma(t37, (-0.0416666679084301f), 0.5f);
+    const float t46 = fma(t37, (-2.4801587642286904e-5f), 0.0013888889225199819f);
     const float t47 = fma(t38, t46, t43);
-    const float t50 = fma(t37, (-0x1.1eed8ep-29f), 0x1.27e4fcp-22f);
-    const float t53 = fma(t37, (-0x1.ae7f3ep-45f), 0x1.93974ap-37f);
+    const float t50 = fma(t37, (-2.0876755879584152e-9f), 2.755731998149713e-7f);
+    const float t53 = fma(t37, (-4.7794772561329454e-14f), 1.147074536050896e-11f);
     const float t54 = fma(t38, t53, t50);
     const float t55 = fma(t39, t54, t47);
-    const float t58 = fma(t37, (-0x1.e542bap-62f), 0x1.682786p-53f);
-    const float t60 = fma(t38, 0x1.0ce396p-70f, t58);
+    const float t58 = fma(t37, (-4.110317590937049e-19f), 1.5619206814541513e-16f);
+    const float t60 = fma(t38, 8.896790959566848e-22f, t58);
     const float t61 = fma(t40, t60, t55);
-    const float t64 = fma(t37, (-0x1.111112p-7f), 0x1.555556p-3f);
-    const float t67 = fma(t37, (-0x1.71de3ap-19f), 0x1.a01a02p-13f);
+    const float t64 = fma(t37, (-0.008333333767950535f), 0.1666666716337204f);
+    const float t67 = fma(t37, (-2.7557318844628753e-6f), 0.00019841270113829523f);
     const float t68 = fma(t38, t67, t64);
-    const float t71 = fma(t37, (-0x1.612462p-33f), 0x1.ae6456p-26f);
-    const float t74 = fma(t37, (-0x1.952c78p-49f), 0x1.ae7f3ep-41f);
+    const float t71 = fma(t37, (-1.6059044372074283e-10f), 2.5052107943679403e-8f);
+    const float t74 = fma(t37, (-2.8114573589663704e-15f), 7.647163609812713e-13f);
     const float t75 = fma(t38, t74, t71);
     const float t76 = fma(t39, t75, t68);
-    const float t79 = fma(t37, (-0x1.71b8fp-66f), 0x1.2f49b4p-57f);
+    const float t79 = fma(t37, (-1.9572941524685808e-20f), 8.220635078476521e-18f);
     const float t80 = fma(t40, t79, t76);
-    const float t83 = fma(t37, 0x1.6c16c2p-8f, (-0x1.555556p-4f));
-    const float t86 = fma(t37, 0x1.27e4fcp-19f, (-0x1.381382p-13f));
+    const float t83 = fma(t37, 0.0055555556900799274f, (-0.0833333358168602f));
+    const float t86 = fma(t37, 2.2045855985197704e-6f, (-0.00014880952949170023f));
     const float t87 = fma(t38, t86, t83);
-    const float t90 = fma(t37, 0x1.2eb178p-33f, (-0x1.66a8f2p-26f));
-    const float t92 = fma(t38, (-0x1.78af56p-41f), t90);
+    const float t90 = fma(t37, 1.3764894779555448e-10f, (-2.0876756323673362e-8f));
+    const float t92 = fma(t38, (-6.691268090823488e-13f), t90);
     const float t93 = fma(t39, t92, t87);
-    const float t96 = fma(t37, 0x1.a01a02p-11f, (-0x1.111112p-6f));
-    const float t99 = fma(t37, 0x1.ae6456p-23f, (-0x1.1566acp-16f));
+    const float t96 = fma(t37, 0.0007936508045531809f, (-0.01666666753590107f));
+    const float t99 = fma(t37, 2.0041686354943522e-7f, (-1.6534391761524603e-5f));
     const float t100 = fma(t38, t99, t96);
-    const float t103 = fma(t37, 0x1.42df6ep-37f, (-0x1.b96d7ap-30f));
-    const float t105 = fma(t38, (-0x1.6286e8p-45f), t103);
+    const float t103 = fma(t37, 9.17659611493482e-12f, (-1.6059044094518526e-9f));
+    const float t105 = fma(t38, (-3.936040133146329e-14f), t103);
     const float t106 = fma(t39, t105, t100);
     const float t107 = -mu[2];
     const float t108 = mu[1] * t25;
@@ -403,7 +403,7 @@ INLINE void coadjoint_correct(const float *RESTRICT p, const float *RESTRICT mu,
     const float t307 = fabs(t288);
     const float t308 = (t307 <= t306) ? t306 : t307;
     const float t309 = k[0] * t308;
-    const float t311 = (t275 <= 0x1.ce147ap+1f) ? t309 : 0x1.fffffep+127f;
+    const float t311 = (t275 <= 3.609999895095825f) ? t309 : 3.4028234663852886e38f;
     const float t312 = fabs(t291);
     const float t313 = fabs(t294);
     const float t314 = (t313 <= t312) ? t312 : t313;
@@ -415,13 +415,13 @@ INLINE void coadjoint_correct(const float *RESTRICT p, const float *RESTRICT mu,
     const float t320 = fabs(t25);
     const float t321 = (t320 <= t319) ? t319 : t320;
     const float t322 = t321 * t321;
-    const float t324 = t322 * 0x1p-2f;
+    const float t324 = t322 * 0.25f;
     const float t325 = t311 * t324;
-    const float t326 = fma(0x1p-1f, t316, t325);
+    const float t326 = fma(0.5f, t316, t325);
     const float t327 = k[1] * t311;
     const float t328 = fma(t316, t326, t327);
-    const float t332 = 0x1p-23f * 4.0f;
-    const float t333 = (t311 <= 0x1.0624dep-10f) ? t328 : t311;
+    const float t332 = 1.1920928955078125e-7f * 4.0f;
+    const float t333 = (t311 <= 0.0010000000474974513f) ? t328 : t311;
     const float t334 = (t333 <= t311) ? t333 : t311;
     const float t335 = (t311 <= t332) ? t334 : t333;
     p_next[0] = t298;
@@ -436,22 +436,22 @@ INLINE void coadjoint_correct(const float *RESTRICT p, const float *RESTRICT mu,
 
 INLINE void coadjoint_accept(const float *RESTRICT mu, const float *RESTRICT x, float residual_bound, float distance, float *RESTRICT right)
 {
-    const float t10 = 0x1p-23f * 4.0f;
+    const float t10 = 1.1920928955078125e-7f * 4.0f;
     const float t12 = x[0] * x[0];
     const float t13 = fma(x[1], x[1], t12);
     const float t14 = fma(x[2], x[2], t13);
-    const float t16 = t14 * 0x1.9f02f6p-4f;
+    const float t16 = t14 * 0.10132118314504623f;
     const float t18 = fabs(t16);
     const float t19 = t16 - t16;
     const float t20 = t18 + t19;
-    const float t25 = (coadjoint_slots[45] <= 0x1.fffffep+127f) ? 4.0f : 9.0f;
+    const float t25 = (coadjoint_slots[45] <= 3.4028234663852886e38f) ? 4.0f : 9.0f;
     const float t26 = t20 * t25;
     const float t27 = mu[0] * mu[0];
     const float t28 = fma(mu[1], mu[1], t27);
     const float t29 = fma(mu[2], mu[2], t28);
     const float t30 = (t29 <= coadjoint_slots[45]) ? 1.0f : 0.0f;
     const float t31 = (t26 <= 1.0f) ? t30 : 0.0f;
-    const float t32 = (distance <= 0x1.99999ap-5f) ? t31 : 0.0f;
+    const float t32 = (distance <= 0.05000000074505806f) ? t31 : 0.0f;
     const float t33 = (residual_bound <= t10) ? t32 : 0.0f;
     *right = t33;
 }
@@ -464,22 +464,22 @@ INLINE void coadjoint_transport(const float *RESTRICT g, const float *RESTRICT m
     const float t13 = t12 * t12;
     const float t14 = t13 * t13;
     const float t15 = t14 * t14;
-    const float t18 = fma(t12, (-0x1p-3f), 1.0f);
-    const float t21 = fma(t12, (-0x1.6c16c2p-16f), 0x1.555556p-9f);
+    const float t18 = fma(t12, (-0.125f), 1.0f);
+    const float t21 = fma(t12, (-2.1701389414374717e-5f), 0.0026041667442768812f);
     const float t22 = fma(t13, t21, t18);
-    const float t25 = fma(t12, (-0x1.27e4fcp-32f), 0x1.a01a02p-24f);
-    const float t28 = fma(t12, (-0x1.93974ap-51f), 0x1.1eed8ep-41f);
+    const float t25 = fma(t12, (-2.691144529443079e-10f), 9.688120172768322e-8f);
+    const float t28 = fma(t12, (-7.00118735382627e-16f), 5.0968642284141e-13f);
     const float t29 = fma(t13, t28, t25);
     const float t30 = fma(t14, t29, t22);
-    const float t32 = fma(t15, 0x1.ae7f3ep-61f, t30);
-    const float t35 = fma(t12, (-0x1.555556p-6f), 0x1p-1f);
-    const float t38 = fma(t12, (-0x1.a01a02p-20f), 0x1.111112p-12f);
+    const float t32 = fma(t15, 7.29290352803489e-19f, t30);
+    const float t35 = fma(t12, (-0.02083333395421505f), 0.5f);
+    const float t38 = fma(t12, (-1.5500992276429315e-6f), 0.0002604166802484542f);
     const float t39 = fma(t13, t38, t35);
-    const float t42 = fma(t12, (-0x1.ae6456p-37f), 0x1.71de3ap-28f);
-    const float t45 = fma(t12, (-0x1.ae7f3ep-56f), 0x1.612462p-46f);
+    const float t42 = fma(t12, (-1.2232474581874708e-11f), 5.382288836841553e-9f);
+    const float t45 = fma(t12, (-2.3337291289711648e-17f), 1.960332564950474e-14f);
     const float t46 = fma(t13, t45, t42);
     const float t47 = fma(t14, t46, t39);
-    const float t49 = fma(t15, 0x1.952c78p-66f, t47);
+    const float t49 = fma(t15, 2.1449717399340594e-20f, t47);
     const float t50 = x[0] * t49;
     const float t51 = x[1] * t49;
     const float t52 = x[2] * t49;
@@ -507,7 +507,7 @@ INLINE void coadjoint_transport(const float *RESTRICT g, const float *RESTRICT m
     const float t74 = fma(t70, t70, t73);
     const float t75 = fma(t71, t71, t74);
     const float t76 = fma(t72, t72, t75);
-    const float t79 = fma(t76, (-0x1p-1f), 0x1.8p+0f);
+    const float t79 = fma(t76, (-0.5f), 1.5f);
     const float t80 = t57 * t79;
     const float t81 = t70 * t79;
     const float t82 = t71 * t79;
@@ -562,7 +562,7 @@ INLINE void coadjoint_sound(const float *RESTRICT g, const float *RESTRICT mu, f
     const float t18 = mu[2] - mu[2];
     const float t19 = t17 + t18;
     const float t20 = t14 + t19;
-    const float t22 = sqrt(0x1p-23f);
+    const float t22 = sqrt(1.1920928955078125e-7f);
     const float t23 = (t20 <= t22) ? 1.0f : 0.0f;
     *right = t23;
 }
@@ -589,16 +589,16 @@ KERNEL void coadjoint_steps(GLOBAL NUMBER *RESTRICT states, GLOBAL COUNT *RESTRI
     for (int i = 0; i < DIM; i++) {
         mu[i] = own[(ELEMENT + i) * WIDTH];
     }
-    float x[DIM] = {0};
+    float x[3] = {0};
     COUNT done = 0u;
     while ((why == 0u) && (done < steps)) {
         COUNT count = 0u;
-        float g_start[ELEMENT];
-        float mu_start[DIM];
-        coadjoint_copy(g_start, g, ELEMENT);
-        coadjoint_copy(mu_start, mu, DIM);
+        float g_start[4];
+        float mu_start[3];
+        coadjoint_copy(g_start, g, 4u);
+        coadjoint_copy(mu_start, mu, 3u);
         while ((why == 0u) && (done < steps) && (count < 256u)) {
-            float p[DIM];
+            float p[3];
             float k[2];
             float residual_bound = 1.0f;
             float distance = 0.0f;
@@ -607,22 +607,22 @@ KERNEL void coadjoint_steps(GLOBAL NUMBER *RESTRICT states, GLOBAL COUNT *RESTRI
             coadjoint_guess(mu, p, k);
             while ((tried < 12u) && (!(residual_bound <= TOLERANCE) && distance <= NEAR)) {
                 float moved = 0.0f;
-                float p_next[DIM];
+                float p_next[3];
                 coadjoint_correct(p, mu, k, p_next, x, &residual_bound, &moved);
-                coadjoint_copy(p, p_next, DIM);
+                coadjoint_copy(p, p_next, 3u);
                 distance = distance + moved;
                 tried++;
             }
             coadjoint_accept(mu, x, residual_bound, distance, &right);
-            if (!(right == ONE)) {
+            if (right != ONE) {
                 why = !(distance <= NEAR) ? 2u : !(residual_bound <= TOLERANCE) ? 1u : 3u;
             }
             if (right == ONE) {
-                float g_next[ELEMENT];
-                float mu_next[DIM];
+                float g_next[4];
+                float mu_next[3];
                 coadjoint_transport(g, mu, x, g_next, mu_next);
-                coadjoint_copy(g, g_next, ELEMENT);
-                coadjoint_copy(mu, mu_next, DIM);
+                coadjoint_copy(g, g_next, 4u);
+                coadjoint_copy(mu, mu_next, 3u);
                 done++;
                 count++;
             }
@@ -630,10 +630,10 @@ KERNEL void coadjoint_steps(GLOBAL NUMBER *RESTRICT states, GLOBAL COUNT *RESTRI
         if (count >= 1u) {
             float right = 0.0f;
             coadjoint_sound(g, mu, &right);
-            if (!(right == ONE)) {
+            if (right != ONE) {
                 why = 4u;
-                coadjoint_copy(g, g_start, ELEMENT);
-                coadjoint_copy(mu, mu_start, DIM);
+                coadjoint_copy(g, g_start, 4u);
+                coadjoint_copy(mu, mu_start, 3u);
                 done -= count;
             }
         }

@@ -34,55 +34,55 @@
 #define WIDTH 8
 #define DIM_ARRAY 3
 #define ELEMENT_ARRAY 4
-#define TOLERANCE 0x1p-50
-#define NEAR 0x1.999999999999ap-5
+#define TOLERANCE 8.881784197001252e-16
+#define NEAR 0.05
 
 static __constant__ const NUMBER coadjoint_slots[46] = {
-    0x1.1111111111111p-4,
-    0x1.8daea1d7f4cf8p-19,
-    0x1.f11a4a4df2037p-21,
-    0x1.999999999999ap-5,
-    0x1.2a42f961f79bbp-21,
-    0x1.47ae147ae147cp-5,
-    0x1.f11a4a4df2037p-20,
-    0x1.8daea1d7f4cf8p-18,
-    0x1.2a42f961f79bbp-20,
-    (-0x1.47ae147ae147cp-8),
-    0x1.65e9f80f29213p-21,
-    0x1.bf647612f3698p-23,
+    0.06666666666666667,
+    2.9629629629629633e-6,
+    9.259259259259261e-7,
+    0.05,
+    5.555555555555557e-7,
+    0.04000000000000001,
+    1.8518518518518523e-6,
+    5.925925925925927e-6,
+    1.1111111111111115e-6,
+    (-0.005000000000000001),
+    6.666666666666668e-7,
+    2.0833333333333339e-7,
     1.0,
-    (-0x1.463940c326d24p-13),
-    0x1.a4ccfdb7dd391p-29,
-    (-0x1.d208a5a912e34p-16),
-    (-0x1.2e3d0a5c72605p-26),
-    (-0x1.23a2326b2afeap-28),
-    0x1.2a42f961f79bbp-20,
-    (-0x1.a831bdb32743dp-27),
-    (-0x1.a831bdb32743dp-27),
+    (-0.0001555555555555556),
+    3.0617283950617295e-9,
+    (-2.7777777777777786e-5),
+    (-1.7592592592592598e-8),
+    (-4.2438271604938285e-9),
+    1.1111111111111115e-6,
+    (-1.2345679012345683e-8),
+    (-1.2345679012345683e-8),
     1.0,
-    (-0x1.a36e2eb1c432ep-14),
-    0x1.1d0efe744b89cp-29,
-    (-0x1.dd37f5698c2c5p-28),
-    0x1.b4e81b4e81b4fp-7,
-    (-0x1.1660a47d91c48p-20),
-    0x1.2a42f961f79bbp-20,
-    (-0x1.36b06e70b7422p-16),
-    0x1.8bea28851394ap-27,
-    (-0x1.cb8b382cbfdecp-29),
-    0x1.091f168ff88a6p-22,
-    0x1.1acbd3ccc4d7fp-28,
+    (-0.00010000000000000002),
+    2.074074074074075e-9,
+    (-6.944444444444447e-9),
+    0.013333333333333334,
+    (-1.0370370370370373e-6),
+    1.1111111111111115e-6,
+    (-1.851851851851852e-5),
+    1.152263374485597e-8,
+    (-3.3436213991769554e-9),
+    2.4691358024691365e-7,
+    4.115226337448562e-9,
     1.0,
-    0x1.5d867c3ece2a6p-14,
-    (-0x1.316b7e5807ca7p-28),
-    0x1.dd37f5698c2c5p-29,
-    (-0x1.1111111111111p-7),
-    0x1.2a42f961f79bbp-20,
-    (-0x1.36b06e70b7422p-21),
-    0x1.36b06e70b7422p-15,
-    (-0x1.f1b8a7f7c0d82p-30),
-    (-0x1.2c78910991256p-27),
-    (-0x1.4b66dc33f6acfp-21),
-    0x1.1acbd3ccc4d7fp-28,
+    8.333333333333334e-5,
+    (-4.444444444444446e-9),
+    3.4722222222222234e-9,
+    (-0.008333333333333333),
+    1.1111111111111115e-6,
+    (-5.787037037037038e-7),
+    3.703703703703704e-5,
+    (-1.8106995884773669e-9),
+    (-8.744855967078192e-9),
+    (-6.172839506172841e-7),
+    4.115226337448562e-9,
     INFINITY,
 };
 
@@ -142,7 +142,7 @@ INLINE void coadjoint_guess(const double *RESTRICT mu, double *RESTRICT p, doubl
     const double t85 = (t84 <= t83) ? t83 : t84;
     const double t86 = fabs(mu[2]);
     const double t87 = (t86 <= t85) ? t85 : t86;
-    const double t88 = __dadd_rn(0x1p-126, t87);
+    const double t88 = __dadd_rn(1.1754943508222875e-38, t87);
     const double t90 = __ddiv_rn(1.0, t88);
     p[0] = t30;
     p[1] = t55;
@@ -177,36 +177,36 @@ INLINE void coadjoint_correct(const double *RESTRICT p, const double *RESTRICT m
     const double t38 = __dmul_rn(t37, t37);
     const double t39 = __dmul_rn(t38, t38);
     const double t40 = __dmul_rn(t39, t39);
-    const double t43 = __fma_rn(t37, (-0x1.5555555555555p-5), 0x1p-1);
-    const double t46 = __fma_rn(t37, (-0x1.a01a01a01a01ap-16), 0x1.6c16c16c16c17p-10);
+    const double t43 = __fma_rn(t37, (-0.041666666666666664), 0.5);
+    const double t46 = __fma_rn(t37, (-2.48015873015873e-5), 0.001388888888888889);
     const double t47 = __fma_rn(t38, t46, t43);
-    const double t50 = __fma_rn(t37, (-0x1.1eed8eff8d898p-29), 0x1.27e4fb7789f5cp-22);
-    const double t53 = __fma_rn(t37, (-0x1.ae7f3e733b81fp-45), 0x1.93974a8c07c9dp-37);
+    const double t50 = __fma_rn(t37, (-2.08767569878681e-9), 2.755731922398589e-7);
+    const double t53 = __fma_rn(t37, (-4.779477332387385e-14), 1.1470745597729725e-11);
     const double t54 = __fma_rn(t38, t53, t50);
     const double t55 = __fma_rn(t39, t54, t47);
-    const double t58 = __fma_rn(t37, (-0x1.e542ba4020225p-62), 0x1.6827863b97d97p-53);
-    const double t60 = __fma_rn(t38, 0x1.0ce396db7f853p-70, t58);
+    const double t58 = __fma_rn(t37, (-4.110317623312165e-19), 1.5619206968586225e-16);
+    const double t60 = __fma_rn(t38, 8.896791392450574e-22, t58);
     const double t61 = __fma_rn(t40, t60, t55);
-    const double t64 = __fma_rn(t37, (-0x1.1111111111111p-7), 0x1.5555555555555p-3);
-    const double t67 = __fma_rn(t37, (-0x1.71de3a556c734p-19), 0x1.a01a01a01a01ap-13);
+    const double t64 = __fma_rn(t37, (-0.008333333333333333), 0.16666666666666666);
+    const double t67 = __fma_rn(t37, (-2.7557319223985893e-6), 0.0001984126984126984);
     const double t68 = __fma_rn(t38, t67, t64);
-    const double t71 = __fma_rn(t37, (-0x1.6124613a86d09p-33), 0x1.ae64567f544e4p-26);
-    const double t74 = __fma_rn(t37, (-0x1.952c77030ad4ap-49), 0x1.ae7f3e733b81fp-41);
+    const double t71 = __fma_rn(t37, (-1.6059043836821613e-10), 2.505210838544172e-8);
+    const double t74 = __fma_rn(t37, (-2.8114572543455206e-15), 7.647163731819816e-13);
     const double t75 = __fma_rn(t38, t74, t71);
     const double t76 = __fma_rn(t39, t75, t68);
-    const double t79 = __fma_rn(t37, (-0x1.71b8ef6dcf572p-66), 0x1.2f49b46814157p-57);
+    const double t79 = __fma_rn(t37, (-1.9572941063391263e-20), 8.22063524662433e-18);
     const double t80 = __fma_rn(t40, t79, t76);
-    const double t83 = __fma_rn(t37, 0x1.6c16c16c16c17p-8, (-0x1.5555555555555p-4));
-    const double t86 = __fma_rn(t37, 0x1.27e4fb7789f5cp-19, (-0x1.3813813813814p-13));
+    const double t83 = __fma_rn(t37, 0.005555555555555556, (-0.08333333333333333));
+    const double t86 = __fma_rn(t37, 2.204585537918871e-6, (-0.00014880952380952382));
     const double t87 = __fma_rn(t38, t86, t83);
-    const double t90 = __fma_rn(t37, 0x1.2eb177e905d76p-33, (-0x1.66a8f2bf70ebep-26));
-    const double t92 = __fma_rn(t38, (-0x1.78af56a4d411bp-41), t90);
+    const double t90 = __fma_rn(t37, 1.376489471727567e-10, (-2.08767569878681e-8));
+    const double t92 = __fma_rn(t38, (-6.691268265342339e-13), t90);
     const double t93 = __fma_rn(t39, t92, t87);
-    const double t96 = __fma_rn(t37, 0x1.a01a01a01a01ap-11, (-0x1.1111111111111p-6));
-    const double t99 = __fma_rn(t37, 0x1.ae64567f544e4p-23, (-0x1.1566abc011567p-16));
+    const double t96 = __fma_rn(t37, 0.0007936507936507937, (-0.016666666666666666));
+    const double t99 = __fma_rn(t37, 2.0041686708353376e-7, (-1.6534391534391536e-5));
     const double t100 = __fma_rn(t38, t99, t96);
-    const double t103 = __fma_rn(t37, 0x1.42df6ed66ca17p-37, (-0x1.b96d79892884bp-30));
-    const double t105 = __fma_rn(t38, (-0x1.6286e822a97a1p-45), t103);
+    const double t103 = __fma_rn(t37, 9.17659647818378e-12, (-1.6059043836821613e-9));
+    const double t105 = __fma_rn(t38, (-3.936040156083729e-14), t103);
     const double t106 = __fma_rn(t39, t105, t100);
     const double t107 = -mu[2];
     const double t108 = __dmul_rn(mu[1], t25);
@@ -408,7 +408,7 @@ INLINE void coadjoint_correct(const double *RESTRICT p, const double *RESTRICT m
     const double t307 = fabs(t288);
     const double t308 = (t307 <= t306) ? t306 : t307;
     const double t309 = __dmul_rn(k[0], t308);
-    const double t311 = (t275 <= 0x1.ce147ae147ae1p+1) ? t309 : 0x1.fffffep+127;
+    const double t311 = (t275 <= 3.61) ? t309 : 3.4028234663852886e38;
     const double t312 = fabs(t291);
     const double t313 = fabs(t294);
     const double t314 = (t313 <= t312) ? t312 : t313;
@@ -420,13 +420,13 @@ INLINE void coadjoint_correct(const double *RESTRICT p, const double *RESTRICT m
     const double t320 = fabs(t25);
     const double t321 = (t320 <= t319) ? t319 : t320;
     const double t322 = __dmul_rn(t321, t321);
-    const double t324 = __dmul_rn(t322, 0x1p-2);
+    const double t324 = __dmul_rn(t322, 0.25);
     const double t325 = __dmul_rn(t311, t324);
-    const double t326 = __fma_rn(0x1p-1, t316, t325);
+    const double t326 = __fma_rn(0.5, t316, t325);
     const double t327 = __dmul_rn(k[1], t311);
     const double t328 = __fma_rn(t316, t326, t327);
-    const double t332 = __dmul_rn(0x1p-52, 4.0);
-    const double t333 = (t311 <= 0x1.0624dd2f1a9fcp-10) ? t328 : t311;
+    const double t332 = __dmul_rn(2.220446049250313e-16, 4.0);
+    const double t333 = (t311 <= 0.001) ? t328 : t311;
     const double t334 = (t333 <= t311) ? t333 : t311;
     const double t335 = (t311 <= t332) ? t334 : t333;
     p_next[0] = t298;
@@ -441,22 +441,22 @@ INLINE void coadjoint_correct(const double *RESTRICT p, const double *RESTRICT m
 
 INLINE void coadjoint_accept(const double *RESTRICT mu, const double *RESTRICT x, double residual_bound, double distance, double *RESTRICT right)
 {
-    const double t10 = __dmul_rn(0x1p-52, 4.0);
+    const double t10 = __dmul_rn(2.220446049250313e-16, 4.0);
     const double t12 = __dmul_rn(x[0], x[0]);
     const double t13 = __fma_rn(x[1], x[1], t12);
     const double t14 = __fma_rn(x[2], x[2], t13);
-    const double t16 = __dmul_rn(t14, 0x1.9f02f6222c72p-4);
+    const double t16 = __dmul_rn(t14, 0.10132118364233778);
     const double t18 = fabs(t16);
     const double t19 = __dsub_rn(t16, t16);
     const double t20 = __dadd_rn(t18, t19);
-    const double t25 = (coadjoint_slots[45] <= 0x1.fffffep+127) ? 4.0 : 9.0;
+    const double t25 = (coadjoint_slots[45] <= 3.4028234663852886e38) ? 4.0 : 9.0;
     const double t26 = __dmul_rn(t20, t25);
     const double t27 = __dmul_rn(mu[0], mu[0]);
     const double t28 = __fma_rn(mu[1], mu[1], t27);
     const double t29 = __fma_rn(mu[2], mu[2], t28);
     const double t30 = (t29 <= coadjoint_slots[45]) ? 1.0 : 0.0;
     const double t31 = (t26 <= 1.0) ? t30 : 0.0;
-    const double t32 = (distance <= 0x1.999999999999ap-5) ? t31 : 0.0;
+    const double t32 = (distance <= 0.05) ? t31 : 0.0;
     const double t33 = (residual_bound <= t10) ? t32 : 0.0;
     *right = t33;
 }
@@ -469,22 +469,22 @@ INLINE void coadjoint_transport(const double *RESTRICT g, const double *RESTRICT
     const double t13 = __dmul_rn(t12, t12);
     const double t14 = __dmul_rn(t13, t13);
     const double t15 = __dmul_rn(t14, t14);
-    const double t18 = __fma_rn(t12, (-0x1p-3), 1.0);
-    const double t21 = __fma_rn(t12, (-0x1.6c16c16c16c17p-16), 0x1.5555555555555p-9);
+    const double t18 = __fma_rn(t12, (-0.125), 1.0);
+    const double t21 = __fma_rn(t12, (-2.170138888888889e-5), 0.0026041666666666665);
     const double t22 = __fma_rn(t13, t21, t18);
-    const double t25 = __fma_rn(t12, (-0x1.27e4fb7789f5cp-32), 0x1.a01a01a01a01ap-24);
-    const double t28 = __fma_rn(t12, (-0x1.93974a8c07c9dp-51), 0x1.1eed8eff8d898p-41);
+    const double t25 = __fma_rn(t12, (-2.691144455467372e-10), 9.68812003968254e-8);
+    const double t28 = __fma_rn(t12, (-7.001187498614334e-16), 5.096864498991235e-13);
     const double t29 = __fma_rn(t13, t28, t25);
     const double t30 = __fma_rn(t14, t29, t22);
-    const double t32 = __fma_rn(t15, 0x1.ae7f3e733b81fp-61, t30);
-    const double t35 = __fma_rn(t12, (-0x1.5555555555555p-6), 0x1p-1);
-    const double t38 = __fma_rn(t12, (-0x1.a01a01a01a01ap-20), 0x1.1111111111111p-12);
+    const double t32 = __fma_rn(t15, 7.292903644389931e-19, t30);
+    const double t35 = __fma_rn(t12, (-0.020833333333333332), 0.5);
+    const double t38 = __fma_rn(t12, (-1.5500992063492063e-6), 0.00026041666666666666);
     const double t39 = __fma_rn(t13, t38, t35);
-    const double t42 = __fma_rn(t12, (-0x1.ae64567f544e4p-37), 0x1.71de3a556c734p-28);
-    const double t45 = __fma_rn(t12, (-0x1.ae7f3e733b81fp-56), 0x1.6124613a86d09p-46);
+    const double t42 = __fma_rn(t12, (-1.2232474797578965e-11), 5.382288910934745e-9);
+    const double t45 = __fma_rn(t12, (-2.333729166204778e-17), 1.9603324996120133e-14);
     const double t46 = __fma_rn(t13, t45, t42);
     const double t47 = __fma_rn(t14, t46, t39);
-    const double t49 = __fma_rn(t15, 0x1.952c77030ad4ap-66, t47);
+    const double t49 = __fma_rn(t15, 2.1449716601146855e-20, t47);
     const double t50 = __dmul_rn(x[0], t49);
     const double t51 = __dmul_rn(x[1], t49);
     const double t52 = __dmul_rn(x[2], t49);
@@ -512,7 +512,7 @@ INLINE void coadjoint_transport(const double *RESTRICT g, const double *RESTRICT
     const double t74 = __fma_rn(t70, t70, t73);
     const double t75 = __fma_rn(t71, t71, t74);
     const double t76 = __fma_rn(t72, t72, t75);
-    const double t79 = __fma_rn(t76, (-0x1p-1), 0x1.8p+0);
+    const double t79 = __fma_rn(t76, (-0.5), 1.5);
     const double t80 = __dmul_rn(t57, t79);
     const double t81 = __dmul_rn(t70, t79);
     const double t82 = __dmul_rn(t71, t79);
@@ -567,7 +567,7 @@ INLINE void coadjoint_sound(const double *RESTRICT g, const double *RESTRICT mu,
     const double t18 = __dsub_rn(mu[2], mu[2]);
     const double t19 = __dadd_rn(t17, t18);
     const double t20 = __dadd_rn(t14, t19);
-    const double t22 = __dsqrt_rn(0x1p-52);
+    const double t22 = __dsqrt_rn(2.220446049250313e-16);
     const double t23 = (t20 <= t22) ? 1.0 : 0.0;
     *right = t23;
 }
@@ -594,16 +594,16 @@ KERNEL void coadjoint_steps(GLOBAL NUMBER *RESTRICT states, GLOBAL COUNT *RESTRI
     for (int i = 0; i < DIM; i++) {
         mu[i] = own[(ELEMENT + i) * WIDTH];
     }
-    double x[DIM] = {0};
+    double x[3] = {0};
     COUNT done = 0u;
     while ((why == 0u) && (done < steps)) {
         COUNT count = 0u;
-        double g_start[ELEMENT];
-        double mu_start[DIM];
-        coadjoint_copy(g_start, g, ELEMENT);
-        coadjoint_copy(mu_start, mu, DIM);
+        double g_start[4];
+        double mu_start[3];
+        coadjoint_copy(g_start, g, 4u);
+        coadjoint_copy(mu_start, mu, 3u);
         while ((why == 0u) && (done < steps) && (count < 256u)) {
-            double p[DIM];
+            double p[3];
             double k[2];
             double residual_bound = 1.0;
             double distance = 0.0;
@@ -612,22 +612,22 @@ KERNEL void coadjoint_steps(GLOBAL NUMBER *RESTRICT states, GLOBAL COUNT *RESTRI
             coadjoint_guess(mu, p, k);
             while ((tried < 12u) && (!(residual_bound <= TOLERANCE) && distance <= NEAR)) {
                 double moved = 0.0;
-                double p_next[DIM];
+                double p_next[3];
                 coadjoint_correct(p, mu, k, p_next, x, &residual_bound, &moved);
-                coadjoint_copy(p, p_next, DIM);
+                coadjoint_copy(p, p_next, 3u);
                 distance = __dadd_rn(distance, moved);
                 tried++;
             }
             coadjoint_accept(mu, x, residual_bound, distance, &right);
-            if (!(right == ONE)) {
+            if (right != ONE) {
                 why = !(distance <= NEAR) ? 2u : !(residual_bound <= TOLERANCE) ? 1u : 3u;
             }
             if (right == ONE) {
-                double g_next[ELEMENT];
-                double mu_next[DIM];
+                double g_next[4];
+                double mu_next[3];
                 coadjoint_transport(g, mu, x, g_next, mu_next);
-                coadjoint_copy(g, g_next, ELEMENT);
-                coadjoint_copy(mu, mu_next, DIM);
+                coadjoint_copy(g, g_next, 4u);
+                coadjoint_copy(mu, mu_next, 3u);
                 done++;
                 count++;
             }
@@ -635,10 +635,10 @@ KERNEL void coadjoint_steps(GLOBAL NUMBER *RESTRICT states, GLOBAL COUNT *RESTRI
         if (count >= 1u) {
             double right = 0.0;
             coadjoint_sound(g, mu, &right);
-            if (!(right == ONE)) {
+            if (right != ONE) {
                 why = 4u;
-                coadjoint_copy(g, g_start, ELEMENT);
-                coadjoint_copy(mu, mu_start, DIM);
+                coadjoint_copy(g, g_start, 4u);
+                coadjoint_copy(mu, mu_start, 3u);
                 done -= count;
             }
         }

@@ -3,6 +3,25 @@
 
 use super::names::{Names, is_word};
 
+/// The scalar product of two vectors, by an operation on numbers named by its sign; `None` if they have no entries.
+pub(super) fn dot<T>(a: &[T], b: &[T], of: &mut impl FnMut(char, &T, &T) -> T) -> Option<T> {
+    let products: Vec<T> = a.iter().zip(b).map(|(a, b)| of('*', a, b)).collect();
+    products.into_iter().reduce(|sum, product| of('+', &sum, &product))
+}
+
+/// The product a × b of vectors of three entries.
+pub(super) fn cross<T>(a: &[T], b: &[T], of: &mut impl FnMut(char, &T, &T) -> T) -> [T; 3] {
+    [(1, 2), (2, 0), (0, 1)].map(|(j, k)| {
+        let products = [of('*', &a[j], &b[k]), of('*', &a[k], &b[j])];
+        of('-', &products[0], &products[1])
+    })
+}
+
+/// An operation on numbers as texts.
+fn in_text(sign: char, a: &String, b: &String) -> String {
+    format!("({a} {sign} {b})")
+}
+
 /// The three components of a vector, each a text.
 pub(crate) fn components(text: &str, names: &Names) -> Option<[String; 3]> {
     let text = text.trim();
@@ -29,11 +48,7 @@ pub(crate) fn components(text: &str, names: &Names) -> Option<[String; 3]> {
     if let Some(inside) = text.strip_prefix("cross(").and_then(|text| text.strip_suffix(')')) {
         let [a, b] = pair(inside)?;
         let [a, b] = [components(a, names)?, components(b, names)?];
-        let entry = |i: usize| {
-            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-            format!("({}*{} - {}*{})", a[j], b[k], a[k], b[j])
-        };
-        return Some([0, 1, 2].map(entry));
+        return Some(cross(&a, &b, &mut in_text));
     }
     if !is_word(text) {
         return None;
@@ -62,11 +77,8 @@ fn product(factors: &[(Option<char>, &str)], names: &Names) -> Option<[String; 3
             Some(transposed) => format!("{transposed}[{j}][{i}]"),
             None => format!("{matrix}[{i}][{j}]"),
         };
-        let row = |i: usize| {
-            let terms = (0..3).map(|j| format!("{}*{}", entry(i, j), vector[j]));
-            format!("({})", terms.collect::<Vec<_>>().join(" + "))
-        };
-        vector = [0, 1, 2].map(row);
+        let row = |i: usize| dot(&[0, 1, 2].map(|j| entry(i, j)), &vector, &mut in_text);
+        vector = [row(0)?, row(1)?, row(2)?];
     }
     let others = factors[..at - matrices].iter().chain(&factors[at + 1..]);
     let others: String =
@@ -134,7 +146,6 @@ pub(super) fn number(
     let of = if name == "norm" { Some([inside; 2]) } else { pair(inside) };
     let both = of.and_then(|[a, b]| Some([components(a, names)?, components(b, names)?]));
     let [a, b] = both.ok_or(close + 1)?;
-    let products: Vec<String> = a.iter().zip(b).map(|(a, b)| format!("{a}*{b}")).collect();
-    let sum = products.join(" + ");
+    let sum = dot(&a, &b, &mut in_text).ok_or(close + 1)?;
     Ok((if name == "norm" { format!("sqrt({sum})") } else { sum }, close + 1))
 }

@@ -6,9 +6,7 @@ use super::frame;
 use super::polynomial::{Sum, polynomial};
 use super::program::{Kinked, Lowered, lower};
 use crate::diagnostic::{Diagnostic, Diagnostics, Mistake, Span};
-use crate::drive::Drive;
-#[cfg(feature = "system")]
-use crate::drive::{Acts, Ingredients};
+use crate::drive::{Acts, Drive, Ingredients};
 use crate::expr::{Arena, ExprId, Node};
 use crate::lie::{Chart, LieAlgebra};
 use crate::number::Rational;
@@ -460,7 +458,6 @@ pub(crate) fn entries(size: usize) -> Vec<String> {
 
 /// The expressions of a velocity and of a torque as a front end has read them; coordinates are the entries of the group element's
 /// matrix, row by row, then the momentum, then ∂H/∂μ.
-#[cfg(feature = "system")]
 #[derive(Debug)]
 pub(crate) struct Acting {
     /// The nodes of the expressions, of which none is an energy.
@@ -471,7 +468,6 @@ pub(crate) struct Acting {
 
 /// Checks what was read and turns it into a drive, with the diagonal of the damping and with a potential that joins it; `None` where
 /// something is wrong, which has then been reported.
-#[cfg(feature = "system")]
 pub(crate) fn assemble_drive(
     algebra: &LieAlgebra,
     (coordinates, signals): (&[String], &[Signal]),

@@ -8,10 +8,10 @@ mod polynomial;
 mod program;
 mod sums;
 
-#[cfg(feature = "system")]
 pub(crate) use assemble::{
-    Acting, OfSites, assemble_drive, assemble_given, constant, entries, function, of_sites,
+    Acting, Draft, Formula, assemble, assemble_drive, assemble_either, assemble_potential, linear,
 };
-pub(crate) use assemble::{Draft, Formula, assemble, assemble_either, assemble_potential, linear};
+#[cfg(feature = "system")]
+pub(crate) use assemble::{OfSites, assemble_given, constant, entries, function, of_sites};
 pub(crate) use choice::Choice;
 pub use frame::in_other_frame;

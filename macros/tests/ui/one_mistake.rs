@@ -21,6 +21,15 @@ fn height(g: [[f64; 3]; 3], weight: f64) -> f64 {
     weigth * g[2][2]
 }
 
+#[lie_poisson(group = SO3)]
+fn driven(mu: [f64; 3]) -> f64 {
+    #[torque]
+    fn drag(omega: [f64; 3], rate: f64) -> [f64; 3] {
+        omega.map(|rotation| -raet * rotation)
+    }
+    mu[0] * mu[0]
+}
+
 fn end<S: Integrator<Group = SO3> + Lanes + Clone + std::fmt::Debug>(step: S) {
     let mut phase = Phase::<SO3>::at_identity([1.0, 2.0, 3.0]);
     let _ = coadjoint::steps::advance(&step, &mut phase);
@@ -41,6 +50,8 @@ fn main() -> Result<(), coadjoint::StepError> {
     let wrong = WrongGroup::new(0.1)?;
     wrong.advance_by(&mut Phase::<SO4>::at_identity([0.0; 6]), 3)?;
     let _ = (WrongGroup::<f64>::TRUNCATION, wrong.clone());
+
+    Driven::new(0.1, 0.2)?.advance_by(&mut phase, 10)?;
 
     let height = Height::new(1.2)?;
     let torque = |_time: f64, g: &_| height.torque(g);

@@ -6,7 +6,7 @@ use coadjoint::groups::{Heisenberg, Power, Product, SE2, SL2, SU2};
 use coadjoint::nalgebra::{SVector, Vector3};
 use coadjoint::plumbing::ElementNumbers;
 use coadjoint::steps::{Kicked, Splitting};
-use coadjoint::{GeneratingFunction, LieGroup as _, Phase, SE3, SO3, StepError};
+use coadjoint::{GeneratingFunction, LieGroup as _, Phase, SE3, SO3, StepError, lie_poisson};
 use coadjoint_codegen::graph::{Graph, Id, Node, Program};
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::{FoldTable, Integrator, Kick};
@@ -36,6 +36,28 @@ mod driven_vehicle {
 mod weighted_body {
     include!(concat!(env!("OUT_DIR"), "/weighted_body.rs"));
 }
+/// `systems/driven_vehicle.toml`, by the attribute.
+#[lie_poisson(group = SE3)]
+fn driven(mu: [f64; 6]) -> f64 {
+    const FOUR: f64 = 4.0;
+    #[velocity]
+    fn turning(mu: [f64; 6], omega: SVector<f64, 6>, c: f64) -> [f64; 6] {
+        [0.0, 0.0, c * mu[0] * omega[1], 0.0, 0.0, 0.0]
+    }
+    #[torque]
+    fn thrust(t: f64, g: [[f64; 4]; 4], mu: [f64; 6], omega: [f64; 6], c: f64) -> [f64; 6] {
+        let along = -g[2][2] / FOUR;
+        [-c * omega[0], 0.0, g[2][1], -c * mu[3].abs() * mu[3], c * t.sin(), along]
+    }
+    let [x, y, z, u, v, w] = mu;
+    x.powi(2) / 2.0
+        + y.powi(2) / 3.0
+        + z.powi(2) / 4.0
+        + u.powi(2) / 2.0
+        + v.powi(2) / 3.0
+        + w.powi(2) / 5.0
+}
+
 /// The step size of comparisons.
 const H: f64 = 0.3;
 
@@ -228,6 +250,10 @@ fn emitted_steps_have_the_bits_of_kernels() -> Result<(), StepError> {
     let text = include_str!("../../systems/driven_vehicle.toml");
     let driven = read_either(text, Options::default(), &["c".to_owned()]).unwrap();
     let driven = Origin::derive(driven.problem, TermLimit::default()).unwrap();
+    has_the_bits_of_its_kernel::<SE3, 6>(&driven, &[0.2], |phase, time, count| {
+        step.advance_by(phase, time, count).unwrap();
+    });
+    let step = Driven::new(H, 0.2)?;
     has_the_bits_of_its_kernel::<SE3, 6>(&driven, &[0.2], |phase, time, count| {
         step.advance_by(phase, time, count).unwrap();
     });

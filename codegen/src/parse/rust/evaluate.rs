@@ -3,9 +3,11 @@
 use std::ops::Range;
 use std::rc::Rc;
 
+use quote::ToTokens;
+use syn::punctuated::Punctuated;
 use syn::{
     BinOp, Block, Expr, ExprBinary, ExprCall, ExprRange, FnArg, Item, Lit, LocalInit, Member, Pat,
-    Path, PathSegment, RangeLimits, Stmt, UnOp,
+    Path, PathSegment, RangeLimits, Stmt, Token, UnOp,
 };
 
 use crate::diagnostic::{Diagnostics, Mistake, Span, nearest};
@@ -76,6 +78,12 @@ impl<'a> Evaluator<'a> {
         Value::Wrong
     }
 
+    /// Reports something that is not of the subset of Rust that is read, and stands for it.
+    pub(super) fn unread(&mut self, what: &str, place: &impl ToTokens) -> Value {
+        let help = "use arithmetic, let, `for` over ranges and arrays, closures, iterators and functions of numbers";
+        self.unsupported(Span::of(place), &format!("this {what} is not read"), help)
+    }
+
     pub(super) fn push(&mut self, node: Node, span: Span) -> Value {
         Value::Number(self.arena.push(node, span))
     }
@@ -90,16 +98,27 @@ impl<'a> Evaluator<'a> {
         Err(NoValue::Stop)
     }
 
+    /// Begins with the items among statements, which a function beside them sees.
+    pub(super) fn begin<'s>(&mut self, statements: impl Iterator<Item = &'s Stmt>) {
+        self.variables.clear();
+        // A limit that is passed is reported, and passed again in the body.
+        let _ = self.items(statements);
+    }
+
+    /// The value that the body of a function returns, of which the arguments are bound.
+    pub(super) fn returned(&mut self, block: &Block) -> Value {
+        match self.block(block) {
+            Ok(value) | Err(NoValue::Return(value)) if !self.lost => value,
+            _ => Value::Wrong,
+        }
+    }
+
     /// The Hamiltonian the body of a function computes, and where.
     pub(super) fn body(&mut self, block: &Block) -> Option<(ExprId, Span)> {
-        let value = match self.block(block) {
-            Ok(value) | Err(NoValue::Return(value)) => value,
-            Err(_) => return None,
-        };
         let result = block.stmts.last().map_or(Span::of(block), Span::of);
-        match value {
-            Value::Number(id) if !self.lost => Some((id, result)),
-            Value::Number(_) | Value::Wrong => None,
+        match self.returned(block) {
+            Value::Number(id) => Some((id, result)),
+            Value::Wrong => None,
             other => {
                 let message = format!("the function must end with a number, not {}", other.kind());
                 self.unsupported(result, &message, "end it with the energy, without a semicolon");
@@ -150,7 +169,9 @@ impl<'a> Evaluator<'a> {
                 Ok(self.cast(value, is_f64(&cast.ty), span()))
             }
             Expr::Array(syn::ExprArray { elems, .. })
-            | Expr::Tuple(syn::ExprTuple { elems, .. }) => Ok(Value::list(self.expressions(elems)?)),
+            | Expr::Tuple(syn::ExprTuple { elems, .. }) => {
+                Ok(Value::list(self.expressions(elems)?))
+            }
             Expr::Repeat(repeat) => {
                 let value = self.expression(&repeat.expr)?;
                 let count = self.expression(&repeat.len)?;
@@ -194,11 +215,7 @@ impl<'a> Evaluator<'a> {
                 Ok(self.callable(closure.inputs.iter().cloned().collect(), &closure.body))
             }
             Expr::Path(path) => Ok(self.path(&path.path)),
-            _ => Ok(self.unsupported(
-                span(),
-                "this kind of expression is not read",
-                "use arithmetic, let, `for` over ranges and arrays, closures, iterators and functions of numbers",
-            )),
+            _ => Ok(self.unread("kind of expression", expression)),
         }
     }
 
@@ -214,7 +231,7 @@ impl<'a> Evaluator<'a> {
                     Err(_) => self.wrong(span, Mistake::NumberSize(digits.to_owned())),
                 };
             }
-            _ => return self.unsupported(span, "only numbers make sense here", ""),
+            _ => return self.unread("literal", literal),
         };
         match decimal(digits) {
             Ok(value) => self.constant(value, span),
@@ -279,10 +296,7 @@ impl<'a> Evaluator<'a> {
         let items = match self.expression(&for_loop.expr)? {
             Value::List(list) => list.entries,
             Value::Wrong => return Ok(Value::Wrong),
-            _ => {
-                let help = "loop over a range such as 0..3, or over an array";
-                return Ok(self.unsupported(span, "this cannot be looped over", help));
-            }
+            _ => return Ok(self.unread("loop", &for_loop.expr)),
         };
         let outside = self.variables.len();
         for item in items.iter() {
@@ -304,11 +318,7 @@ impl<'a> Evaluator<'a> {
 
     fn statements(&mut self, block: &Block) -> Result<Value, NoValue> {
         // Items are visible in the whole block, before their line too.
-        for statement in &block.stmts {
-            if let Stmt::Item(item) = statement {
-                self.item(item)?;
-            }
-        }
+        self.items(block.stmts.iter())?;
         let mut last = Value::Unit;
         for statement in &block.stmts {
             last = Value::Unit;
@@ -316,10 +326,7 @@ impl<'a> Evaluator<'a> {
                 Stmt::Local(local) => {
                     let value = match &local.init {
                         Some(LocalInit { expr, diverge: None, .. }) => self.expression(expr)?,
-                        _ => {
-                            let help = "write let with a name and a value";
-                            self.unsupported(Span::of(local), "this `let` is not read", help)
-                        }
+                        _ => self.unread("`let`", local),
                     };
                     self.bind(&local.pat, value);
                 }
@@ -332,12 +339,20 @@ impl<'a> Evaluator<'a> {
                     }
                 }
                 Stmt::Macro(call) => {
-                    let help = "remove it, or write out what it computes";
-                    self.unsupported(Span::of(&call.mac), "macros are not read", help);
+                    self.unread("macro", &call.mac);
                 }
             }
         }
         Ok(last)
+    }
+
+    fn items<'s>(&mut self, statements: impl Iterator<Item = &'s Stmt>) -> Result<(), NoValue> {
+        for statement in statements {
+            if let Stmt::Item(item) = statement {
+                self.item(item)?;
+            }
+        }
+        Ok(())
     }
 
     fn item(&mut self, item: &Item) -> Result<(), NoValue> {
@@ -355,8 +370,7 @@ impl<'a> Evaluator<'a> {
             }
             Item::Use(_) => return Ok(()),
             _ => {
-                let help = "only const, fn and use are read inside the body";
-                self.unsupported(Span::of(item), "this item is not read", help);
+                self.unread("item", item);
                 return Ok(());
             }
         };
@@ -399,20 +413,11 @@ impl<'a> Evaluator<'a> {
             Pat::Slice(syn::PatSlice { elems, .. }) | Pat::Tuple(syn::PatTuple { elems, .. }) => {
                 self.bind_list(elems, value, Span::of(pattern));
             }
-            _ => {
-                let help = "use names, [a, b, c] or (a, b, c)";
-                self.unsupported(Span::of(pattern), "this pattern is not read", help);
-            }
+            _ => _ = self.unread("pattern", pattern),
         }
     }
 
-    fn bind_list<'p>(
-        &mut self,
-        patterns: impl IntoIterator<Item = &'p Pat, IntoIter: ExactSizeIterator>,
-        value: Value,
-        span: Span,
-    ) {
-        let patterns = patterns.into_iter();
+    fn bind_list(&mut self, patterns: &Punctuated<Pat, Token![,]>, value: Value, span: Span) {
         let entries = match value {
             Value::List(list) => list.entries,
             other => {
@@ -424,22 +429,20 @@ impl<'a> Evaluator<'a> {
             }
         };
         // `..` stands for all entries that no other pattern takes.
-        let rest = (entries.len() + 1).saturating_sub(patterns.len());
-        let names: Vec<Option<&Pat>> = patterns
-            .flat_map(|pattern| match pattern {
-                Pat::Rest(_) => vec![None; rest],
-                name => vec![Some(name)],
-            })
-            .collect();
-        let (count, length) = (names.len(), entries.len());
-        if count != length {
+        let (count, length) = (patterns.len(), entries.len());
+        let is_rest = |pattern: &Pat| matches!(pattern, Pat::Rest(_));
+        if count != length && (count > length + 1 || !patterns.iter().any(is_rest)) {
             let message = format!("the pattern has {count} names for {length} entries");
             self.unsupported(span, &message, "give as many");
         }
-        for (i, name) in names.into_iter().enumerate() {
-            if let Some(name) = name {
-                self.bind(name, entries.get(i).cloned().unwrap_or(Value::Wrong));
+        let mut at = 0;
+        for pattern in patterns {
+            if is_rest(pattern) {
+                at += (length + 1).saturating_sub(count);
+                continue;
             }
+            self.bind(pattern, entries.get(at).cloned().unwrap_or(Value::Wrong));
+            at += 1;
         }
     }
 
@@ -478,12 +481,12 @@ impl<'a> Evaluator<'a> {
             Expr::Field(field) => {
                 let index = member(&field.member).map(|at| vec![at]);
                 if index.is_none() {
-                    self.unsupported(span, "this field is not known", "");
+                    self.unread("field", expression);
                 }
                 (&*field.base, index)
             }
             _ => {
-                self.unsupported(span, "this cannot be assigned to", "assign to a variable");
+                self.unread("assignment", expression);
                 return Ok(None);
             }
         };
@@ -584,9 +587,7 @@ impl<'a> Evaluator<'a> {
     fn call(&mut self, call: &ExprCall) -> Result<Value, NoValue> {
         let span = Span::of(call);
         let arguments = self.expressions(&call.args)?;
-        let Expr::Path(path) = &*call.func else {
-            return Ok(self.unsupported(span, "this call is not read", "name the function first"));
-        };
+        let Expr::Path(path) = &*call.func else { return Ok(self.unread("call", call)) };
         if let Some(Value::Function(function)) = self.variable(&path.path) {
             let function = function.clone();
             return self.apply(&function, arguments, span);
@@ -640,6 +641,18 @@ impl<'a> Evaluator<'a> {
         };
         Some(Value::matrix(rows, columns, entries))
     }
+}
+
+/// The user's text of the statements of a body, as far as the compiler tells.
+pub(super) fn source(block: &Block) -> String {
+    let text = |statement: &Stmt| {
+        let text = match Span::of(statement) {
+            Span::Tokens { first, last } => first.join(last).and_then(|whole| whole.source_text()),
+            _ => None,
+        };
+        text.unwrap_or_else(|| statement.to_token_stream().to_string())
+    };
+    block.stmts.iter().map(text).collect::<Vec<_>>().join(" ")
 }
 
 /// A path as it is written, without generic arguments.

@@ -7,12 +7,12 @@
 
 mod algebra;
 mod arguments;
+mod drive;
 mod evaluate;
 mod signature;
 mod value;
 
 use proc_macro2::TokenStream;
-use quote::ToTokens;
 use syn::ItemFn;
 
 use crate::diagnostic::{Diagnostics, Span};
@@ -20,6 +20,7 @@ use crate::pass::{Draft, Formula, assemble, assemble_either, assemble_potential}
 use crate::potential::Potential;
 use crate::problem::{Problem, Shape};
 use crate::smooth::Hamiltonian;
+pub use drive::{faultless, without_attributes};
 use evaluate::Evaluator;
 use signature::Variable;
 
@@ -46,11 +47,12 @@ fn assembled<T>(
 ) -> Result<T, Diagnostics> {
     let diagnostics = Diagnostics::new();
     let (algebra, choice, time) = arguments::read(arguments, Variable::Momentum, &diagnostics);
-    let (variable, hamiltonian) = read(function, Variable::Momentum, time, &diagnostics);
+    let (variable, mut hamiltonian) = read(function, Variable::Momentum, time, &diagnostics);
     // Without a momentum every name would be unknown: one mistake is enough.
     let Some((_, coordinates, coordinates_span)) = variable else { return Err(diagnostics) };
     let name = function.sig.ident.to_string();
-    let signals = Vec::new();
+    let (parameters, signals) = (&mut hamiltonian.parameters, Vec::new());
+    let drive = drive::read(function, algebra.as_ref(), &coordinates, parameters, &diagnostics);
     let draft = Draft {
         name,
         algebra,
@@ -58,7 +60,7 @@ fn assembled<T>(
         coordinates_span,
         hamiltonian,
         signals,
-        drive: None,
+        drive,
         breaks: (Vec::new(), Span::Whole),
         choice,
     };
@@ -73,6 +75,7 @@ fn assembled<T>(
 pub fn potential(arguments: TokenStream, function: &ItemFn) -> Result<Potential, Diagnostics> {
     let diagnostics = Diagnostics::new();
     let (algebra, ..) = arguments::read(arguments, Variable::Element, &diagnostics);
+    drive::refuse(function, &diagnostics);
     let (variable, energy) = read(function, Variable::Element, None, &diagnostics);
     let Some((Shape::Grid(rows, columns) | Shape::Matrix(rows, columns), _, span)) = variable
     else {
@@ -95,15 +98,6 @@ fn read(
     let (variable, parameters) = signature::read(&function.sig, variable, time, &mut evaluator);
     // Without its variable every name of the body would be unknown.
     let root = variable.is_some().then(|| evaluator.body(&function.block)).flatten();
-    let source = function.block.stmts.iter().map(source).collect::<Vec<_>>().join(" ");
+    let source = evaluate::source(&function.block);
     (variable, Formula { arena: evaluator.into_arena(), root, parameters, source })
-}
-
-/// The user's source text, as far as the compiler tells.
-fn source(statement: &syn::Stmt) -> String {
-    let text = match Span::of(statement) {
-        Span::Tokens { first, last } => first.join(last).and_then(|whole| whole.source_text()),
-        _ => None,
-    };
-    text.unwrap_or_else(|| statement.to_token_stream().to_string())
 }

@@ -70,7 +70,6 @@ pub(super) fn read(
         evaluator.unsupported(span, "the energy is returned as f64", "write -> f64");
     }
     let (mut first, mut parameters) = (None, Vec::new());
-    let mut scalars = 0;
     for (position, argument) in signature.inputs.iter().enumerate() {
         let FnArg::Typed(typed) = argument else {
             let help = "write a free function of its variables and parameters";
@@ -91,16 +90,9 @@ pub(super) fn read(
             first = Some((shape, names, span));
             continue;
         }
-        let Some(name) = name(&typed.pat) else {
-            let help = "take it apart in the body instead, with let";
-            evaluator.unsupported(place, "a parameter needs a name", help);
-            continue;
-        };
-        if name == "step" {
-            let taken = "the step size, the first argument of the integrator's `new`".to_owned();
-            evaluator.wrong(place, Mistake::NameTaken(name.clone(), taken));
-        }
-        if time.take_if(|(time, _)| *time == name).is_some() {
+        if let Some(name) = name(&typed.pat)
+            && time.take_if(|(time, _)| *time == name).is_some()
+        {
             let value = match shape {
                 Some(Shape::Scalar) => evaluator.push(Node::Time, place),
                 _ => {
@@ -110,20 +102,7 @@ pub(super) fn read(
             evaluator.bind(&typed.pat, value);
             continue;
         }
-        let value = match &shape {
-            Some(shape) => shaped(shape, |i| evaluator.push(Node::Parameter(scalars + i), place)),
-            None => {
-                let ty = typed.ty.to_token_stream();
-                let message = format!("parameters of type `{ty}` are not read");
-                let help = "parameters are f64, [f64; n], [[f64; n]; m], or vectors and matrices of nalgebra of fixed size";
-                evaluator.unsupported(span, &message, help)
-            }
-        };
-        evaluator.bind(&typed.pat, value);
-        if let Some(shape) = shape {
-            scalars += shape.len();
-            parameters.push(Parameter { name, shape, default: None });
-        }
+        parameter(typed, &mut parameters, evaluator);
     }
     if let Some((name, place)) = time {
         let what = format!("the function has no argument `{name}` after the first to be the time");
@@ -140,6 +119,39 @@ pub(super) fn read(
     (first, parameters)
 }
 
+/// Reads a parameter and binds it.
+pub(super) fn parameter(
+    typed: &syn::PatType,
+    parameters: &mut Vec<Parameter>,
+    evaluator: &mut Evaluator<'_>,
+) {
+    let place = Span::of(&typed.pat);
+    let Some(name) = name(&typed.pat) else {
+        let help = "take it apart in the body instead, with let";
+        evaluator.unsupported(place, "a parameter needs a name", help);
+        return;
+    };
+    if name == "step" {
+        let taken = "the step size, the first argument of the integrator's `new`".to_owned();
+        evaluator.wrong(place, Mistake::NameTaken(name.clone(), taken));
+    }
+    let Some(shape) = shape(&typed.ty) else {
+        let message = format!("parameters of type `{}` are not read", typed.ty.to_token_stream());
+        let help = "parameters are f64, [f64; n], [[f64; n]; m], or vectors and matrices of nalgebra of fixed size";
+        let value = evaluator.unsupported(Span::of(&typed.ty), &message, help);
+        return evaluator.bind(&typed.pat, value);
+    };
+    let first = scalars(parameters);
+    let value = shaped(&shape, |i| evaluator.push(Node::Parameter(first + i), place));
+    evaluator.bind(&typed.pat, value);
+    parameters.push(Parameter { name, shape, default: None });
+}
+
+/// The number of scalars that parameters are.
+pub(super) fn scalars(parameters: &[Parameter]) -> usize {
+    parameters.iter().map(|parameter| parameter.shape.len()).sum()
+}
+
 /// An expression without the parentheses and references around it.
 pub(super) fn bare(mut expression: &Expr) -> &Expr {
     loop {
@@ -154,7 +166,7 @@ pub(super) fn bare(mut expression: &Expr) -> &Expr {
 }
 
 /// Fills a shape with numbers by their position.
-fn shaped(shape: &Shape, mut number: impl FnMut(usize) -> Value) -> Value {
+pub(super) fn shaped(shape: &Shape, mut number: impl FnMut(usize) -> Value) -> Value {
     match *shape {
         Shape::Scalar => number(0),
         Shape::Array(n) => Value::list((0..n).map(number)),
@@ -169,7 +181,7 @@ fn shaped(shape: &Shape, mut number: impl FnMut(usize) -> Value) -> Value {
     }
 }
 
-fn name(pattern: &Pat) -> Option<String> {
+pub(super) fn name(pattern: &Pat) -> Option<String> {
     match pattern {
         Pat::Ident(ident) if ident.subpat.is_none() => Some(ident.ident.to_string()),
         _ => None,
@@ -192,7 +204,7 @@ pub(super) fn is_f64(ty: &Type) -> bool {
 }
 
 /// The shape of a type, where it is one.
-fn shape(ty: &Type) -> Option<Shape> {
+pub(super) fn shape(ty: &Type) -> Option<Shape> {
     match ty {
         Type::Paren(inner) => shape(&inner.elem),
         Type::Group(inner) => shape(&inner.elem),

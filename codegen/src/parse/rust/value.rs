@@ -10,6 +10,7 @@ use crate::expr::{ExprId, Function, Node};
 use crate::number::{Rational, integer};
 use crate::parse::rust::evaluate::{Callable, Evaluator, NoValue};
 use crate::parse::rust::signature::length;
+use crate::parse::vectors;
 
 /// A value of the function's world.
 #[derive(Clone)]
@@ -37,9 +38,10 @@ pub(super) struct Aggregate {
 }
 
 impl Aggregate {
-    /// Entries in the same shape.
-    fn with(&self, entries: impl Iterator<Item = Value>) -> Value {
-        Value::List(Self { entries: Rc::new(entries.collect()), shape: self.shape })
+    /// What becomes of the entries, in the same shape.
+    fn map(&self, of: impl FnMut(Value) -> Value) -> Value {
+        let entries = Rc::new(self.entries.iter().cloned().map(of).collect());
+        Value::List(Self { entries, shape: self.shape })
     }
 
     /// The place of the entry named by an index, or the length where there is none such.
@@ -81,19 +83,6 @@ impl Value {
     }
 }
 
-/// An operation on two values: its name, of integers, and of numbers.
-#[derive(Clone, Copy)]
-struct Operation {
-    name: &'static str,
-    integers: fn(i128, i128) -> Option<i128>,
-    numbers: fn(ExprId, ExprId) -> Node,
-}
-
-const PLUS: Operation = Operation { name: "+", integers: i128::checked_add, numbers: Node::Add };
-const MINUS: Operation = Operation { name: "-", integers: i128::checked_sub, numbers: Node::Sub };
-const TIMES: Operation = Operation { name: "*", integers: i128::checked_mul, numbers: Node::Mul };
-const OVER: Operation = Operation { name: "/", integers: i128::checked_div, numbers: Node::Div };
-
 const KNOWN: &str = "powi, powf, mul_add, sqrt, sin, cos, tan, atan, tanh, exp, ln, abs, recip, dot, cross, norm_squared, norm, \
     component_mul, component_div, fixed_rows, sum, len, iter, map, zip, enumerate, rev, fold";
 
@@ -101,24 +90,18 @@ impl Evaluator<'_> {
     /// A binary operation, or that of a compound assignment.
     pub(super) fn operate(&mut self, op: &BinOp, a: Value, b: Value, span: Span) -> Value {
         let order: fn(Ordering) -> bool = match op {
-            BinOp::Add(_) | BinOp::AddAssign(_) => return self.arithmetic(PLUS, a, b, span),
-            BinOp::Sub(_) | BinOp::SubAssign(_) => return self.arithmetic(MINUS, a, b, span),
-            BinOp::Mul(_) | BinOp::MulAssign(_) => return self.arithmetic(TIMES, a, b, span),
-            BinOp::Div(_) | BinOp::DivAssign(_) => return self.arithmetic(OVER, a, b, span),
-            BinOp::Rem(_) | BinOp::RemAssign(_) => {
-                let of_integers = Operation { name: "%", integers: i128::checked_rem, ..OVER };
-                return self.arithmetic(of_integers, a, b, span);
-            }
+            BinOp::Add(_) | BinOp::AddAssign(_) => return self.arithmetic('+', a, b, span),
+            BinOp::Sub(_) | BinOp::SubAssign(_) => return self.arithmetic('-', a, b, span),
+            BinOp::Mul(_) | BinOp::MulAssign(_) => return self.arithmetic('*', a, b, span),
+            BinOp::Div(_) | BinOp::DivAssign(_) => return self.arithmetic('/', a, b, span),
+            BinOp::Rem(_) | BinOp::RemAssign(_) => return self.arithmetic('%', a, b, span),
             BinOp::Eq(_) => Ordering::is_eq,
             BinOp::Ne(_) => Ordering::is_ne,
             BinOp::Lt(_) => Ordering::is_lt,
             BinOp::Le(_) => Ordering::is_le,
             BinOp::Gt(_) => Ordering::is_gt,
             BinOp::Ge(_) => Ordering::is_ge,
-            _ => {
-                let help = "use + - * / and, of integers, %";
-                return self.unsupported(span, "this operator is not read", help);
-            }
+            _ => return self.unread("operator", op),
         };
         match (a, b) {
             (Value::Integer(a), Value::Integer(b)) => Value::Bool(order(a.cmp(&b))),
@@ -127,43 +110,64 @@ impl Evaluator<'_> {
         }
     }
 
-    fn arithmetic(&mut self, operation: Operation, a: Value, b: Value, span: Span) -> Value {
-        let Operation { name, integers, numbers } = operation;
+    /// An operation named by its sign.
+    fn arithmetic(&mut self, sign: char, a: Value, b: Value, span: Span) -> Value {
         match (a, b) {
             (Value::Wrong, _) | (_, Value::Wrong) => Value::Wrong,
-            (Value::Integer(a), Value::Integer(b)) => self.checked_integer(integers(a, b), span),
-            (Value::Number(a), Value::Number(b)) if name != "%" => self.push(numbers(a, b), span),
-            (s @ Value::Number(_), Value::List(v)) if v.shape.is_some() && name == "*" => {
-                v.with(v.entries.iter().map(|x| self.arithmetic(TIMES, s.clone(), x.clone(), span)))
+            (Value::Integer(a), Value::Integer(b)) => {
+                let value = match sign {
+                    '+' => a.checked_add(b),
+                    '-' => a.checked_sub(b),
+                    '*' => a.checked_mul(b),
+                    '/' => a.checked_div(b),
+                    _ => a.checked_rem(b),
+                };
+                self.checked_integer(value, span)
+            }
+            (Value::Number(a), Value::Number(b)) if sign != '%' => {
+                let node = match sign {
+                    '+' => Node::Add,
+                    '-' => Node::Sub,
+                    '*' => Node::Mul,
+                    _ => Node::Div,
+                };
+                self.push(node(a, b), span)
+            }
+            (s @ Value::Number(_), Value::List(v)) if v.shape.is_some() && sign == '*' => {
+                v.map(|x| self.arithmetic(sign, s.clone(), x, span))
             }
             (Value::List(v), s @ Value::Number(_))
-                if v.shape.is_some() && matches!(name, "*" | "/") =>
+                if v.shape.is_some() && matches!(sign, '*' | '/') =>
             {
-                let entry = |x: &Value| self.arithmetic(operation, x.clone(), s.clone(), span);
-                v.with(v.entries.iter().map(entry))
+                v.map(|x| self.arithmetic(sign, x, s.clone(), span))
             }
             (Value::List(Aggregate { entries: a, shape: Some((rows, inner)) }), Value::List(b))
-                if name == "*" && b.shape.is_some_and(|(other, _)| inner == other) =>
+                if sign == '*' && b.shape.is_some_and(|(other, _)| inner == other) =>
             {
+                let row = |i| a.iter().skip(i).step_by(rows).cloned().collect();
+                let lines: Vec<Vec<Value>> = (0..rows).map(row).collect();
                 let columns = b.entries.chunks(inner);
-                let entries: Vec<Value> = columns
-                    .flat_map(|column| (0..rows).map(move |i| (i, column)))
-                    .map(|(i, column)| self.dot(a.iter().skip(i).step_by(rows), column, span))
-                    .collect();
+                let pairs = columns.flat_map(|column| lines.iter().map(move |row| (row, column)));
+                let entries: Vec<Value> =
+                    pairs.map(|(row, column)| self.dot(row, column, span)).collect();
                 let shape = Some((rows, entries.len() / rows));
                 Value::List(Aggregate { entries: Rc::new(entries), shape })
             }
             (Value::List(a), Value::List(b))
-                if a.shape.is_some() && a.shape == b.shape && !matches!(name, "*" | "/" | "%") =>
+                if a.shape.is_some() && a.shape == b.shape && matches!(sign, '+' | '-') =>
             {
-                let pairs = a.entries.iter().zip(b.entries.iter());
-                a.with(pairs.map(|(x, y)| self.arithmetic(operation, x.clone(), y.clone(), span)))
+                self.entrywise(sign, &a, &b, span)
             }
             (a, b) => {
-                let message = format!("`{name}` of {} and {} is not read", a.kind(), b.kind());
+                let message = format!("`{sign}` of {} and {} is not read", a.kind(), b.kind());
                 self.unsupported(span, &message, "write it out in coordinates")
             }
         }
+    }
+
+    fn entrywise(&mut self, sign: char, a: &Aggregate, b: &Aggregate, span: Span) -> Value {
+        let mut others = b.entries.iter().cloned();
+        a.map(|x| self.arithmetic(sign, x, others.next().unwrap_or(Value::Wrong), span))
     }
 
     fn checked_integer(&mut self, value: Option<i128>, span: Span) -> Value {
@@ -177,9 +181,7 @@ impl Evaluator<'_> {
         match value {
             Value::Number(a) => self.push(Node::Neg(a), span),
             Value::Integer(n) => self.checked_integer(n.checked_neg(), span),
-            Value::List(v) if v.shape.is_some() => {
-                v.with(v.entries.iter().map(|entry| self.negate(entry.clone(), span)))
-            }
+            Value::List(v) if v.shape.is_some() => v.map(|entry| self.negate(entry, span)),
             Value::Wrong => Value::Wrong,
             other => {
                 let message = format!("`-` of {} is not read", other.kind());
@@ -189,20 +191,18 @@ impl Evaluator<'_> {
     }
 
     fn sum(&mut self, items: Vec<Value>, span: Span) -> Value {
-        let sum = items.into_iter().reduce(|sum, item| self.arithmetic(PLUS, sum, item, span));
+        let sum = items.into_iter().reduce(|sum, item| self.arithmetic('+', sum, item, span));
         sum.unwrap_or_else(|| self.constant(integer(0), span))
     }
 
-    fn dot<'v>(
-        &mut self,
-        a: impl IntoIterator<Item = &'v Value>,
-        b: impl IntoIterator<Item = &'v Value>,
-        span: Span,
-    ) -> Value {
-        let pairs = a.into_iter().zip(b);
-        let product = |(a, b): (&Value, &Value)| self.arithmetic(TIMES, a.clone(), b.clone(), span);
-        let products = pairs.map(product).collect();
-        self.sum(products, span)
+    /// The operations on values, for [`vectors`].
+    fn operations(&mut self, span: Span) -> impl FnMut(char, &Value, &Value) -> Value {
+        move |sign, a, b| self.arithmetic(sign, a.clone(), b.clone(), span)
+    }
+
+    fn dot(&mut self, a: &[Value], b: &[Value], span: Span) -> Value {
+        let found = vectors::dot(a, b, &mut self.operations(span));
+        found.unwrap_or_else(|| self.constant(integer(0), span))
     }
 
     /// `value as f64`, or as an integer.
@@ -255,8 +255,8 @@ impl Evaluator<'_> {
             }
             ("powf", [Value::Number(n)]) => Node::Pow(x, *n),
             ("mul_add", [a, b]) => {
-                let product = self.arithmetic(TIMES, Value::Number(x), a.clone(), span);
-                return Some(self.arithmetic(PLUS, product, b.clone(), span));
+                let product = self.arithmetic('*', Value::Number(x), a.clone(), span);
+                return Some(self.arithmetic('+', product, b.clone(), span));
             }
             ("recip", []) => Node::Div(self.number(integer(1), span), x),
             ("min" | "max" | "clamp" | "floor" | "ceil" | "round" | "signum" | "trunc", _) => {
@@ -309,30 +309,23 @@ impl Evaluator<'_> {
             }
             _ if list.shape.is_none() => return Ok(None),
             ("dot", [Value::List(other)]) if items.len() == other.entries.len() => {
-                self.dot(items.iter(), other.entries.iter(), span)
+                self.dot(items, &other.entries, span)
             }
-            ("norm_squared", []) => self.dot(items.iter(), items.iter(), span),
-            ("norm", []) => match self.dot(items.iter(), items.iter(), span) {
+            ("norm_squared", []) => self.dot(items, items, span),
+            ("norm", []) => match self.dot(items, items, span) {
                 Value::Number(square) => self.push(Node::Call(Function::Sqrt, square), span),
                 other => other,
             },
-            ("component_mul", [other]) => {
-                let of = Operation { name: "component_mul", ..TIMES };
-                self.arithmetic(of, Value::List(list.clone()), other.clone(), span)
+            ("component_mul", [Value::List(other)]) if list.shape == other.shape => {
+                self.entrywise('*', list, other, span)
             }
-            ("component_div", [other]) => {
-                let of = Operation { name: "component_div", ..OVER };
-                self.arithmetic(of, Value::List(list.clone()), other.clone(), span)
+            ("component_div", [Value::List(other)]) if list.shape == other.shape => {
+                self.entrywise('/', list, other, span)
             }
-            ("cross", [Value::List(other)]) if items.len() == 3 && other.entries.len() == 3 => list
-                .with((0..3).map(|i| {
-                    let [a, b] =
-                        [((i + 1) % 3, (i + 2) % 3), ((i + 2) % 3, (i + 1) % 3)].map(|(j, k)| {
-                            let (a, b) = (items[j].clone(), other.entries[k].clone());
-                            self.arithmetic(TIMES, a, b, span)
-                        });
-                    self.arithmetic(MINUS, a, b, span)
-                })),
+            ("cross", [Value::List(other)]) if items.len() == 3 && other.entries.len() == 3 => {
+                let product = vectors::cross(items, &other.entries, &mut self.operations(span));
+                Value::matrix(3, 1, product.to_vec())
+            }
             ("fixed_rows", [Value::Integer(start)]) => {
                 let sizes = call.turbofish.as_ref().and_then(|sizes| sizes.args.first());
                 let Some(GenericArgument::Const(count)) = sizes else { return Ok(None) };
