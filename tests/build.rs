@@ -1,17 +1,14 @@
-//! Integrators from a build script: those of system files as users write them (`tests/all/front_ends.rs`,
-//! `tests/all/emitted_steps.rs` with a potential, `tests/all/parts.rs` for a large one), and those of `src/emitted.rs`.
+//! Integrators from a build script, of system files as users write them: for `tests/all/front_ends.rs`, `tests/all/emitted_steps.rs` with
+//! all of `systems/emitted`, and `tests/all/parts.rs` with a large one.
 
 use std::error::Error;
 use std::path::PathBuf;
 
-use coadjoint_codegen::{Build, emit};
-
-#[path = "src/emitted.rs"]
-mod emitted;
+use coadjoint_codegen::Build;
 
 fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed=build.rs");
-    println!("cargo::rerun-if-changed=src/emitted.rs");
+    println!("cargo::rerun-if-changed=systems/emitted");
     Build::new("systems/rigid_body.toml").write("rigid_body.rs")?;
     Build::new("systems/brackets.toml").truncation(3).write("brackets.rs")?;
     Build::new("systems/weighted_body.toml").write("weighted_body.rs")?;
@@ -20,11 +17,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     Build::new("systems/driven_vehicle.toml").write("driven_vehicle.rs")?;
     let folder = PathBuf::from(std::env::var("OUT_DIR")?).join("emitted");
     std::fs::create_dir_all(&folder)?;
-    for source in emitted::SYSTEMS {
-        let origin = emitted::origin(source)?;
-        let name = origin.facts().name;
-        let text = emit::file(emit::items_of(&origin, &emit::Options::for_problem(name))?);
-        std::fs::write(folder.join(format!("{name}.rs")), text)?;
+    for entry in std::fs::read_dir("systems/emitted")? {
+        let file = entry?.path();
+        let name = file.file_stem().ok_or("a file without a name")?;
+        Build::new(&file).write_to(&folder.join(name).with_extension("rs"))?;
     }
     Ok(())
 }

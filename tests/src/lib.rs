@@ -4,8 +4,6 @@
 pub mod backends;
 pub mod bridge;
 pub mod elliptic;
-pub mod emitted;
-pub mod energies;
 pub mod kernels;
 pub mod matrix_free;
 pub mod moments;

@@ -8,7 +8,6 @@ use serde_json::Value;
 use crate::support::{BODY, Folder, Ran};
 
 const NAMES: &str = "mu_1,mu_2,mu_3\n";
-const TOP: &str = "examples/heavy_top.toml";
 
 /// Momenta of one file: no two rows alike.
 fn momenta(rows: usize) -> String {
@@ -165,27 +164,5 @@ fn parquet_has_the_numbers_of_arrays() {
     }
     assert_eq!(rows(&folder, "run.npy").1, rows(&folder, "run.parquet").1);
     assert_eq!(rows(&folder, "run.parquet").0.split(',').next(), Some("time"));
-    nothing_left_over(&folder);
-}
-
-/// Arrays whose heads claim more than there is are refused, and of another number of columns.
-#[test]
-fn damaged_arrays_are_refused() {
-    let folder = Folder::new();
-    folder.write("good.csv", momenta(3));
-    ensemble(&folder, "good.csv", "good.npy", "--time 0.1");
-    let mut cut = folder.bytes("good.npy");
-    cut.truncate(cut.len() - 8);
-    folder.write("short.npy", cut);
-    let claims = [b"\x93NUMPY\x02\x00", &u32::MAX.to_le_bytes()[..], &[b' '; 20]].concat();
-    folder.write("long.npy", claims);
-    for (file, initial, expected) in [
-        (BODY, "long.npy", "header claims 4294967295 bytes; the file has 20 left"),
-        (TOP, "good.npy", "the array has 3 columns; this system needs 6 or 22"),
-        (BODY, "short.npy", "its shape [3, 3] needs more than the 64 bytes"),
-    ] {
-        folder
-            .refused(&[(&format!("ensemble {file} --initial {initial} --out out.csv"), expected)]);
-    }
     nothing_left_over(&folder);
 }

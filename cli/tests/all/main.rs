@@ -12,7 +12,6 @@ mod file_format;
 mod groups;
 mod lattice;
 mod learn;
-mod mistakes;
 mod no_c;
 mod outputs;
 mod plot;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::cases::judge::legible;
+use crate::cases::legible::legible;
 use crate::support::{Folder, root, text_of};
 use coadjoint_codegen::system::{Options, read_either};
 
@@ -39,7 +39,7 @@ fn curves_are_told_apart_by_colour_and_by_dashes() {
     for name in ["r12", "q12", "r13", "q13", "r23", "q23", "h1", "h2"] {
         assert_eq!(svg.matches(&format!(">{name}</text>")).count(), 1, "{name}");
     }
-    legible(&svg).unwrap();
+    legible(&svg, 21).unwrap();
     for example in ["heisenberg_spin_ring", "spin_chain_64"] {
         let svg = picture(&format!("{example}.toml --time 1"));
         assert_eq!(self::motion(&svg).matches("<polyline ").count(), 8, "{example}");
@@ -92,7 +92,7 @@ fn every_example_has_its_picture() {
         ] {
             assert!(svg.contains(&format!(">{text}</text>")), "{stem}: {text}");
         }
-        legible(&svg).unwrap();
+        legible(&svg, 21).unwrap();
         seen += 1;
     }
     assert!(seen >= 21, "{seen}");

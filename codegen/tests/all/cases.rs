@@ -38,8 +38,14 @@ fn of_a_file(text: &str, name: &str) -> String {
 /// The first line is the attribute; columns are those of its arguments and of the function.
 fn of_an_attribute(text: &str) -> String {
     let (attribute, function) = text.split_once('\n').unwrap();
-    let arguments = attribute.strip_prefix("#[lie_poisson(").unwrap().strip_suffix(")]").unwrap();
-    let read = rust::hamiltonian(arguments.parse().unwrap(), &syn::parse_str(function).unwrap());
+    let inside = attribute.strip_prefix("#[").and_then(|rest| rest.strip_suffix(']')).unwrap();
+    let (name, arguments) = inside.split_once('(').unwrap_or((inside, ")"));
+    let arguments = arguments.strip_suffix(')').unwrap();
+    let (arguments, function) = (arguments.parse().unwrap(), syn::parse_str(function).unwrap());
+    let read = match name {
+        "lie_poisson" => rust::hamiltonian(arguments, &function).map(drop),
+        _ => rust::potential(arguments, &function).map(drop),
+    };
     let Err(mistakes) = read else { return String::new() };
     mistakes.into_syn_error().into_iter().fold(String::new(), |mut all, error| {
         let (start, end) = (error.span().start(), error.span().end());

@@ -36,63 +36,48 @@ fn fields_as_people_write_them_are_read() {
     assert_eq!(system.energy().value(0.0, &[1.0, 1.0, 1.0]), 1.0 / 3.0 + 0.25 + 0.2);
 }
 
+fn field<'a>(fields: &'a mut Fields, name: &str) -> &'a mut String {
+    match name {
+        "hamiltonian" => &mut fields.hamiltonian,
+        "parameters" => &mut fields.parameters,
+        "group" => &mut fields.group,
+        "coordinates" => &mut fields.coordinates,
+        "momentum" => &mut fields.momentum,
+        "truncation" => &mut fields.truncation,
+        "chart" => &mut fields.chart,
+        "method" => &mut fields.method,
+        "step" => &mut fields.step,
+        "algebra" => &mut fields.algebra,
+        other => panic!("{other}"),
+    }
+}
+
+/// Each line of `page/tests/mistakes.cases`: the field with the mistake, the text that is marked there, and what is changed of a body.
 #[test]
 fn every_mistake_is_at_its_place() {
-    let field = |fields: &Fields, name: Option<&str>| match name {
-        Some("hamiltonian") => fields.hamiltonian.clone(),
-        Some("parameters") => fields.parameters.clone(),
-        Some("group") => fields.group.clone(),
-        Some("coordinates") => fields.coordinates.clone(),
-        Some("momentum") => fields.momentum.clone(),
-        Some("truncation") => fields.truncation.clone(),
-        Some("chart") => fields.chart.clone(),
-        Some("step") => fields.step.clone(),
-        Some("algebra") => fields.algebra.clone(),
-        other => panic!("{other:?}"),
-    };
-    type Change = fn(&mut Fields);
-    let cases: [(&str, &str, Change); 18] = [
-        ("hamiltonian", "w", |f| f.hamiltonian = "x^2/2 + w^2".into()),
-        ("hamiltonian", "w", |f| f.hamiltonian = "  x^2/2\n + w^2".into()),
-        // Letters of several bytes before it.
-        ("hamiltonian", "§", |f| f.hamiltonian = "x^2 + §*y".into()),
-        ("hamiltonian", "\"", |f| f.hamiltonian = "x^2 + \"*y".into()),
-        ("hamiltonian", "erf", |f| f.hamiltonian = "y^2 + erf(x)".into()),
-        ("parameters", "1.5.2", |f| f.parameters = "I1 = 1.5.2, I2 = 2, I3 = 3".into()),
-        ("parameters", "I2", |f| f.parameters = "I1 = 1\nI2\nI3 = 3".into()),
-        ("parameters", "x", |f| f.parameters = "I1 = 1, I2 = 2, I3 = 3, x = 4".into()),
-        ("group", "SO33", |f| f.group = "SO33".into()),
-        ("coordinates", "x, y", |f| {
-            f.coordinates = "x, y".into();
-            f.hamiltonian = "x^2".into()
-        }),
-        ("momentum", "2 1", |f| f.momentum = "2 1".into()),
-        ("momentum", "one", |f| f.momentum = "2 one 3".into()),
-        ("truncation", "4", |f| f.truncation = "4".into()),
-        ("step", "0", |f| f.step = "0".into()),
-        ("chart", "cayley", |f| {
-            (f.hamiltonian, f.chart) = ("y^2 + sin(x)".into(), "cayley".into())
-        }),
-        ("hamiltonian", "sin(x)", |f| {
-            (f.hamiltonian, f.method) = ("y^2 + sin(x)".into(), "series".into())
-        }),
-        ("momentum", "2 0.5 1", |f| f.hamiltonian = "y^2 + ln(x - 2)".into()),
-        ("algebra", "[A, B] = D", |f| {
-            f.algebra = "generators = [\"A\", \"B\", \"C\"]\nbrackets = [\"[A, B] = D\"]".into()
-        }),
-    ];
-    for (name, place, change) in cases {
-        let (fields, found) = mistakes(change);
+    let cases = include_str!("../mistakes.cases").lines().filter(|line| !line.starts_with('#'));
+    let mut seen = 0;
+    for case in cases {
+        let [name, place, changes] = case.split(" | ").collect::<Vec<_>>()[..] else {
+            panic!("{case}")
+        };
+        let (mut fields, found) = mistakes(|fields| {
+            for change in changes.split("; ") {
+                let (name, text) = change.split_once(" = ").unwrap();
+                *field(fields, name) = text.replace("\\n", "\n");
+            }
+        });
         let here = found.iter().find(|mistake| mistake.field == Some(name));
-        let here = here.unwrap_or_else(|| panic!("{name} {place}: {found:?}"));
-        let text = field(&fields, here.field);
-        let marked = &text[here.start..here.end];
+        let here = here.unwrap_or_else(|| panic!("{case}: {found:?}"));
+        let marked = &field(&mut fields, name)[here.start..here.end];
         assert!(
             marked.contains(place) || place.contains(marked) && !marked.is_empty(),
-            "{name}: {marked:?} for {place:?}: {here:?}"
+            "{case}: {marked:?}: {here:?}"
         );
-        assert!(marked.len() <= place.len() + 2, "{name}: {marked:?} for {place:?}");
+        assert!(marked.len() <= place.len() + 2, "{case}: {marked:?}");
+        seen += 1;
     }
+    assert!(seen >= 18, "{seen}");
 }
 
 #[test]

@@ -2,4 +2,6 @@
 #![allow(missing_docs)]
 
 mod command;
+#[path = "../../../cli/tests/all/cases/legible.rs"]
+mod legible;
 mod page;

@@ -10,6 +10,8 @@ use coadjoint_paper::outcome::{Config, Report};
 use coadjoint_paper::page::{page, sections};
 use coadjoint_paper::text::figures;
 
+use crate::legible::legible;
+
 const CHEAP: [&str; 8] = [
     "simulation",
     "orders",
@@ -136,44 +138,11 @@ fn the_page_is_complete_well_formed_and_needs_no_network() {
     assert!(page(&again, &[]) == page(&cheap.cloned().collect::<Vec<_>>(), &[]));
 }
 
-/// No two texts of a panel overlap, and none leaves it; widths are those of a wide font.
 #[test]
 fn texts_of_panels_do_not_overlap() {
     let html = page(whole(), &gallery());
-    let mut count = 0;
-    for svg in html.split("<svg ").skip(1).map(|rest| rest.split("</svg>").next().unwrap()) {
-        let of = |part: &str, name: &str| -> Option<String> {
-            let value = part.split(&format!("{name}=\"")).nth(1)?;
-            Some(value.split('"').next()?.to_owned())
-        };
-        let number = |part: &str, name: &str| of(part, name).map(|v| v.parse::<f64>().unwrap());
-        let (width, height) = (number(svg, "width").unwrap(), number(svg, "height").unwrap());
-        let boxes: Vec<(f64, f64, f64, f64, &str)> = svg
-            .split("<text ")
-            .skip(1)
-            .map(|part| {
-                let (head, rest) = part.split_once('>').unwrap();
-                let text = rest.split("</text>").next().unwrap();
-                let (x, y) = (number(head, "x").unwrap(), number(head, "y").unwrap());
-                let size = number(head, "font-size").unwrap_or(13.0);
-                let letters = text.replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&");
-                let wide = 0.6 * size * letters.chars().count() as f64;
-                let left = match of(head, "text-anchor").unwrap().as_str() {
-                    "start" => x,
-                    "middle" => x - wide / 2.0,
-                    _ => x - wide,
-                };
-                (left, left + wide, y - 0.75 * size, y + 0.2 * size, text)
-            })
-            .collect();
-        for (i, a) in boxes.iter().enumerate() {
-            assert!(a.0 >= -1.0 && a.1 <= width + 1.0 && a.3 <= height, "outside: {a:?}");
-            for b in &boxes[i + 1..] {
-                let apart = a.1 <= b.0 || b.1 <= a.0 || a.3 <= b.2 || b.3 <= a.2;
-                assert!(apart, "{a:?} and {b:?}");
-            }
-        }
-        count += 1;
-    }
-    assert!(count > 25, "{count}");
+    let panels = html.split("<svg ").skip(1).map(|rest| rest.split_once("</svg>").unwrap().0);
+    let panels: Vec<String> = panels.map(|panel| format!("<svg {panel}</svg>")).collect();
+    panels.iter().for_each(|panel| legible(panel, 1).unwrap());
+    assert!(panels.len() > 25, "{}", panels.len());
 }

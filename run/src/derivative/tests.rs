@@ -15,133 +15,39 @@ use crate::load::read_varying;
 const START: f64 = 1.5;
 
 /// A system, the parameters in which it is differentiated, a momentum, and a step.
+#[derive(Clone)]
 struct Case {
     text: &'static str,
-    varied: &'static [&'static str],
-    momentum: &'static [f64],
+    varied: Vec<String>,
+    momentum: Vec<f64>,
     step: f64,
 }
 
-const BODY: Case = Case {
-    text: "group = 'SO3'\nhamiltonian = 'a*mu[0]^2 + mu[1]^2/(2*b) + c[0]*mu[2]^2 + c[1]*mu[0]*mu[1]*mu[2]'\n\
-           [parameters]\na = 0.3125\nb = 2\nc = [0.1875, 0.03125]\n[integrator]\ntruncation = 5",
-    varied: &["a", "b", "c"],
-    momentum: &[2.0, 0.5, 1.0],
-    step: 0.25,
-};
-
-const CASES: [Case; 15] = [
-    BODY,
-    Case {
-        text: "group = 'SE3'\nhamiltonian = 'mu[0]^2/2 + mu[1]^2/3 + mu[2]^2 + f*mu[5] + mu[3]*mu[4]/5'\n\
-               [parameters]\nf = 0.75\n[integrator]\ntruncation = 5\nchart = 'cayley'",
-        varied: &["f"],
-        momentum: &[0.5, -0.25, 1.0, 0.75, 0.5, -0.5],
-        step: 0.125,
-    },
-    // A frame that turns by more than once in a step.
-    Case {
-        text: "group = 'SO3'\nhamiltonian = 'a*(mu[0]^2 + mu[1]^2) + 2*a*mu[2]^2 + b*mu[2]'\n\
-               [parameters]\na = 0.25\nb = 40\n[integrator]\nframe = 'comoving'",
-        varied: &["a", "b"],
-        momentum: &[1.0, 0.5, 0.75],
-        step: 0.25,
-    },
-    // Two groups, one of which is not compact.
-    Case {
-        text: "group = 'SL2 * SO3'\nhamiltonian = 'mu[0]^2/2 + a*mu[1]*mu[2] + mu[0]*mu[3]/2 + mu[3]^2/3 + mu[4]^2/4'\n\
-               [parameters]\na = 0.5\n[integrator]\ntruncation = 3",
-        varied: &["a"],
-        momentum: &[0.5, 0.25, -0.5, 0.75, 0.5, 0.25],
-        step: 0.25,
-    },
-    Case {
-        text: "group = 'SO3'\nhamiltonian = 'mu[0]^2/2 + mu[1]^2/b + mu[2]^2/4'\npotential = 'w*g[2][2] + sqrt(b)*w^2*g[0][1]^2/3'\n\
-               [parameters]\nb = 3\nw = 0.75\n[integrator]\ntruncation = 5",
-        varied: &["b", "w"],
-        momentum: &[0.5, 0.25, 1.0],
-        step: 0.25,
-    },
-    // Kicks of functions, and flows by collocation between kicks.
-    Case {
-        text: "group = 'SO3'\nhamiltonian = 'mu[0]^2/2 + mu[1]^2/b + mu[2]^2/4'\npotential = 'b*sqrt(2 + w*g[2][2])'\n\
-               [parameters]\nb = 3\nw = 0.75\n[integrator]\ntruncation = 5",
-        varied: &["b", "w"],
-        momentum: &[0.5, 0.25, 1.0],
-        step: 0.25,
-    },
-    Case {
-        text: "group = 'SO3'\nhamiltonian = 'sqrt(1 + a*mu[0]^2 + mu[1]^2/3 + exp(u*mu[2]))'\npotential = 'w*g[2][2] + a*g[0][1]^2/3'\n\
-               [parameters]\na = 0.5\nw = 0.75\n[inputs]\ntimes = [-9, 9, 40]\nu = [0.2, 0.3, 0.1]",
-        varied: &["a", "w"],
-        momentum: &[2.0, 0.5, 1.0],
-        step: 0.25,
-    },
-    // By collocation at four nodes, at one, and at three on a product.
-    Case {
-        text: "group = 'SO3'\nhamiltonian = 'sqrt(1 + a*mu[0]^2 + mu[1]^2/b + exp(u*mu[2]))'\n\
-               [parameters]\na = 0.5\nb = 2\n[inputs]\ntimes = [-9, 9, 40]\nu = [0.2, 0.3, 0.1]",
-        varied: &["a", "b"],
-        momentum: &[2.0, 0.5, 1.0],
-        step: 0.25,
-    },
-    Case {
-        text: "group = 'SE3'\nhamiltonian = 'sqrt(1 + mu[0]^2 + mu[1]^2/2 + mu[3]^2) + f*mu[5] + mu[2]^2/4'\n\
-               [parameters]\nf = 0.5\n[integrator]\ntruncation = 1",
-        varied: &["f"],
-        momentum: &[0.5, -0.25, 1.0, 0.75, 0.5, -0.5],
-        step: 0.125,
-    },
-    Case {
-        text: "group = 'SL2 * SO3'\nhamiltonian = 'sqrt(4 + mu[0]^2 + (mu[1] + mu[3])^2) + cos(mu[2]) + a*ln(3 + mu[4]*mu[5])'\n\
-               [parameters]\na = 0.5\n[integrator]\ntruncation = 5",
-        varied: &["a"],
-        momentum: &[0.5, 0.25, -0.5, 0.75, 0.5, 0.25],
-        step: 0.125,
-    },
-    // A velocity and a torque of all that they may depend on; damping; a velocity alone; a product.
-    Case {
-        text: "group = 'SO3'\nhamiltonian = 'mu[0]^2/2 + mu[1]^2/b + mu[2]^2/4'\n\
-               velocity = ['a*mu[1]*omega[2]', 'u', 'g[0][1]*sin(t)']\ntorque = ['-a*omega[0]', 'u*g[2][0]', 'cos(t)*mu[0]']\n\
-               [parameters]\na = 0.25\nb = 3\n[inputs]\nhold = 'linear'\ntimes = [-9, 1.5, 40]\nu = [0.2, 0.3, 0.1]",
-        varied: &["a", "b"],
-        momentum: &[0.5, 0.25, 1.0],
-        step: 0.25,
-    },
-    Case {
-        text: "group = 'SE3'\nhamiltonian = 'mu[0]^2/2 + mu[1]^2/3 + mu[2]^2 + f*mu[5] + mu[3]^2/5'\ndamping = 0.125\n\
-               torque = ['0', '0', '0', 'g[2][0]*u', 'g[2][1]', 'g[2][2]']\n\
-               [parameters]\nf = 0.75\n[inputs]\nhold = 'previous'\ntimes = [-9, 1.75, 2]\nu = [0.2, 0.3, 0.1]",
-        varied: &["f"],
-        momentum: &[0.5, -0.25, 1.0, 0.75, 0.5, -0.5],
-        step: 0.125,
-    },
-    Case {
-        text: "group = 'SL2'\nvelocity = ['a*mu[1]', 'mu[0]*mu[2]/4', 'a^2*cos(t)']\n[parameters]\na = 0.5\n[integrator]\ntruncation = 5",
-        varied: &["a"],
-        momentum: &[0.5, 0.25, -0.5],
-        step: 0.125,
-    },
-    Case {
-        text: "group = 'SO3 * SE2'\nhamiltonian = 'mu[0]^2/2 + mu[1]^2/3 + mu[2]^2/4 + mu[3]^2/2 + mu[4]^2/3'\n\
-               torque = ['a*mu[5]', '0', '0', '-a*omega[3]', '0', 'mu[0]']\n[parameters]\na = 0.5\n[integrator]\ntruncation = 3",
-        varied: &["a"],
-        momentum: &[0.5, 0.25, -0.5, 0.75, 0.5, 0.25],
-        step: 0.125,
-    },
-    // A steady rotation, whose rates are guessed exactly and their changes are not.
-    Case {
-        text: "group = 'SO3'\nhamiltonian = 'sqrt(1 + a*mu[0]^2 + mu[1]^2/2 + mu[2]^2/4)'\n[parameters]\na = 1.5",
-        varied: &["a"],
-        momentum: &[0.0, 0.0, 4.0],
-        step: 0.5,
-    },
-];
+/// The systems of `run/tests/derivatives.cases`; the first is a free body, the first two have series without a frame.
+fn cases() -> Vec<Case> {
+    let all = include_str!("../../tests/derivatives.cases").split("==== ").skip(1);
+    let case = |text: &'static str| {
+        let (head, text) = text.split_once('\n').unwrap();
+        let [varied, momentum, step] = head.split('|').collect::<Vec<_>>()[..] else {
+            panic!("{head}")
+        };
+        let number = |word: &str| word.trim().parse().unwrap();
+        Case {
+            text,
+            varied: varied.split_whitespace().map(str::to_owned).collect(),
+            momentum: momentum.split_whitespace().map(number).collect(),
+            step: number(step),
+        }
+    };
+    let all: Vec<Case> = all.map(case).collect();
+    assert!(all.len() >= 15, "{}", all.len());
+    all
+}
 
 impl Case {
     fn system(&self) -> Derived {
-        let varied: Vec<String> = self.varied.iter().map(|&name| name.to_owned()).collect();
-        Derived::of(read_varying("case", self.text, Options::default(), &varied).unwrap()).unwrap()
+        let read = read_varying("case", self.text, Options::default(), &self.varied);
+        Derived::of(read.unwrap()).unwrap()
     }
 
     fn setup(&self, steps: u64) -> Setup {
@@ -149,7 +55,7 @@ impl Case {
         let schedule = Schedule::of(grid, self.step * steps as f64).unwrap();
         Setup {
             backend: crate::Backend::Interpreter,
-            ..Setup::new(schedule, self.momentum.to_vec())
+            ..Setup::new(schedule, self.momentum.clone())
         }
     }
 }
@@ -237,7 +143,7 @@ fn with_sample(case: &Case, mut sample: usize, change: f64) -> Derived {
 
 #[test]
 fn tangents_are_the_derivatives_of_runs() {
-    for case in &CASES {
+    for case in &cases() {
         let system = case.system();
         let algebra = system.facts().algebra;
         let (theta, n) = (system.facts().defaults(), algebra.dim());
@@ -284,13 +190,13 @@ fn tangents_are_the_derivatives_of_runs() {
 
 #[test]
 fn tangents_of_a_step_are_those_in_doubled_precision() {
-    for case in &CASES[..2] {
+    for case in &cases()[..2] {
         let system = case.system();
         let problem = &system.series().unwrap().problem;
         let (theta, n) = (system.facts().defaults(), problem.algebra.dim());
         let judge = Judge::of_problem(problem, TermLimit::default()).unwrap();
         let at = |column: usize, s: f64| {
-            let (mut theta, mut mu) = (theta.clone(), case.momentum.to_vec());
+            let (mut theta, mut mu) = (theta.clone(), case.momentum.clone());
             match column {
                 j if j < n => mu[j] += s,
                 j => theta[j - n] += s,
@@ -336,7 +242,7 @@ fn symplectic_form(algebra: &LieAlgebra, mu: &[f64]) -> DMatrix<f64> {
 
 #[test]
 fn tangents_are_symplectic_and_adjoints_are_their_transposes() {
-    for case in &CASES {
+    for case in &cases() {
         let system = case.system();
         let steps = 20;
         let derivatives = Derivatives::new(&system, &case.setup(steps)).unwrap();
@@ -380,18 +286,17 @@ fn tangents_are_symplectic_and_adjoints_are_their_transposes() {
     }
 }
 
-/// Moments of inertia 1, 2 and 4.
-const FREE: Case = Case {
-    text: "group = 'SO3'\nhamiltonian = 'mu[0]^2/2 + mu[1]^2/4 + mu[2]^2/8'\n[integrator]\ntruncation = 9",
-    varied: &[],
-    momentum: &[0.0, 2.0, 0.0],
-    step: 0.05,
-};
+/// A free body with the moments of inertia 1, 2 and 4.
+fn free(momentum: [f64; 3]) -> Case {
+    let text = "group = 'SO3'\nhamiltonian = 'mu[0]^2/2 + mu[1]^2/4 + mu[2]^2/8'\n[integrator]\ntruncation = 9";
+    Case { text, varied: Vec::new(), momentum: momentum.to_vec(), step: 0.05 }
+}
 
 #[test]
 fn a_body_leaves_its_middle_axis_at_the_known_rate() {
-    let system = FREE.system();
-    let derivatives = Derivatives::new(&system, &FREE.setup(1000)).unwrap();
+    let body = free([0.0, 2.0, 0.0]);
+    let system = body.system();
+    let derivatives = Derivatives::new(&system, &body.setup(1000)).unwrap();
     let exponent = derivatives.largest_exponent(900).unwrap();
     let rate = (1.0 * 2.0 / (1.0 * 4.0_f64)).sqrt();
     assert!((exponent - rate).abs() < 1e-10, "{:e}", exponent - rate);
@@ -400,7 +305,7 @@ fn a_body_leaves_its_middle_axis_at_the_known_rate() {
 
 #[test]
 fn multipliers_of_a_steady_rotation_are_known() {
-    let case = Case { momentum: &[0.0, 0.0, 5.0], ..FREE };
+    let case = free([0.0, 0.0, 5.0]);
     let (velocity, time) = (1.25, 2.0);
     let system = case.system();
     let derivatives = Derivatives::new(&system, &case.setup(40)).unwrap();
@@ -419,8 +324,9 @@ fn multipliers_of_a_steady_rotation_are_known() {
 
 #[test]
 fn shapes_that_do_not_fit_and_runs_that_stop_are_told() {
-    let system = BODY.system();
-    let derivatives = Derivatives::new(&system, &BODY.setup(4)).unwrap();
+    let body = cases().remove(0);
+    let system = body.system();
+    let derivatives = Derivatives::new(&system, &body.setup(4)).unwrap();
     let [zeros, none, fits] = [5, 4, 6].map(|rows| DMatrix::zeros(rows, 1));
     let forward = |state: &DMatrix<f64>, parameters: &DMatrix<f64>, inputs: usize, at: &[u64]| {
         let inputs = vec![DMatrix::zeros(3, 1); inputs];
@@ -438,7 +344,7 @@ fn shapes_that_do_not_fit_and_runs_that_stop_are_told() {
     ] {
         assert!(matches!(failed, Err(RunError::Option(_))));
     }
-    let far = Case { momentum: &[40.0, 10.0, 20.0], ..BODY };
+    let far = Case { momentum: vec![40.0, 10.0, 20.0], ..body.clone() };
     let derivatives = Derivatives::new(&system, &far.setup(4)).unwrap();
     let stopped = derivatives.monodromy();
     assert!(matches!(stopped, Err(RunError::Run { step: 1, .. })));

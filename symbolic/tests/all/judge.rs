@@ -1,104 +1,13 @@
-//! The judge against exact references: end states of motions, and steps that are wrong on purpose.
+//! The judge: steps that are known, and steps that are wrong on purpose. `tests/tests/all/systems_reference.rs` compares its motions
+//! with end states computed elsewhere.
 
 use coadjoint_symbolic::hamilton_jacobi::{TermLimit, derive};
-use coadjoint_symbolic::judge::{Branch, DoubleDouble, Enclosure, Inside, Judge};
+use coadjoint_symbolic::judge::{Branch, DoubleDouble, Inside, Judge};
 use coadjoint_symbolic::lie::{Chart, catalogue::lookup};
-use coadjoint_symbolic::number::Rational;
 use coadjoint_symbolic::number::ratio;
 use coadjoint_symbolic::poly::Polynomial;
-use serde_json::Value;
 
 const UNIT: f64 = f64::EPSILON / 2.0;
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| value.as_str().unwrap().parse().unwrap())
-}
-
-/// H of an entry of the references: Σ coefficient·∏ μᵢ^exponent.
-fn energy(entry: &Value, dim: usize) -> Polynomial {
-    let terms = entry["H"].as_array().unwrap().iter().map(|term| {
-        let exponents: Vec<u32> = term["exponents"]
-            .as_array()
-            .unwrap()
-            .iter()
-            .map(|e| e.as_u64().unwrap() as u32)
-            .collect();
-        let text = term["coefficient"].as_str().unwrap();
-        let coefficient: Rational = match text.split_once('.') {
-            Some((whole, part)) => {
-                let digits: Rational = format!("{whole}{part}").parse().unwrap();
-                let tens: Rational = format!("1{}", "0".repeat(part.len())).parse().unwrap();
-                digits / tens
-            }
-            None => text.parse().unwrap(),
-        };
-        (exponents, coefficient)
-    });
-    Polynomial::from_terms(dim, terms.collect::<Vec<_>>())
-}
-
-/// The judge's own motion reaches the references' end states (40 digits, an independent program), to the
-/// series' truncation error: the signs, both charts, and the group element.
-#[test]
-fn motions_reach_the_references_end_states() {
-    let text = include_str!("../../../tests/reference/end_states.json");
-    let entries: Vec<Value> = serde_json::from_str(text).unwrap();
-    for (name, group, chart, truncation, steps, tolerance) in [
-        ("rigid-body (DMV driver)", "SO3", Chart::Exponential, 9, 200, 1e-9),
-        ("rigid-body (DMV driver)", "SO3", Chart::Cayley, 9, 400, 1e-7),
-        ("Kirchhoff", "SE3", Chart::Exponential, 5, 400, 1e-7),
-        ("Manakov so(4)", "SO4", Chart::Exponential, 3, 400, 1e-3),
-    ] {
-        let entry = entries.iter().find(|e| e["system"] == name).unwrap();
-        let algebra = lookup(group).unwrap();
-        let h = energy(entry, algebra.dim());
-        let series = derive(&algebra, chart, &h, truncation, TermLimit::default()).unwrap();
-        let judge = Judge::new(&algebra, &series).unwrap();
-        let step = number(&entry["T"]) / f64::from(steps);
-        let mut setting = judge.at(step, &[]).unwrap();
-        let vector =
-            |key: &str| entry[key].as_array().unwrap().iter().map(number).collect::<Vec<_>>();
-        let mut motion = Enclosure::new(&vector("momentum0"));
-        let size = (1..).find(|n| n * n >= algebra.basis().unwrap()[0].rows().pow(2)).unwrap();
-        let unit: Vec<f64> =
-            (0..size * size).map(|at| f64::from(u8::from(at / size == at % size))).collect();
-        let mut element = unit.clone();
-        for _ in 0..steps {
-            let before = motion.momentum();
-            let mut one = Enclosure::new(&before);
-            one.step(&mut setting, None, UNIT).unwrap();
-            motion.step(&mut setting, None, UNIT).unwrap();
-            // The product of rounded elements, for the comparison only.
-            let single = one.element_from(&unit);
-            element = product(size, &element, &single);
-        }
-        let found = motion.momentum();
-        let expected = vector("momentum");
-        let whole = expected.iter().map(|m| m.abs()).fold(0.0, f64::max);
-        for (found, expected) in found.iter().zip(&expected) {
-            assert!(
-                (found - expected).abs() < tolerance * whole,
-                "{name}: {found} is not {expected}"
-            );
-        }
-        let rows = entry["group_element"].as_array().unwrap();
-        let expected: Vec<f64> =
-            rows.iter().flat_map(|row| row.as_array().unwrap().iter().map(number)).collect();
-        assert_eq!(expected.len(), element.len());
-        for (found, expected) in element.iter().zip(&expected) {
-            assert!(
-                (found - expected).abs() < 100.0 * tolerance,
-                "{name}: {found} is not {expected}"
-            );
-        }
-        assert!(motion.element_deviation(&unit, &element) < 1.0);
-    }
-}
-
-fn product(n: usize, a: &[f64], b: &[f64]) -> Vec<f64> {
-    let entry = |at: usize| (0..n).map(|k| a[at / n * n + k] * b[k * n + at % n]).sum();
-    (0..n * n).map(entry).collect()
-}
 
 fn body(inverse: [(i64, i64); 3]) -> Polynomial {
     let terms = (0..3).map(|i| (vec![(i as u32, 2)], ratio(inverse[i].0, inverse[i].1)));

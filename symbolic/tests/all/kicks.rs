@@ -62,9 +62,10 @@ fn a_step_is_its_kicks_and_flows() {
         let flows: Vec<f64> = splitting.flows().collect();
         assert_eq!(kicks.len(), flows.len() + 1, "{splitting:?}");
         for lengths in [&kicks, &flows] {
-            assert!((lengths.iter().sum::<f64>() - 1.0).abs() < 1e-14, "{splitting:?}");
+            assert!((lengths.iter().sum::<f64>() - 1.0).abs() < 1e-15, "{splitting:?}");
             assert!(lengths.iter().eq(lengths.iter().rev()), "{splitting:?}");
         }
+        assert!(flows.len().div_ceil(2) <= Splitting::MAX_FLOWS, "{splitting:?}");
         let kicked = flow.clone().with_kicks(kick.clone(), splitting).unwrap();
         let step = Step::build(&kicked).unwrap();
         let slots = step.fold(h, &[]).unwrap();

@@ -7,10 +7,10 @@ use num_traits::{ToPrimitive, Zero};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 
-type Naive = BTreeMap<Vec<u32>, Rational>;
-type Terms = Vec<(Vec<u32>, Rational)>;
+pub type Naive = BTreeMap<Vec<u32>, Rational>;
+pub type Terms = Vec<(Vec<u32>, Rational)>;
 
-fn naive(terms: &Terms) -> Naive {
+pub fn naive(terms: &Terms) -> Naive {
     let mut result = Naive::new();
     for (exponents, value) in terms {
         *result.entry(exponents.clone()).or_insert_with(Rational::zero) += value;
@@ -23,7 +23,7 @@ fn add(a: &Naive, b: &Naive) -> Naive {
     naive(&a.iter().chain(b).map(|(e, v)| (e.clone(), v.clone())).collect())
 }
 
-fn multiply(a: &Naive, b: &Naive) -> Naive {
+pub fn multiply(a: &Naive, b: &Naive) -> Naive {
     let mut terms = Terms::new();
     for (e, x) in a {
         for (f, y) in b {
@@ -33,7 +33,7 @@ fn multiply(a: &Naive, b: &Naive) -> Naive {
     naive(&terms)
 }
 
-fn derivative(a: &Naive, index: usize) -> Naive {
+pub fn derivative(a: &Naive, index: usize) -> Naive {
     let mut terms = Terms::new();
     for (e, x) in a {
         if e[index] > 0 {

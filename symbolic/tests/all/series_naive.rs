@@ -1,40 +1,29 @@
 //! The recurrence against a second implementation, for random Hamiltonians.
 //!
-//! Here S is one polynomial in p and t over a map from exponents to rationals, every order is
+//! Here S is one polynomial in p and t, of the second implementation that `polynomial` has, every order is
 //! computed from the beginning with Bernoulli numbers from a table, and nothing is skipped.
 
 use coadjoint_symbolic::hamilton_jacobi::{TermLimit, derive};
 use coadjoint_symbolic::lie::{Chart, LieAlgebra, catalogue};
 use coadjoint_symbolic::number::{Rational, integer, ratio};
 use coadjoint_symbolic::poly::Polynomial;
-use num_traits::{One, Zero};
+use num_traits::One;
 use proptest::prelude::*;
-use std::collections::BTreeMap;
+
+use crate::polynomial::{self, Naive, derivative};
 
 /// Exponents of p_1 … p_n and, last, of t.
-type Series = BTreeMap<Vec<u32>, Rational>;
+type Series = Naive;
 
 fn add(a: &Series, b: &Series, factor: &Rational) -> Series {
-    let mut sum = a.clone();
-    for (exponents, value) in b {
-        *sum.entry(exponents.clone()).or_insert_with(Rational::zero) += value * factor;
-    }
-    sum.retain(|_, value| !value.is_zero());
-    sum
+    let scaled = b.iter().map(|(exponents, value)| (exponents.clone(), value * factor));
+    polynomial::naive(&a.clone().into_iter().chain(scaled).collect())
 }
 
 /// The product up to t^`order`.
 fn multiply(a: &Series, b: &Series, order: u32) -> Series {
-    let mut product = Series::new();
-    for (e, x) in a {
-        for (f, y) in b {
-            let exponents: Vec<u32> = e.iter().zip(f).map(|(i, j)| i + j).collect();
-            if exponents.last().is_some_and(|t| *t <= order) {
-                *product.entry(exponents).or_insert_with(Rational::zero) += x * y;
-            }
-        }
-    }
-    product.retain(|_, value| !value.is_zero());
+    let mut product = polynomial::multiply(a, b);
+    product.retain(|exponents, _| exponents.last().is_some_and(|t| *t <= order));
     product
 }
 
@@ -42,16 +31,6 @@ fn variable(n: usize, index: usize) -> Series {
     let mut exponents = vec![0; n + 1];
     exponents[index] = 1;
     Series::from([(exponents, Rational::one())])
-}
-
-fn derivative(a: &Series, index: usize) -> Series {
-    let mut result = Series::new();
-    for (e, x) in a.iter().filter(|(e, _)| e[index] > 0) {
-        let mut lowered = e.clone();
-        lowered[index] -= 1;
-        result.insert(lowered, x * integer(i64::from(e[index])));
-    }
-    result
 }
 
 /// Σ_k (−1)^k B_k/k! (ad_x^T)^k p up to t^`order` ≤ 6, (ad_x^T w)_j = Σ c_ij^l x_i w_l.

@@ -1,13 +1,14 @@
-//! Families of steps by collocation: Hamiltonians with a root, a quadratic form and a linear one, drawn at random, in steps
-//! h|Ω| up to 3. They are made by the runtime, and by the programs of a kernel.
+//! Families of steps by collocation, compared with the flow: of Hamiltonians with a root, a quadratic form and a linear one, by the
+//! runtime and by the programs of a kernel; and of Hamiltonians that make steps hard, with a pole, a tangent or the edge of a root
+//! that the motion comes to within three steps, or with steep flanks and short waves.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, LazyLock, Mutex};
 
 use coadjoint::collocation::{Collocation, Energy};
-use coadjoint::groups::{Coordinates, Power, SE2, SL2, SU2};
-use coadjoint::{LieGroup, SE3, SO3};
-use coadjoint_codegen::smooth::Hamiltonian;
+use coadjoint::groups::{Coordinates, MatrixGroup, Power, SE2, SL2, SU2};
+use coadjoint::{LieGroup, Phase, SE3, SO3};
+use coadjoint_codegen::smooth::{Hamiltonian, Smooth};
 use coadjoint_codegen::step::{Observation, Origin, Step};
 use coadjoint_codegen::system::{Options, Parameters, read_either};
 use coadjoint_program::{Precision, Stepper};
@@ -17,100 +18,201 @@ use super::flow::{DRAWS, Generic, Mover, Trial};
 use super::random::Random;
 use super::verdict::Tally;
 use crate::backends::entries_of;
+use crate::kernels::TextEnergy;
 
-/// How far, relatively, a step with 1, 2, 3 or more nodes may be from the flow. Another branch is farther away than any.
-const FARTHEST: [f64; 4] = [0.2, 0.2, 2e-2, 5e-3];
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Draw {
+    /// √(1 + Σ wᵢ μᵢ²) + ½ Σ qᵢⱼ μᵢ μⱼ + Σ bᵢ μᵢ
+    Root,
+    /// ½ Σ qᵢⱼ μᵢ μⱼ and a term of [`EDGES`], whose edge the motion comes to within three steps.
+    Edge,
+    /// ½ Σ qᵢⱼ μᵢ μⱼ and up to three terms of [`FLANKS`].
+    Flank,
+}
 
-/// √(1 + Σ wᵢ μᵢ²) + ½ Σ qᵢⱼ μᵢ μⱼ + Σ bᵢ μᵢ
+impl Draw {
+    /// How far, relatively, a step with this number of nodes may be from the flow. Another branch is farther away than any.
+    fn farthest(self, nodes: usize) -> f64 {
+        match (self, nodes) {
+            (Self::Root, 3) => 2e-2,
+            (Self::Root, 4..) => 5e-3,
+            _ => 0.2,
+        }
+    }
+}
+
+/// Functions f of terms `height`·f(u), u = `width`·(Σ `slope`ᵢ μᵢ − `offset`).
+const EDGES: [&str; 3] = ["1/(u)", "tan(u)", "sqrt(u)"];
+const FLANKS: [&str; 3] = ["sin(u)", "tanh(u)", "exp(4*tanh(u))"];
+
 #[derive(Clone, Debug)]
-pub struct Drawn {
-    pub root: Vec<f64>,
-    pub form: Vec<Vec<f64>>,
-    pub linear: Vec<f64>,
+struct Term {
+    f: &'static str,
+    height: f64,
+    width: f64,
+    slope: Vec<f64>,
+    offset: f64,
+}
+
+impl Term {
+    fn along<V: Coordinates<f64>>(&self, m: &V) -> f64 {
+        (0..m.dim()).map(|i| self.slope[i] * m[i]).sum()
+    }
+
+    /// Between which of its poles or edges a momentum is.
+    fn side<V: Coordinates<f64>>(&self, m: &V) -> f64 {
+        let u = self.width * (self.along(m) - self.offset);
+        match EDGES.iter().position(|f| *f == self.f) {
+            Some(1) => (u / core::f64::consts::PI + 0.5).floor(),
+            Some(_) => u.signum(),
+            None => 0.0,
+        }
+    }
+}
+
+/// A Hamiltonian for any values of its numbers, and the programs of a kernel where they are asked for.
+struct Routine {
+    smooth: Smooth,
+    kernel: Option<(Step, Observation)>,
+}
+
+/// That with these functions in its terms, or a root if there are none, on a group of the catalogue; made once.
+fn routine(group: &str, nodes: usize, terms: &[&str], with_kernel: bool) -> Arc<Routine> {
+    static KNOWN: LazyLock<Mutex<BTreeMap<String, Arc<Routine>>>> = LazyLock::new(Mutex::default);
+    let (n, count) = (algebra(group).dim(), terms.len());
+    let argument = |k: usize| format!("(c[{k}]*(sum(i, 0..{n}, s[{k}][i]*mu[i]) - o[{k}]))");
+    let each = terms.iter().enumerate();
+    let each = each.map(|(k, f)| format!("h[{k}]*{}", f.replace("(u)", &argument(k))));
+    let (rest, own) = match count {
+        0 => {
+            let root = format!("sqrt(1 + sum(i, 0..{n}, w[i]*mu[i]^2))");
+            (
+                root + &format!(" + sum(i, 0..{n}, b[i]*mu[i])"),
+                format!("w = {0:?}\nb = {0:?}", vec![1; n]),
+            )
+        }
+        _ => {
+            let (ones, slopes) = (vec![1; count], vec![vec![1; n]; count]);
+            (
+                each.collect::<Vec<_>>().join(" + "),
+                format!("h = {ones:?}\nc = {ones:?}\ns = {slopes:?}\no = {ones:?}"),
+            )
+        }
+    };
+    let text = format!(
+        "group = {group:?}\nhamiltonian = \"sum(i, 0..{n}, sum(j, 0..{n}, q[i][j]*mu[i]*mu[j]))/2 + {rest}\"\n\
+         [parameters]\nq = {:?}\n{own}\n",
+        vec![vec![1; n]; n]
+    );
+    let build = || {
+        let truncation = Some(2 * nodes - 1);
+        let options = Options { truncation, parameters: Parameters::Kept, ..Options::default() };
+        let read = read_either(&text, options, &[]).expect("a system").problem;
+        let Hamiltonian::Smooth(smooth) = read else { panic!("a polynomial: {text}") };
+        let kernel = with_kernel.then(|| {
+            let step = Origin::Collocation(smooth.clone()).step(Precision::Double);
+            let step = step.expect("a kernel");
+            let observation = Observation::new(&step);
+            (step, observation)
+        });
+        Arc::new(Routine { smooth: *smooth, kernel })
+    };
+    let mut known = KNOWN.lock().expect("a whole map");
+    Arc::clone(known.entry(format!("{nodes}, {with_kernel}, {text}")).or_insert_with(build))
+}
+
+/// The numbers of a Hamiltonian.
+#[derive(Clone, Debug)]
+struct Drawn {
+    form: Vec<Vec<f64>>,
+    root: Vec<f64>,
+    linear: Vec<f64>,
+    terms: Vec<Term>,
 }
 
 impl Drawn {
-    pub(super) fn new(dim: usize, random: &mut Random) -> Self {
-        let mut form = vec![vec![0.0; dim]; dim];
-        for i in 0..dim {
+    fn new(draw: Draw, n: usize, random: &mut Random) -> Self {
+        let mut form = vec![vec![0.0; n]; n];
+        for i in 0..n {
+            if draw != Draw::Root {
+                form[i][i] = random.between(0.2, 1.5) * random.sign_one_in(4);
+            }
             for j in 0..i {
                 let entry = random.between(-0.25, 0.25);
                 (form[i][j], form[j][i]) = (entry, entry);
             }
         }
-        let root = (0..dim).map(|_| random.between(0.2, 1.5)).collect();
-        let linear = (0..dim).map(|_| random.between(-0.35, 0.35)).collect();
-        Self { root, form, linear }
-    }
-
-    fn root<V: Coordinates<f64>>(&self, m: &V) -> f64 {
-        (1.0 + (0..m.dim()).map(|i| self.root[i] * m[i] * m[i]).sum::<f64>()).sqrt()
-    }
-
-    fn half<V: Coordinates<f64>>(&self, m: &V, i: usize) -> f64 {
-        (0..m.dim()).map(|j| self.form[i][j] * m[j]).sum()
-    }
-}
-
-impl<V: Coordinates<f64>> Energy<V> for Drawn {
-    fn value(&self, _time: f64, m: &V) -> f64 {
-        let sum = |i: usize| m[i] * (0.5 * self.half(m, i) + self.linear[i]);
-        self.root(m) + (0..m.dim()).map(sum).sum::<f64>()
-    }
-
-    fn gradient(&self, _time: f64, m: &V) -> V {
-        let root = self.root(m);
-        let entry = |i: usize| self.root[i] * m[i] / root + self.half(m, i) + self.linear[i];
-        V::from_entries(m.dim(), entry)
-    }
-}
-
-/// The programs of a kernel, for any values of the numbers of a [`Drawn`].
-struct Routine {
-    step: Step,
-    observation: Observation,
-}
-
-/// By the name of the group and the number of nodes.
-type Known = BTreeMap<(&'static str, usize), Arc<Routine>>;
-
-/// Those on a group of the catalogue, by its name and a number of nodes, once they were asked for.
-fn programs(group: &'static str, nodes: usize) -> Arc<Routine> {
-    static KNOWN: LazyLock<Mutex<Known>> = LazyLock::new(Mutex::default);
-    let mut known = KNOWN.lock().expect("a whole map");
-    let build = || {
-        let n = algebra(group).dim();
-        let names: Vec<String> = (0..n).map(|i| format!("m{i}")).collect();
-        let (ones, rows) = (vec![1; n], vec![vec![1; n]; n]);
-        let text = format!(
-            "group = {group:?}\ncoordinates = {names:?}\nhamiltonian = \"sqrt(1 + sum(i, 0..{n}, w[i]*mu[i]^2)) + \
-             sum(i, 0..{n}, sum(j, 0..{n}, q[i][j]*mu[i]*mu[j]))/2 + sum(i, 0..{n}, b[i]*mu[i])\"\n\
-             [parameters]\nw = {ones:?}\nq = {rows:?}\nb = {ones:?}\n"
-        );
-        let truncation = Some(2 * nodes - 1);
-        let options = Options { truncation, parameters: Parameters::Kept, ..Options::default() };
-        let Hamiltonian::Smooth(smooth) =
-            read_either(&text, options, &[]).expect("a system").problem
-        else {
-            panic!("a root is no polynomial")
+        let mut list = |low, high| (0..n).map(|_| random.between(low, high)).collect();
+        let (root, linear) = match draw {
+            Draw::Root => (list(0.2, 1.5), list(-0.35, 0.35)),
+            _ => (Vec::new(), Vec::new()),
         };
-        let step = Origin::Collocation(smooth).step(Precision::Double).expect("a kernel");
-        Arc::new(Routine { observation: Observation::new(&step), step })
-    };
-    Arc::clone(known.entry((group, nodes)).or_insert_with(build))
+        let count = match draw {
+            Draw::Root => 0,
+            Draw::Edge => 1,
+            Draw::Flank => 1 + random.below(3),
+        };
+        let terms = (0..count).map(|_| {
+            let slope = (0..n).map(|_| random.between(-2.0, 2.0)).collect();
+            let f = if draw == Draw::Edge { EDGES } else { FLANKS }[random.below(3)];
+            let height = 10_f64.powf(random.between(-3.0, 0.0)) * random.sign_one_in(2);
+            let width =
+                if draw == Draw::Edge { 1.0 } else { 10_f64.powf(random.between(-0.5, 1.5)) };
+            Term { f, height, width, slope, offset: 0.0 }
+        });
+        Self { form, root, linear, terms: terms.collect() }
+    }
+
+    /// The values of the parameters of its [`Routine`].
+    fn values(&self) -> Vec<f64> {
+        let of = |number: fn(&Term) -> f64| self.terms.iter().map(number).collect::<Vec<_>>();
+        let slopes = self.terms.iter().flat_map(|term| term.slope.clone()).collect();
+        let own = [of(|term| term.height), of(|term| term.width), slopes, of(|term| term.offset)];
+        [self.form.concat(), self.root.clone(), self.linear.clone(), own.concat()].concat()
+    }
+
+    /// The gradient of the form.
+    fn turning<V: Coordinates<f64>>(&self, m: &V) -> V {
+        V::from_entries(m.dim(), |i| (0..m.dim()).map(|j| self.form[i][j] * m[j]).sum())
+    }
+
+    /// Moves the edge of the term to where the motion would be, were it not for the term, after 0.02 to 3 steps.
+    fn meet<G: LieGroup<Scalar = f64>>(
+        &mut self,
+        group: &G,
+        (h, mu): (f64, &G::Vector),
+        random: &mut Random,
+    ) {
+        let rate = group.ad_star(&self.turning(mu), mu);
+        let term = &mut self.terms[0];
+        let (now, away) = (term.along(mu), term.along(&rate) * h * random.between(0.02, 3.0));
+        term.offset = now + away;
+        match EDGES.iter().position(|f| *f == term.f) {
+            Some(1) => {
+                term.width = random.between(0.3, 3.0);
+                term.offset -= away.signum() * core::f64::consts::FRAC_PI_2 / term.width;
+            }
+            Some(2) if away > 0.0 => {
+                term.slope.iter_mut().for_each(|slope| *slope = -*slope);
+                term.offset = -term.offset;
+            }
+            _ => {}
+        }
+    }
 }
 
 /// A kernel's steps, by the interpreter.
-struct Interpreted {
-    programs: Arc<Routine>,
+struct Interpreted<'a> {
+    step: &'a Step,
+    observation: &'a Observation,
     slots: Vec<f64>,
     element: Vec<f64>,
 }
 
-impl<V: Coordinates<f64>> Mover<V> for Interpreted {
+impl<V: Coordinates<f64>> Mover<V> for Interpreted<'_> {
     fn advance(&mut self, mu: &mut V) -> bool {
-        let kernel = self.programs.step.kernel();
         let mut numbers: Vec<f64> = (0..mu.dim()).map(|i| mu[i]).collect();
+        let kernel = self.step.kernel();
         let made = kernel.advance(&self.slots, &mut self.element, &mut numbers, 1).steps == 1;
         *mu = V::from_entries(numbers.len(), |i| numbers[i]);
         made
@@ -118,7 +220,7 @@ impl<V: Coordinates<f64>> Mover<V> for Interpreted {
 
     fn spatial(&self, mu: &V) -> V {
         let numbers: Vec<f64> = (0..mu.dim()).map(|i| mu[i]).collect();
-        let spatial = self.programs.observation.spatial_momentum(&self.element, &numbers);
+        let spatial = self.observation.spatial_momentum(&self.element, &numbers);
         V::from_entries(mu.dim(), |i| spatial[i])
     }
 }
@@ -126,88 +228,199 @@ impl<V: Coordinates<f64>> Mover<V> for Interpreted {
 /// Steps of one system with `M` nodes; by programs where the group has this name in the catalogue.
 fn steps<G, const M: usize>(
     group: &G,
-    by_programs: Option<&'static str>,
+    (draw, by_programs): (Draw, Option<&'static str>),
     random: &mut Random,
     tally: &mut Tally,
 ) where
     G: LieGroup<Scalar = f64> + 'static,
 {
     let n = group.dim();
-    let energy = Drawn::new(n, random);
+    let mut drawn = Drawn::new(draw, n, random);
+    let functions: Vec<&str> = drawn.terms.iter().map(|term| term.f).collect();
+    // A formula knows no more of a group than its dimension.
+    let name = by_programs.map_or_else(|| format!("R{n}"), str::to_owned);
+    let routine = routine(&name, M, &functions, by_programs.is_some());
+    let energy = |drawn: &Drawn| {
+        let symbols = routine.smooth.symbols_at(&drawn.values());
+        TextEnergy { smooth: &routine.smooth, symbols, tells: draw != Draw::Root }
+    };
     let size = random.between(0.2, 3.0);
     let direction = random.direction(n);
     let mu = G::Vector::from_entries(n, |i| size * direction[i]);
-    let velocity = energy.gradient(0.0, &mu);
-    let longest = if random.one_in(2) { 3.0 } else { 0.8 };
-    let h = random.between(0.05, longest) / velocity.pairing(&velocity).sqrt();
-    let h = if random.one_in(8) { -h } else { h };
-    let turn = G::Vector::from_entries(n, |_| random.between(-1.0, 1.0));
-    let element = group.exp(&turn);
-    let mut mover: Box<dyn Mover<G::Vector>> = match by_programs {
+    let turning = drawn.turning(&mu);
+    let velocity = match draw {
+        Draw::Edge => turning.clone(),
+        _ => energy(&drawn).gradient(0.0, &mu),
+    };
+    let length = |v: &G::Vector| v.pairing(v).sqrt();
+    let speed = length(&velocity).max(1e-3);
+    let (shortest, longest) = match (draw, random.one_in(2)) {
+        (Draw::Root, true) => (0.05, 3.0),
+        (Draw::Root, false) => (0.05, 0.8),
+        (_, true) => (0.02, 2.0),
+        (_, false) => (0.02, 0.7),
+    };
+    let h = random.between(shortest, longest) / speed * random.sign_one_in(8);
+    if draw == Draw::Edge {
+        drawn.meet(group, (h, &mu), random);
+        let own = length(&energy(&drawn).gradient(0.0, &mu).minus(&turning));
+        // As large a velocity as a share of the other.
+        if random.one_in(3) && own > 0.0 && own.is_finite() {
+            drawn.terms[0].height *= speed * random.between(0.01, 1.0) / own;
+        }
+    }
+    let energy = energy(&drawn);
+    let element = group.exp(&G::Vector::from_entries(n, |_| random.between(-1.0, 1.0)));
+    let mut mover: Box<dyn Mover<G::Vector> + '_> = match &routine.kernel {
         None => {
-            let step = Collocation::<_, _, M>::new(group.clone(), energy.clone(), h);
+            let step = Collocation::<_, _, M>::new(group.clone(), &energy, h);
             let Ok(step) = step else { return };
             Box::new(Generic { group: group.clone(), step, element })
         }
-        Some(name) => {
-            let programs = programs(name, M);
-            let form = energy.form.iter().flatten();
-            let values: Vec<f64> =
-                energy.root.iter().chain(form).chain(&energy.linear).copied().collect();
-            let Ok(slots) = programs.step.fold(h, &values) else { return };
-            let element = programs.step.element_of(&entries_of(group, &element));
-            Box::new(Interpreted { programs, slots, element })
+        Some((step, observation)) => {
+            let Ok(slots) = step.fold(h, &drawn.values()) else { return };
+            let element = step.element_of(&entries_of(group, &element));
+            Box::new(Interpreted { step, observation, slots, element })
         }
     };
-    let farthest = FARTHEST[M.min(FARTHEST.len()) - 1];
-    let about = format!("M = {M}, {energy:?}");
-    let trial = Trial { group, energy: &energy, h, farthest, sides: &|_| Vec::new(), about };
-    trial.follow(mover.as_mut(), mu, |_| false, tally);
+    let sides = |m: &G::Vector| drawn.terms.iter().map(|term| term.side(m)).collect::<Vec<_>>();
+    let about = format!("M = {M}, {drawn:?}");
+    let farthest = draw.farthest(M);
+    let trial = Trial { group, energy: &energy, h, farthest, sides: &sides, about };
+    // A refused step would have been right if one that is judged at its nodes alone, as if all arguments went nowhere, is.
+    let right = |from: &G::Vector| {
+        let still = Still(&energy);
+        let Ok(mut step) = Collocation::<_, _, M>::new(group.clone(), still, h) else {
+            return false;
+        };
+        let mut state = Phase::<G>::new(group.identity(), from.clone());
+        let made = draw != Draw::Root && step.advance(&mut state, 0.0).is_ok();
+        made && trial.share(from, &state.momentum).is_some_and(|share| share <= 1.0)
+    };
+    trial.follow(mover.as_mut(), mu, right, tally);
 }
 
-/// Steps of the systems of a seed, with any number of nodes.
-fn instance<G: LieGroup<Scalar = f64> + 'static>(
-    group: &G,
-    by: Option<&'static str>,
-    seed: u64,
-    tally: &mut Tally,
-) {
-    let mut random = Random::new(seed);
-    for _ in 0..DRAWS {
-        match random.below(6) {
-            0 => steps::<G, 1>(group, by, &mut random, tally),
-            1 => steps::<G, 2>(group, by, &mut random, tally),
-            2 => steps::<G, 3>(group, by, &mut random, tally),
-            3 => steps::<G, 4>(group, by, &mut random, tally),
-            4 => steps::<G, 5>(group, by, &mut random, tally),
-            _ => steps::<G, 6>(group, by, &mut random, tally),
-        }
+/// An energy whose arguments are said to go nowhere.
+struct Still<'a>(&'a TextEnergy<'a>);
+
+impl<V: Coordinates<f64>> Energy<V> for Still<'_> {
+    fn value(&self, time: f64, m: &V) -> f64 {
+        self.0.value(time, m)
+    }
+
+    fn gradient(&self, time: f64, m: &V) -> V {
+        self.0.gradient(time, m)
+    }
+
+    fn reach(&self, _: (f64, &V), _: (f64, &V)) -> Option<f64> {
+        Some(0.0)
     }
 }
 
+/// Steps with a number of nodes.
+fn at<G: LieGroup<Scalar = f64> + 'static>(
+    group: &G,
+    nodes: usize,
+    of: (Draw, Option<&'static str>),
+    random: &mut Random,
+    tally: &mut Tally,
+) {
+    match nodes {
+        1 => steps::<G, 1>(group, of, random, tally),
+        2 => steps::<G, 2>(group, of, random, tally),
+        3 => steps::<G, 3>(group, of, random, tally),
+        4 => steps::<G, 4>(group, of, random, tally),
+        5 => steps::<G, 5>(group, of, random, tally),
+        _ => steps::<G, 6>(group, of, random, tally),
+    }
+}
+
+/// The structure constants [eᵢ, eⱼ] = ±eₖ, by the signs for (1, 2), (0, 2), (0, 1).
+type Signs = [f64; 3];
+const SO3_SIGNS: Signs = [1.0, -1.0, 1.0];
+const SO21_SIGNS: Signs = [1.0, -1.0, -1.0];
+
+/// A group of three dimensions in a basis of whole-numbered sums of its usual one.
+fn skew(signs: Signs, random: &mut Random) -> MatrixGroup {
+    let n = 3;
+    let unit = |i, j| if i == j { 1.0 } else { 0.0 };
+    let mut rows: Vec<Vec<f64>> = (0..n).map(|i| (0..n).map(|j| unit(i, j)).collect()).collect();
+    let mut back = rows.clone();
+    for _ in 0..random.below(2 * n) {
+        let (i, j) = (random.below(n), random.below(n));
+        let by = random.below(5) as f64 - 2.0;
+        if i != j {
+            // Row i gains `by` times row j; of the inverse, column j loses as much of column i.
+            for k in 0..n {
+                rows[i][k] += by * rows[j][k];
+                back[k][j] -= by * back[k][i];
+            }
+        }
+    }
+    let pairs = [(1, 2, 0), (0, 2, 1), (0, 1, 2)].into_iter().zip(signs);
+    let old: Vec<(usize, usize, usize, f64)> =
+        pairs.flat_map(|((i, j, k), v)| [(i, j, k, v), (j, i, k, -v)]).collect();
+    let mut structure = Vec::new();
+    for a in 0..n {
+        for b in 0..n {
+            for c in 0..n {
+                let sum: f64 =
+                    old.iter().map(|&(i, j, k, v)| rows[a][i] * rows[b][j] * v * back[k][c]).sum();
+                if sum != 0.0 {
+                    structure.push((a, b, c, sum));
+                }
+            }
+        }
+    }
+    MatrixGroup::from_structure_constants(n, &structure).expect("a Lie algebra")
+}
+
+/// Families by the group, with any number of nodes, by the runtime and by programs; and by the number of nodes, on any group.
 pub(super) fn families(only: &str) -> Vec<Family> {
     let mut all = Vec::new();
-    for (place, name, known) in [
-        (0, "so3", "SO3"),
-        (1, "su2", "SU2"),
-        (2, "se2", "SE2"),
-        (3, "se3", "SE3"),
-        (4, "sl2", "SL2"),
-        (5, "power", "SO3^2"),
+    let mut add = |name: String, one: Box<dyn Fn(&mut Random, &mut Tally) + Send + Sync>| {
+        let steps = move |seed: u64, tally: &mut Tally| {
+            let mut random = Random::new(seed);
+            (0..DRAWS).for_each(|_| one(&mut random, tally));
+        };
+        all.extend(name.contains(only).then(|| Family::alone(name, steps)));
+    };
+    for (name, known) in [
+        ("so3", "SO3"),
+        ("su2", "SU2"),
+        ("se2", "SE2"),
+        ("se3", "SE3"),
+        ("sl2", "SL2"),
+        ("power", "SO3^2"),
     ] {
-        for by in [None, Some(known)] {
-            let name = format!("collocation-{name}{}", if by.is_some() { "-kernel" } else { "" });
-            let steps = move |seed: u64, tally: &mut Tally| match place {
-                0 => instance(&SO3::<f64>::new(), by, seed, tally),
-                1 => instance(&SU2::<f64>::new(), by, seed, tally),
-                2 => instance(&SE2::<f64>::new(), by, seed, tally),
-                3 => instance(&SE3::<f64>::new(), by, seed, tally),
-                4 => instance(&SL2::<f64>::new(), by, seed, tally),
-                _ => instance(&Power::<SO3, 2, 6>::new(), by, seed, tally),
+        for (ending, by) in [("", None), ("-kernel", Some(known))] {
+            let one = move |random: &mut Random, tally: &mut Tally| {
+                let (nodes, of) = (1 + random.below(6), (Draw::Root, by));
+                match known {
+                    "SO3" => at(&SO3::<f64>::new(), nodes, of, random, tally),
+                    "SU2" => at(&SU2::<f64>::new(), nodes, of, random, tally),
+                    "SE2" => at(&SE2::<f64>::new(), nodes, of, random, tally),
+                    "SE3" => at(&SE3::<f64>::new(), nodes, of, random, tally),
+                    "SL2" => at(&SL2::<f64>::new(), nodes, of, random, tally),
+                    _ => at(&Power::<SO3, 2, 6>::new(), nodes, of, random, tally),
+                }
             };
-            if name.contains(only) {
-                all.push(Family::alone(name, steps));
-            }
+            add(format!("collocation-{name}{ending}"), Box::new(one));
+        }
+    }
+    for (kind, draw) in [("edge", Draw::Edge), ("steep", Draw::Flank)] {
+        for nodes in 1..=5 {
+            let one = move |random: &mut Random, tally: &mut Tally| {
+                let of = (draw, None);
+                match random.below(5) {
+                    0 => at(&SO3::<f64>::new(), nodes, of, random, tally),
+                    1 => at(&SE3::<f64>::new(), nodes, of, random, tally),
+                    2 => at(&SL2::<f64>::new(), nodes, of, random, tally),
+                    3 => at(&skew(SO21_SIGNS, random), nodes, of, random, tally),
+                    _ => at(&skew(SO3_SIGNS, random), nodes, of, random, tally),
+                }
+            };
+            add(format!("{kind}-{nodes}"), Box::new(one));
         }
     }
     all

@@ -14,7 +14,7 @@ use super::runtime::{
     Cayley, Exponential, Heisenberg, MatrixFree, Power, Runner, SE2, SE3, SO3, SU2, SU3, Terms,
     polynomial,
 };
-use super::{collocation, generated, kernels, steep};
+use super::{collocation, generated, kernels};
 use crate::bridge::matrix_group;
 
 fn table(algebra: &LieAlgebra, terms: Terms, _: f64, _: &mut Random) -> Option<Instance> {
@@ -135,6 +135,5 @@ pub fn families(only: &str) -> Vec<Family> {
     families.extend(generated::families(only));
     families.extend(kernels::families(only));
     families.extend(collocation::families(only));
-    families.extend(steep::families(only));
     families
 }

@@ -63,8 +63,8 @@ fn in_a_comoving_frame(h: f64, inertia: [f64; 3]) -> Option<Instance> {
 /// accepted.
 fn model([arguments, function]: [&'static str; 2], must: bool, make: Make) -> Template {
     let source = syn::parse_str(function).expect("a function");
-    let problem = rust::lie_poisson(arguments.parse().expect("arguments"), &source);
-    let problem = problem.expect("a problem");
+    let read = rust::hamiltonian(arguments.parse().expect("arguments"), &source);
+    let problem = read.ok().and_then(|read| read.into_polynomial().ok()).expect("a polynomial");
     let judge = Judge::of_problem(&problem, TermLimit::default()).expect("a judge");
     let draw = move |random: &mut Random| {
         let size = 10_f64.powf(random.between(-3.0, 1.0));

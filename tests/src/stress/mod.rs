@@ -10,10 +10,8 @@ mod instance;
 mod kernels;
 mod random;
 mod runtime;
-mod steep;
 mod verdict;
 
-pub use collocation::Drawn;
 pub use random::Random;
 pub use verdict::{Tally, Wrong, report, times};
 

@@ -33,6 +33,11 @@ impl Random {
         self.below(count) == 0
     }
 
+    /// −1, one in this number of times; else 1.
+    pub fn sign_one_in(&mut self, count: usize) -> f64 {
+        if self.one_in(count) { -1.0 } else { 1.0 }
+    }
+
     /// A vector of about unit length; now and then along an axis or in a coordinate plane.
     pub fn direction(&mut self, dim: usize) -> Vec<f64> {
         loop {

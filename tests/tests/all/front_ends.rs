@@ -2,7 +2,7 @@
 
 use coadjoint::nalgebra::Vector3;
 use coadjoint::{GeneratingFunction, LieGroup, Phase, SO3, StepError, lie_poisson};
-use coadjoint_tests::kernels::from_function;
+use coadjoint_tests::kernels::integrator;
 
 mod built {
     include!(concat!(env!("OUT_DIR"), "/rigid_body.rs"));
@@ -22,13 +22,7 @@ fn macro_build_script_and_interpreter_agree() -> Result<(), StepError> {
     let h = 0.25;
     let by_macro = RigidBody::new(h, [1.5, 2.0, 2.5])?;
     let by_script = built::RigidBody::new(h, 1.5, 2.0, 2.5)?;
-    let integrator = from_function((
-        "group = SO3, truncation = 5",
-        "fn rigid_body(mu: [f64; 3]) -> f64 {
-            mu[0] * mu[0] / 3.0 + mu[1] * mu[1] / 4.0 + mu[2] * mu[2] / 5.0
-        }",
-    ))
-    .unwrap();
+    let integrator = integrator("SO3", "a^2/3 + b^2/4 + c^2/5", "exp", 5);
     let slots = coadjoint_codegen::integrator::FoldTable::new(&integrator).fold(h, &[]).unwrap();
     for p in [Vector3::new(2.0, 0.5, 1.0), Vector3::new(-0.3, 1.7, 0.2)] {
         let interpreted = Vector3::from_vec(integrator.gradient.run(p.as_slice(), &slots));

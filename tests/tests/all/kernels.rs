@@ -1,65 +1,14 @@
-//! Steps as programs make the runtime's steps, to rounding, on every group and chart.
+//! Steps as programs: of many dimensions, in frames, and refused. `laws` measures those on every group and chart.
 #![allow(clippy::unwrap_used)]
 
-use coadjoint::generating::PolynomialFunction;
-use coadjoint::groups::{Cayley, Chart, Exponential};
-use coadjoint::groups::{CayleyMatrixGroup, MatrixGroup};
-use coadjoint::steps::advance;
-use coadjoint::{LieGroup, Phase};
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::integrator::Integrator;
-use coadjoint_codegen::lie;
 use coadjoint_codegen::problem::Solver;
 use coadjoint_codegen::step::Step;
 use coadjoint_codegen::system::{Options, read};
 use coadjoint_program::Stepper;
-use coadjoint_tests::backends::entries_of;
-use coadjoint_tests::bridge::{matrix_group, series_function};
-use coadjoint_tests::kernels::{SYSTEMS, integrator, integrator_by, limited, unlimited};
-use nalgebra::{DMatrix, DVector};
-
-fn momentum(n: usize, size: f64) -> Vec<f64> {
-    (0..n).map(|i| size * (1.3 + 2.1 * i as f64).sin()).collect()
-}
-
-fn compare<G, C>(
-    name: &str,
-    integrator: &Integrator,
-    group: G,
-    runtime: &PolynomialFunction<G, C>,
-    h: f64,
-) where
-    G: LieGroup<Scalar = f64, Vector = DVector<f64>>,
-    C: Chart<G>,
-{
-    let step = Step::build(integrator).unwrap();
-    let kernel = step.kernel();
-    let slots = unlimited(&step, h);
-    let n = kernel.dim;
-    let mut phase = Phase::<G>::new(group.identity(), DVector::from_vec(momentum(n, 0.9)));
-    let mut g = step.element_of(&entries_of(&group, &phase.group_element));
-    let mut mu = phase.momentum.as_slice().to_vec();
-    const STEPS: u64 = 20;
-    let outcome = kernel.advance(&slots, &mut g, &mut mu, STEPS);
-    assert_eq!(outcome.steps, STEPS, "{name}: refused");
-    let most = if integrator.hessian.is_some() { 8 } else { 12 };
-    assert!(outcome.corrections <= most, "{name}: {} corrections", outcome.corrections);
-    assert!(outcome.residual <= 4.0 * f64::EPSILON, "{name}: {:e} is left", outcome.residual);
-    for _ in 0..STEPS {
-        advance(runtime, &mut phase).unwrap();
-    }
-    let scale = phase.momentum.amax();
-    for (found, wanted) in mu.iter().zip(&phase.momentum) {
-        assert!((found - wanted).abs() < 4e-14 * scale, "{name}: μ {found} for {wanted}");
-    }
-    let found = kernel.programs.matrix.run(&g, &[]);
-    let wanted = entries_of(&group, &phase.group_element);
-    let largest = wanted.iter().fold(1.0_f64, |a, b| a.max(b.abs()));
-    for (found, wanted) in found.iter().zip(&wanted) {
-        assert!((found - wanted).abs() < 1e-13 * largest, "{name}: g {found} for {wanted}");
-    }
-    watched(name, &step, &slots, &momentum(n, 0.9), &mu, &g);
-}
+use coadjoint_tests::kernels::{integrator, limited, unlimited};
+use nalgebra::DMatrix;
 
 /// A body in space may move as fast as it likes: of its translation the series knows only the first term.
 #[test]
@@ -76,58 +25,6 @@ fn momenta_beyond_the_radius_are_those_that_the_series_depends_on() {
     assert_eq!(steps(body, 0.9, 1e3), 20);
     assert_eq!(steps(body, 6.0, 1.0), 0);
     assert_eq!(steps(&format!("{body} + a*d/9"), 0.9, 1e3), 0);
-}
-
-/// Energy and Casimirs at the end are what they were.
-fn watched(name: &str, step: &Step, slots: &[f64], start: &[f64], mu: &[f64], g: &[f64]) {
-    let kernel = step.kernel();
-    let [before, after] = [start, mu].map(|mu| kernel.watch(slots, g, mu));
-    // Up to the error of the truncation, which may be small.
-    assert!((before[0] - after[0]).abs() < 1e-2 * before[0].abs(), "{name}: energy");
-    for (before, after) in before.iter().zip(&after).skip(1) {
-        assert!((before - after).abs() < 1e-13 * before.abs().max(1.0), "{name}: Casimir");
-    }
-}
-
-#[test]
-fn programs_make_the_steps_of_the_runtime() {
-    let mut tried = 0;
-    let newton = [3, 5, 7].map(|truncation| (Solver::Newton, truncation));
-    for (group, hamiltonian) in SYSTEMS {
-        for (solver, truncation) in newton.into_iter().chain([(Solver::FixedPoint, 5)]) {
-            if truncation == 7 && group.starts_with("SU3") {
-                continue;
-            }
-            for chart in ["exp", "cayley"] {
-                let algebra = lie::catalogue::lookup(group).unwrap();
-                let cayley = chart == "cayley";
-                if cayley && lie::Chart::Cayley.check(&algebra).is_err() {
-                    continue;
-                }
-                let name = format!("{group}, {chart}, K = {truncation}, {solver:?}");
-                let integrator = integrator_by(solver, group, hamiltonian, chart, truncation);
-                // The runtime's function of a series knows no frame; `fields` compares steps in frames.
-                if !integrator.frame.is_empty() {
-                    continue;
-                }
-                let own = matrix_group(&algebra).unwrap();
-                let h = 0.2;
-                if cayley {
-                    let own: CayleyMatrixGroup = own.into_cayley().unwrap();
-                    let runtime =
-                        series_function(own.clone(), Cayley, &integrator.series, h).unwrap();
-                    compare(&name, &integrator, own, &runtime, h);
-                } else {
-                    let own: MatrixGroup = own;
-                    let runtime =
-                        series_function(own.clone(), Exponential, &integrator.series, h).unwrap();
-                    compare(&name, &integrator, own, &runtime, h);
-                }
-                tried += 1;
-            }
-        }
-    }
-    assert!(tried > 60, "{tried}");
 }
 
 /// Far beyond 24 dimensions, and as many operations as the interpreter evaluates as data: a chain of spins keeps the

@@ -89,16 +89,6 @@ fn orders_for_other_hamiltonians() {
 }
 
 #[test]
-fn coefficients_sum_to_one() {
-    for splitting in Splitting::ALL {
-        let (kicks, flows): (f64, f64) = (splitting.kicks().sum(), splitting.flows().sum());
-        assert!((kicks - 1.0).abs() < 1e-15 && (flows - 1.0).abs() < 1e-15);
-        assert_eq!(splitting.kicks().count(), splitting.flows().len() + 1);
-        assert!(splitting.flows().len().div_ceil(2) <= Splitting::MAX_FLOWS);
-    }
-}
-
-#[test]
 fn kicked_steps_are_symplectic() {
     fn defect(splitting: Splitting, torque: Torque) -> f64 {
         let series = series(false);

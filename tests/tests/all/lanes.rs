@@ -1,10 +1,18 @@
 //! SIMD lanes compute the bits of the scalar integrator.
 
+use std::mem::discriminant;
+
+use coadjoint::groups::{Product, SE2};
+use coadjoint::lanes::{F64x4, F64x8, Lanes, ensemble};
 use coadjoint::nalgebra::{SVector, SimdValue};
 use coadjoint::plumbing::Number;
-use coadjoint::{
-    Phase, SO3, Scalar, StepError, lanes::F64x4, lanes::F64x8, lanes::ensemble, lie_poisson,
-};
+use coadjoint::steps::{Steps, Stopped};
+use coadjoint::{Phase, SE3, SO3, Scalar, StepError, lie_poisson};
+
+use crate::comoving::{MU, slow};
+use crate::emitted_steps::side_by_side::SideBySide;
+use crate::long_series::{Fluid, momenta};
+use crate::smooth::Relativistic;
 
 #[lie_poisson(group = SO3, truncation = 7)]
 fn rigid_body(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
@@ -71,27 +79,66 @@ fn lanes_equal_scalars_bit_for_bit() -> Result<(), StepError> {
     Ok(())
 }
 
-/// Steps of more than a quarter turn have to be confirmed, which ensembles do one by one.
-#[test]
-fn long_steps_of_an_ensemble_are_those_of_its_trajectories() -> Result<(), StepError> {
-    let step = RigidBody::new(0.9, INERTIA)?;
-    let mut advanced = states(16);
-    assert!(ensemble::advance_all(&step, &mut advanced, 40).is_empty());
-    assert_same_bits(&advanced, &one_by_one(&step, states(16), 40));
-    Ok(())
+/// An ensemble in steps that are refused for some, each of which ends as it does alone: the indices of those refused.
+fn refused<S: Lanes + Steps + Sync>(
+    step: &S,
+    mut states: Vec<Phase<S::Group>>,
+    steps: u64,
+    alone: impl Fn(&S, &mut Phase<S::Group>, u64) -> Result<(), Stopped>,
+) -> Vec<usize>
+where
+    Phase<S::Group>: Send,
+{
+    let mut others = states.clone();
+    let failures = ensemble::advance_all(step, &mut states, steps);
+    for (index, (state, other)) in states.iter().zip(&mut others).enumerate() {
+        // Alone it is told, too, which step would do.
+        let stopped = alone(step, other, steps).err();
+        let stopped = stopped.map(|stopped| (stopped.steps, discriminant(&stopped.error)));
+        let failed = failures.iter().find(|failure| failure.index == index);
+        let failed = failed.map(|failure| (failure.step, discriminant(&failure.error)));
+        assert_eq!(failed, stopped, "{index}");
+        // The text of a number tells every bit.
+        assert_eq!(format!("{state:?}"), format!("{other:?}"), "{index}");
+    }
+    failures.into_iter().map(|failure| failure.index).collect()
+}
+
+/// By [`refused`] of steps that the attribute makes.
+macro_rules! refused {
+    ($step:expr, $states:expr, $steps:expr) => {
+        refused(&$step, $states, $steps, |step, state, steps| {
+            step.advance_by(state, steps).map(drop)
+        })
+    };
+}
+
+/// States of very different speed: some need one correction, some more.
+fn uneven(count: usize) -> Vec<Phase<SE3>> {
+    let sizes = [0.05, 0.3, 1.0, 2.6, 0.0, 0.7, 1.7, 0.2];
+    let momenta = momenta::<6>(1.0).zip(sizes.into_iter().cycle());
+    momenta.take(count).map(|(mu, size)| Phase::<SE3>::at_identity(mu * size)).collect()
 }
 
 #[test]
 fn an_ensemble_equals_its_trajectories_and_reports_the_bad_ones() -> Result<(), StepError> {
-    let step = RigidBody::new(0.4, INERTIA)?;
     let mut initial = states(1003);
     initial[17].momentum[1] = f64::INFINITY;
     initial[640].momentum *= 1e4;
-    let mut advanced = initial.clone();
-    let failures = ensemble::advance_all(&step, &mut advanced, 25);
-    let bad: Vec<usize> = failures.iter().map(|failure| failure.index).collect();
-    assert_eq!(bad, [17, 640]);
-    assert_same_bits(&advanced, &one_by_one(&step, initial, 25));
+    assert_eq!(refused!(RigidBody::new(0.4, INERTIA)?, initial, 25), [17, 640]);
+    // Steps of more than a quarter turn have to be confirmed, which ensembles do one by one.
+    assert_eq!(refused!(RigidBody::new(0.9, INERTIA)?, states(16), 40), [0; 0]);
+    // Long series; in some packs a lane is refused, so that all of them go one by one.
+    for h in [0.05, 0.3, 0.8] {
+        refused!(Fluid::new(h)?, uneven(8), 10);
+    }
+    // In a comoving frame, by collocation, and on a product.
+    assert_eq!(refused!(slow(0.2)?, vec![Phase::<SE3>::at_identity(MU); 11], 300), [0; 0]);
+    let mut fast = states(21);
+    fast[9].momentum[0] = f64::NAN;
+    assert_eq!(refused!(Relativistic::new(0.3, INERTIA)?, fast, 600), [9]);
+    let start = Phase::<Product<SO3, SE2, 6>>::at_identity([0.4, 0.8, -0.3, 0.2, -0.6, 0.5]);
+    assert_eq!(refused!(SideBySide::new(0.05)?, vec![start; 9], 200), [0; 0]);
     Ok(())
 }
 

@@ -2,18 +2,20 @@
 //! interpreter, C where there is a compiler, and with the feature `jit` Cranelift.
 //!
 //! All back ends make the same bits, which is tested here on every group and chart, in scalars and lanes, of steps that
-//! are made and steps that are refused; `kernels` and `collocation_kernels` compare kernels with the steps of the runtime.
-//! So the laws are measured on one of them, the interpreter.
+//! are made and steps that are refused. So the laws are measured on one of them, the interpreter, whose steps are judged, too.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use coadjoint::groups::MatrixGroup;
 use coadjoint::laws::check_map;
 use coadjoint::{LieGroup, Phase, StepError};
-use coadjoint_codegen::lie::{self, LieAlgebra};
+use coadjoint_codegen::hamilton_jacobi::TermLimit;
+use coadjoint_codegen::judge::{Enclosure, Judge};
+use coadjoint_codegen::lie;
 use coadjoint_codegen::problem::Solver;
+use coadjoint_codegen::smooth::Hamiltonian;
 use coadjoint_codegen::step::{Origin, Step};
 use coadjoint_program::{Kernel, Precision, Stepper, WIDTH};
-use coadjoint_tests::backends::{AnyStepper, Backend, numbers_of, phase_of};
+use coadjoint_tests::backends::{AnyStepper, Backend, matrix_of, numbers_of, phase_of};
 use coadjoint_tests::bridge::matrix_group;
 use coadjoint_tests::kernels::{SYSTEMS, integrator_by, smooth};
 use coadjoint_tests::order;
@@ -57,12 +59,19 @@ struct Subject {
     step: Step,
     group: MatrixGroup,
     order: usize,
+    system: Hamiltonian,
 }
 
 impl Subject {
-    fn new(name: &str, step: Step, algebra: &LieAlgebra, truncation: usize) -> Self {
-        let (name, group) = (format!("{name}, K = {truncation}"), matrix_group(algebra).unwrap());
-        Self { name, step, group, order: truncation + 1 }
+    fn new(name: &str, step: Step, system: Hamiltonian, truncation: usize) -> Self {
+        let group = matrix_group(system.facts().algebra).unwrap();
+        Self {
+            name: format!("{name}, K = {truncation}"),
+            step,
+            group,
+            order: truncation + 1,
+            system,
+        }
     }
 
     /// By a series, in each chart that the group has; the fixed point is tried with formulas of each kind.
@@ -80,7 +89,7 @@ impl Subject {
                     let integrator = integrator_by(solver, group, hamiltonian, chart, truncation);
                     let step = Step::build(&integrator).unwrap();
                     let name = format!("{hamiltonian} on {group}, {chart}, {solver:?}");
-                    all.push(Self::new(&name, step, &algebra, truncation));
+                    all.push(Self::new(&name, step, integrator.problem.into(), truncation));
                 }
             }
         }
@@ -91,7 +100,7 @@ impl Subject {
         let smooth = smooth(group, hamiltonian, truncation);
         let step = Origin::from(smooth.clone()).step(Precision::Double).unwrap();
         let name = format!("{hamiltonian} on {group}, collocation");
-        Self::new(&name, step, &smooth.algebra, truncation)
+        Self::new(&name, step, Hamiltonian::Smooth(Box::new(smooth)), truncation)
     }
 
     /// All groups with all charts they have, and by collocation, a polynomial and functions of other kinds.
@@ -161,6 +170,40 @@ fn laws_hold(subject: &Subject, random: &mut Random) {
     }
 }
 
+/// A step is the judge's to rounding, momentum and element, and keeps the Casimirs that the kernel itself watches, and its energy as
+/// far as the truncation does. On large groups long series take the judge long.
+fn is_judged_right(subject: &Subject, random: &mut Random) {
+    let Subject { name, step, group, .. } = subject;
+    if group.dim() > 6 && subject.order > 4 {
+        return;
+    }
+    let judge = Judge::of(&subject.system, TermLimit::default()).unwrap();
+    let (slots, point) = (subject.slots(STEP, TIME), subject.draw(random, 0.7));
+    let mut setting = judge.at(STEP, &[]).unwrap();
+    setting.start(TIME, 0);
+    let mut g = numbers_of(step, group, &point.group_element);
+    let start = point.momentum.as_slice();
+    let mut mu = start.to_vec();
+    let (kernel, before) = (step.kernel(), matrix_of(step.kernel(), &g));
+    let watched = kernel.watch(&slots, &g, &mu);
+    let made = kernel.advance(&slots, &mut g, &mut mu, 1);
+    assert!(made.steps == 1 && made.corrections <= 12, "{name}: {} corrections", made.corrections);
+    let mut motion = Enclosure::new(start);
+    motion
+        .step(&mut setting, None, f64::EPSILON / 2.0)
+        .unwrap_or_else(|stop| panic!("{name}: {stop:?}"));
+    let off = motion.momentum_deviation(&mu);
+    assert!(off < 1.0, "{name}: μ is {off:e} times the bound away");
+    let off = motion.element_deviation(&before, &matrix_of(kernel, &g));
+    assert!(off < 1.0, "{name}: g is {off:e} times the bound away");
+    let now = kernel.watch(&slots, &g, &mu);
+    let moves = step.moves() || (now[0] - watched[0]).abs() < 1e-2 * watched[0].abs();
+    assert!(moves, "{name}: energy {watched:?} {now:?}");
+    for (before, now) in watched.iter().zip(&now).skip(1) {
+        assert!((before - now).abs() < 1e-13 * before.abs().max(1.0), "{name}: Casimir");
+    }
+}
+
 fn order_holds(subject: &Subject, random: &mut Random) {
     let name = &subject.name;
     // Some motions are slow.
@@ -186,6 +229,7 @@ fn obey_the_laws(truncation: usize) {
     let more = MORE.into_iter().flat_map(|(g, h)| Subject::by_series(g, h, truncation));
     for subject in Subject::all(truncation).into_iter().chain(more) {
         laws_hold(&subject, &mut random);
+        is_judged_right(&subject, &mut random);
         order_holds(&subject, &mut random);
     }
 }

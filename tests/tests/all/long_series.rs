@@ -1,15 +1,13 @@
-//! Printed steps of long series in more than three dimensions: those of the reference, in every lane.
+//! Printed steps of long series in more than three dimensions: those of the reference (`lanes`: in every lane).
 
 use coadjoint::generating::VectorOf;
-use coadjoint::lanes::Lanes;
-use coadjoint::lanes::ensemble::advance_all;
 use coadjoint::nalgebra::SVector;
 use coadjoint::solve::{Integrator, solve};
-use coadjoint::steps::{advance_by, poisson_map, reconstruct};
-use coadjoint::{LieGroup, Phase, SE3, StepError, lie_poisson};
+use coadjoint::steps::{poisson_map, reconstruct};
+use coadjoint::{LieGroup, Phase, StepError, lie_poisson};
 
 #[lie_poisson(group = SE3, truncation = 7)]
-fn fluid(mu: [f64; 6]) -> f64 {
+pub fn fluid(mu: [f64; 6]) -> f64 {
     let [a, b, c, u, v, w] = mu;
     (a * a + b * b / 2.0 + c * c / 3.0 + u * u + v * v / 2.0 + w * w / 4.0) / 2.0
 }
@@ -32,7 +30,7 @@ fn coupled(mu: [f64; 6]) -> f64 {
 }
 
 /// Momenta in many directions, of this size.
-fn momenta<const N: usize>(size: f64) -> impl Iterator<Item = SVector<f64, N>> {
+pub fn momenta<const N: usize>(size: f64) -> impl Iterator<Item = SVector<f64, N>> {
     (0..20)
         .map(move |k| SVector::from_fn(|i, _| size * (1.3 * f64::from(k) + 2.1 * i as f64).sin()))
 }
@@ -73,35 +71,5 @@ fn steps_are_those_of_the_reference() -> Result<(), StepError> {
     }
     let long = error(&Fluid::new(1.6)?, 1.0)?;
     assert!(long < 2e-14, "{long}");
-    Ok(())
-}
-
-/// Lanes of very different speed: some need one correction, some more; and in some packs a lane is refused, so that all of them go one by one.
-fn lanes_are_scalars<S>(step: &S) -> Result<(), StepError>
-where
-    S: Integrator<Group = SE3> + Lanes + Sync,
-{
-    let sizes = [0.05, 0.3, 1.0, 2.6, 0.0, 0.7, 1.7, 0.2];
-    let mut states: Vec<_> = momenta::<6>(1.0)
-        .zip(sizes)
-        .map(|(mu, size)| Phase::<SE3>::at_identity(mu * size))
-        .collect();
-    let mut alone = states.clone();
-    let failures = advance_all(step, &mut states, 10);
-    for (lane, (together, alone)) in states.iter().zip(&mut alone).enumerate() {
-        let stopped = advance_by(step, alone, 10).err();
-        let failed = failures.iter().find(|failure| failure.index == lane);
-        assert_eq!(failed.map(|f| (f.step, f.error)), stopped.map(|s| (s.steps, s.error)));
-        assert_eq!(together.momentum, alone.momentum, "lane {lane}");
-        assert_eq!(together.group_element, alone.group_element, "lane {lane}");
-    }
-    Ok(())
-}
-
-#[test]
-fn lanes_equal_scalars_bit_for_bit() -> Result<(), StepError> {
-    for h in [0.05, 0.3, 0.8] {
-        lanes_are_scalars(&Fluid::new(h)?)?;
-    }
     Ok(())
 }

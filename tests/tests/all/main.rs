@@ -7,7 +7,6 @@ mod attribute;
 mod catalogue;
 mod circles;
 mod collocation;
-mod collocation_kernels;
 mod comoving;
 mod defects;
 mod devices;

@@ -1,28 +1,17 @@
 //! Potentials: the torque derived from V(g), and the quantities that its kicks conserve (the kicks: `kicked.rs`).
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use coadjoint::steps::{Kicked, Splitting};
-use coadjoint::{LieGroup, Phase, SO3, lie_poisson, potential};
+use coadjoint::{LieGroup, SO3, potential};
 use coadjoint_codegen::diagnostic::Diagnostics;
-use coadjoint_codegen::hamilton_jacobi::TermLimit;
-use coadjoint_codegen::integrator::{Integrator, Kick};
 use coadjoint_codegen::number::{Rational, integer};
 use coadjoint_codegen::poly::Polynomial;
 use coadjoint_codegen::potential::{Force, Potential};
-use coadjoint_codegen::step::Step;
 use coadjoint_codegen::system::{Options, Parameters, System, read};
-use coadjoint_program::Stepper;
 use coadjoint_tests::backends::entries_of;
 use coadjoint_tests::bridge::matrix_group;
 use nalgebra::{DVector, UnitQuaternion, Vector3};
 
 const INERTIA: [f64; 3] = [1.0, 1.25, 1.5];
-
-/// The satellite's rotation without torque.
-#[lie_poisson(group = SO3, truncation = 7)]
-fn satellite(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
-    0.5 * (mu[0] * mu[0] / inertia[0] + mu[1] * mu[1] / inertia[1] + mu[2] * mu[2] / inertia[2])
-}
 
 /// Gravity gradient, 3/2 r·Ir with r = gᵀ·earth.
 #[potential(group = SO3)]
@@ -49,36 +38,6 @@ fn attitude() -> UnitQuaternion<f64> {
 fn hand_written(earth: [f64; 3], attitude: &UnitQuaternion<f64>) -> Vector3<f64> {
     let r = attitude.inverse() * Vector3::from(earth);
     r.cross(&Vector3::from(INERTIA).component_mul(&r)) * 3.0
-}
-
-#[test]
-fn a_kernel_with_kicks_makes_the_steps_of_the_runtime() {
-    const STEPS: u64 = 50;
-    let h = 0.05;
-    let text = "group = \"SO3\"\ncoordinates = [\"x\", \"y\", \"z\"]\nhamiltonian = \"x^2/2 + y^2/2.5 + z^2/3\"\n\
-        potential = \"1.5*(g[2][0]^2 + 1.25*g[2][1]^2 + 1.5*g[2][2]^2)\"\n[integrator]\nsplitting = \"rkn4\"\n";
-    let options = Options { truncation: Some(7), ..Options::default() };
-    let System { problem, potential, .. } = read(text, options).unwrap();
-    let (potential, splitting) = potential.unwrap();
-    let integrator = Integrator::build(problem, TermLimit::default()).unwrap();
-    let integrator = integrator.with_kicks(Kick::build(potential), splitting).unwrap();
-    let step = Step::build(&integrator).unwrap();
-    let slots = step.fold(h, &[]).unwrap();
-    let q = attitude();
-    let (mut g, mut mu) = (vec![q.w, q.i, q.j, q.k], vec![0.4, -0.8, 0.6]);
-    let mut expected = Phase::<SO3>::new(q, Vector3::new(mu[0], mu[1], mu[2]));
-    assert_eq!(step.kernel().advance(&slots, &mut g, &mut mu, STEPS).steps, STEPS);
-    let field = GravityGradient::<f64>::new(INERTIA, [0.0, 0.0, 1.0]).unwrap();
-    let torque = |_: f64, g: &UnitQuaternion<f64>| field.torque(g);
-    let by_hand = Kicked::new(Splitting::Rkn4, h, torque, |h| Satellite::new(h, INERTIA)).unwrap();
-    for _ in 0..STEPS {
-        by_hand.advance(&mut expected, 0.0).unwrap();
-    }
-    let q = expected.group_element;
-    let expected = [q.w, q.i, q.j, q.k].into_iter().chain(expected.momentum.iter().copied());
-    for (found, expected) in g.into_iter().chain(mu).zip(expected) {
-        assert!((found - expected).abs() < 1e-13, "{found} {expected}");
-    }
 }
 
 #[test]

@@ -1,8 +1,13 @@
 //! Every system reaches the end state of its reference at the order theory says, K + 1 (shared
 //! mathematics, parity of the series), and keeps momentum and Casimirs to rounding.
+#![allow(clippy::unwrap_used)]
 
-use coadjoint_tests::reference::end_state;
+use coadjoint_codegen::hamilton_jacobi::{TermLimit, derive};
+use coadjoint_codegen::judge::{Enclosure, Judge};
+use coadjoint_codegen::lie::Chart;
+use coadjoint_tests::reference::{end_state, numbers};
 use coadjoint_tests::run::run;
+use nalgebra::{DMatrix, DVector};
 
 /// Runs with n and 2n steps at each truncation; the finer run must end within `bound`.
 fn reaches(system: &str, runs: &[(usize, usize, f64)]) {
@@ -60,4 +65,42 @@ reaches! {
     zeitlin_3: "zeitlin-3", [(3, 50, 8e-6), (5, 25, 4e-7)];
     zeitlin_5: "zeitlin-5", [(1, 60, 1e-2), (3, 16, 1e-2)];
     toda_lattice: "toda-lattice", [(3, 50, 3e-7), (5, 50, 5e-10), (7, 25, 3e-10)];
+}
+
+/// The judge's own motion reaches the references' end states, to the truncation of the series: the signs, both charts, and the group
+/// element.
+#[test]
+fn motions_of_the_judge_reach_the_references() {
+    for (name, chart, truncation, steps, tolerance) in [
+        ("rigid-body (DMV driver)", Chart::Exponential, 9, 200, 1e-9),
+        ("rigid-body (DMV driver)", Chart::Cayley, 9, 400, 1e-7),
+        ("Kirchhoff", Chart::Exponential, 5, 400, 1e-7),
+        ("Manakov so(4)", Chart::Exponential, 3, 400, 1e-3),
+    ] {
+        let entry = end_state(name);
+        let (algebra, limit) = (entry.algebra(), TermLimit::default());
+        let series = derive(&algebra, chart, &entry.polynomial(), truncation, limit).unwrap();
+        let judge = Judge::new(&algebra, &series).unwrap();
+        let mut setting =
+            judge.at(entry.time.parse::<f64>().unwrap() / f64::from(steps), &[]).unwrap();
+        let mut motion = Enclosure::new(&numbers(&entry.momentum0));
+        let size = entry.group_element.len();
+        let unit = DMatrix::<f64>::identity(size, size);
+        let mut element = unit.clone();
+        for _ in 0..steps {
+            let mut one = Enclosure::new(&motion.momentum());
+            one.step(&mut setting, None, f64::EPSILON / 2.0).unwrap();
+            motion.step(&mut setting, None, f64::EPSILON / 2.0).unwrap();
+            // The product of rounded elements, for the comparison only.
+            element *= DMatrix::from_row_slice(size, size, &one.element_from(unit.as_slice()));
+        }
+        let expected = DVector::from_vec(numbers(&entry.momentum));
+        let found = DVector::from_vec(motion.momentum());
+        assert!((found - &expected).amax() < tolerance * expected.amax(), "{name}");
+        let expected: Vec<f64> = entry.group_element.iter().flat_map(|row| numbers(row)).collect();
+        let off = (&element - DMatrix::from_row_slice(size, size, &expected)).amax();
+        assert!(off < 100.0 * tolerance, "{name}: {off:e}");
+        let rows = element.transpose();
+        assert!(motion.element_deviation(unit.as_slice(), rows.as_slice()) < 1.0, "{name}");
+    }
 }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use coadjoint_learn::table::array;
 use serde_json::Value;
 
+use super::legible::legible;
 use super::text::{Check, Place, Right};
 use crate::support::{Folder, Ran, table, text_of};
 
@@ -54,7 +55,7 @@ impl Outcome<'_> {
                 Ok(value) if !value.is_null() => Err(format!("there is {value}")),
                 _ => Ok(()),
             },
-            Check::Legible(name) => legible(&self.existing(name)?.text(name)),
+            Check::Legible(name) => legible(&self.existing(name)?.text(name), 21),
             Check::SameFiles(one, other) => {
                 let [a, b] = [one, other].map(|name| self.existing(name).map(|f| f.bytes(name)));
                 right(a? == b?, format!("{one} and {other} differ"))
@@ -170,44 +171,4 @@ fn numbers(value: &Value) -> Option<Vec<f64>> {
         Value::String(digits) => Some(vec![digits.parse().ok()?]),
         other => Some(vec![other.as_f64()?]),
     }
-}
-
-/// No two texts of a picture overlap, and none leaves it. Widths are those of a wide font.
-pub(crate) fn legible(svg: &str) -> Result<(), String> {
-    let document = roxmltree::Document::parse(svg).map_err(|error| error.to_string())?;
-    let number = |node: &roxmltree::Node<'_, '_>, name| -> Option<f64> {
-        node.attribute(name).map(|value| value.parse().unwrap())
-    };
-    let root = document.root_element();
-    let [width, height] = ["width", "height"].map(|name| number(&root, name).unwrap());
-    let texts = document.descendants().filter(|node| node.tag_name().name() == "text");
-    let boxes: Vec<(f64, f64, f64, f64, String)> = texts
-        .map(|node| {
-            let [x, y] = ["x", "y"].map(|name| number(&node, name).unwrap());
-            let size = number(&node, "font-size").unwrap_or(13.0);
-            let text = node.text().unwrap_or_default().to_owned();
-            let wide = 0.6 * size * text.chars().count() as f64;
-            let left = match node.attribute("text-anchor").unwrap() {
-                "start" => x,
-                "middle" => x - wide / 2.0,
-                _ => x - wide,
-            };
-            (left, left + wide, y - 0.75 * size, y + 0.2 * size, text)
-        })
-        .collect();
-    if boxes.len() <= 20 {
-        return Err(format!("only {} texts", boxes.len()));
-    }
-    for (i, a) in boxes.iter().enumerate() {
-        if !(a.0 >= 0.0 && a.1 <= width && a.3 <= height) {
-            return Err(format!("outside: {a:?}"));
-        }
-        let overlaps = |b: &&(f64, f64, f64, f64, String)| {
-            !(a.1 <= b.0 || b.1 <= a.0 || a.3 <= b.2 || b.3 <= a.2)
-        };
-        if let Some(b) = boxes[i + 1..].iter().find(overlaps) {
-            return Err(format!("{a:?} and {b:?}"));
-        }
-    }
-    Ok(())
 }

@@ -33,9 +33,12 @@
 //! group = "SO3"
 //! == spins.npy
 //! [[60, 3], 2.9]                               an array of this shape with the numbers sin(2.9 i)
+//! == wide.toml as UTF-16
+//! group = "SO3"                                also: as bytes, of which `\xe9` is one
 //! ```
 
-pub(crate) mod judge;
+mod judge;
+pub(crate) mod legible;
 mod text;
 
 use std::collections::BTreeMap;
@@ -61,10 +64,14 @@ struct Course {
 impl Course {
     fn new(case: &Case) -> Self {
         let folder = Folder::new();
-        case.files.iter().for_each(|(name, text)| match name.ends_with(".npy") {
-            true => folder.write(name, wave(text)),
-            false => folder.write(name, text),
-        });
+        for (name, text) in &case.files {
+            match name.split_once(" as ") {
+                Some((name, "UTF-16")) => folder.write(name, wide(text)),
+                Some((name, _)) => folder.write(name, bytes(text)),
+                None if name.ends_with(".npy") => folder.write(name, wave(text)),
+                None => folder.write(name, text),
+            }
+        }
         let mut course =
             Self { folder, known: BTreeMap::new(), said: String::new(), failures: Vec::new() };
         let nothing = Ran { code: 0, out: String::new(), error: String::new() };
@@ -174,6 +181,22 @@ fn wave(text: &str) -> Vec<u8> {
     let (shape, rate): (Vec<u64>, Option<f64>) = serde_json::from_str(text).unwrap();
     let numbers = (0..shape.iter().product()).map(|i| (rate.unwrap_or(f64::NAN) * i as f64).sin());
     [npy_header(&shape), numbers.flat_map(f64::to_le_bytes).collect()].concat()
+}
+
+fn wide(text: &str) -> Vec<u8> {
+    "\u{feff}".encode_utf16().chain(text.encode_utf16()).flat_map(u16::to_le_bytes).collect()
+}
+
+/// The bytes of a text in which `\xe9` is one.
+fn bytes(text: &str) -> Vec<u8> {
+    let (first, rest) = text.split_once("\\x").unwrap_or((text, ""));
+    match rest.split_at_checked(2) {
+        None => text.into(),
+        Some((byte, rest)) => {
+            let byte = u8::from_str_radix(byte, 16).unwrap();
+            [first.as_bytes(), &[byte], &bytes(rest)].concat()
+        }
+    }
 }
 
 fn changed(text: &str, from: &str, to: &str) -> Result<String, String> {

@@ -30,67 +30,6 @@ pub struct System {
     pub large: bool,
 }
 
-/// A cubic Hamiltonian with an irrational number, in the Cayley chart.
-const CAYLEY_BODY: &str = "name = \"cayley-body\"\ngroup = \"SO3\"\ncoordinates = [\"x\", \"y\", \"z\"]\n\
-    hamiltonian = \"x^2/3 + sqrt(2)*y^2/6 + z^2/5 + x^3/10\"\n\
-    [integrator]\nstep = 0.1\n[initial]\nmomentum = [1.0, 0.5, -0.7]\n";
-
-/// A symmetric body in a fluid, in the comoving frame.
-const COMOVING_BODY: &str = "name = \"comoving-body\"\ngroup = \"SE3\"\n\
-    coordinates = [\"a\", \"b\", \"c\", \"u\", \"v\", \"w\"]\n\
-    hamiltonian = \"(a^2 + b^2)/(2*I1) + c^2/(2*I3) + (u^2 + v^2)/(2*M1) + w^2/(2*M3)\"\n\
-    [parameters]\nI1 = 2\nI3 = 3\nM1 = 1.5\nM3 = 2.5\n\
-    [integrator]\nframe = \"comoving\"\nstep = 0.1\n[initial]\nmomentum = [0.4, 0.3, 0.9, 0.2, 0.5, -0.3]\n";
-
-/// Three resonant waves: a group by tables, a parameter with a power and a function, names that C keeps for itself.
-const THREE_WAVE: &str = "name = \"three-wave\"\ngroup = \"SL2\"\ncoordinates = [\"h\", \"e\", \"f\"]\n\
-    hamiltonian = \"h^2/(8*double^3) + sin(s)*e*f\"\n\
-    [parameters]\ndouble = 1.25\ns = 0.4\n[units]\ntime = \"s\"\nmomentum = \"kg m²/s\"\n\
-    [integrator]\nstep = 0.1\n[initial]\nmomentum = [0.8, -0.3, 0.5]\n";
-
-/// A motion of the plane beside a rotation of a quaternion.
-const PRODUCT: &str = "name = \"plane and spin\"\ngroup = \"SE2*SU2\"\n\
-    coordinates = [\"a\", \"b\", \"c\", \"d\", \"e\", \"f\"]\n\
-    hamiltonian = \"a^2/3 + b^2/4 + c^2/5 + d^2/6 + e^2/7 + f^2/8 + a*d/9\"\n\
-    [integrator]\nstep = 0.2\n[initial]\nmomentum = [0.4, 0.3, 0.9, 0.2, 0.5, -0.3]\n";
-
-/// An algebra known by its brackets alone, whose elements are adjoint matrices.
-const BRACKETS: &str = "name = \"brackets\"\ncoordinates = [\"a\", \"b\", \"c\"]\nhamiltonian = \"a^2/3 + b^2/4 + c^2/5\"\n\
-    [algebra]\ngenerators = [\"A\", \"B\", \"C\"]\nbrackets = [\"[A, B] = C\", \"[B, C] = A\", \"[C, A] = B\"]\n\
-    [integrator]\nstep = 0.2\n[initial]\nmomentum = [0.4, 0.3, 0.9]\n";
-
-/// More dimensions than Newton's method takes.
-const RING: &str = "name = \"ring\"\ngroup = \"SO3^9\"\ncoordinates = [\"x\", \"y\", \"z\"]\n\
-    hamiltonian = \"sum(i, 0..9, z[i]^2/3 - x[i]*x[(i + 1) % 9] - y[i]*y[(i + 1) % 9])\"\n\
-    [integrator]\nstep = 0.05\n[initial]\nmomentum = [\"cos(1.3*i)\", \"sin(1.3*i)\", \"0.5*sin(2*i)\"]\n";
-
-/// A body about a fixed point under gravity, and the same on a group by tables beside a rotation.
-const PENDULUM: &str = "name = \"pendulum\"\ngroup = \"SO3\"\ncoordinates = [\"x\", \"y\", \"z\"]\n\
-    hamiltonian = \"x^2/2 + y^2/(2*I2) + z^2/4\"\npotential = \"-m*g0*g[2][2] + sqrt(m)*g[0][1]/3\"\n\
-    [parameters]\nm = 1\ng0 = 9.81\nI2 = 2.8\n[integrator]\nstep = 0.02\nsplitting = \"rkn6\"\n\
-    [initial]\nmomentum = [0.5, -1.4, 0.8]\n";
-const SATELLITE: &str = "name = \"satellite\"\ngroup = \"SO3*SO2\"\ncoordinates = [\"x\", \"y\", \"z\", \"l\"]\n\
-    hamiltonian = \"x^2/2 + y^2/2.5 + z^2/3 + l\"\n\
-    potential = \"1.5*(g[0][0]*g[3][3] + g[1][0]*g[4][3])^2 + 2*(g[0][1]*g[3][3] + g[1][1]*g[4][3])^2\"\n\
-    [integrator]\nstep = 0.05\nsplitting = \"prk4\"\n[initial]\nmomentum = [0.1, -0.2, 1.6, 0.0]\n";
-
-/// A root and an exponential on a group of motions, solved by collocation.
-const SIX: &str = "name = \"six\"\ngroup = \"SE3\"\ncoordinates = [\"a\", \"b\", \"c\", \"u\", \"v\", \"w\"]\n\
-    hamiltonian = \"sqrt(1 + a^2 + b^2/2 + c^2/3) + exp(u/5) + v^2/3 + 1/(2 + w^2)\"\n\
-    [integrator]\nstep = 0.1\n[initial]\nmomentum = [0.4, 0.3, 0.9, 0.2, 0.5, -0.3]\n";
-
-/// A root in a field that turns, and the same with an exponential on a group of motions.
-const DRIVEN: &str = "name = \"driven\"\ngroup = \"SO3\"\ncoordinates = [\"x\", \"y\", \"z\"]\n\
-    hamiltonian = \"sqrt(1 + x^2/I1 + y^2/2 + z^2/3) + z^2/9 + B*(cos(1.3*t)*x + sin(1.3*t)*y)\"\n\
-    [parameters]\nI1 = 1.5\nB = 0.2\n[integrator]\nstep = 0.1\n[initial]\nmomentum = [0.5, -1.4, 0.8]\n";
-const DRIVEN_SIX: &str = "name = \"driven six\"\ngroup = \"SE3\"\ncoordinates = [\"a\", \"b\", \"c\", \"u\", \"v\", \"w\"]\n\
-    hamiltonian = \"(a^2 + b^2/2 + c^2/3)/2 + exp(u*sin(t)/5) + v^2/3 + w^2/(2 + cos(t))\"\n\
-    [integrator]\nstep = 0.1\n[initial]\nmomentum = [0.4, 0.3, 0.9, 0.2, 0.5, -0.3]\n";
-/// A body about a fixed point whose energy has a root, with kicks between flows by collocation.
-const KICKED_ROOT: &str = "name = \"kicked root\"\ngroup = \"SO3\"\ncoordinates = [\"x\", \"y\", \"z\"]\n\
-    hamiltonian = \"sqrt(1 + x^2/2 + y^2/(2*I2) + z^2/4)\"\npotential = \"-m*g[2][2] + sqrt(m)*g[0][1]/3\"\n\
-    [parameters]\nm = 1.5\nI2 = 2.8\n[integrator]\nstep = 0.1\n[initial]\nmomentum = [0.5, -1.4, 0.8]\n";
-
 impl System {
     /// Written as C with its parameters substituted, in the exponential chart, and compared with no committed header.
     const fn new(name: &'static str, text: &'static str, truncation: usize) -> Self {
@@ -123,21 +62,25 @@ impl System {
 const SYSTEMS: &[System] = &[
     System::new("rigid_body", "examples/rigid_body.toml", 5).golden(),
     System::new("heavy_top", "examples/heavy_top.toml", 3).kept(),
-    System::new("cayley_body", CAYLEY_BODY, 3).cayley(),
-    System::new("comoving_body", COMOVING_BODY, 3).kept(),
-    System::new("three_wave", THREE_WAVE, 5).kept(),
-    System::new("three_wave_cayley", THREE_WAVE, 3).cayley().kept().cpp().golden(),
+    System::new("cayley_body", "tests/systems/cayley_body.toml", 3).cayley(),
+    System::new("comoving_body", "tests/systems/comoving_body.toml", 3).kept(),
+    System::new("three_wave", "tests/systems/three_wave.toml", 5).kept(),
+    System::new("three_wave_cayley", "tests/systems/three_wave.toml", 3)
+        .cayley()
+        .kept()
+        .cpp()
+        .golden(),
     System::new("su3", "examples/su3_quadratic.toml", 3).large(),
-    System::new("ring", RING, 3).large(),
-    System::new("pendulum", PENDULUM, 5).kept(),
-    System::new("satellite", SATELLITE, 3).cpp(),
-    System::new("plane_and_spin", PRODUCT, 3),
-    System::new("brackets", BRACKETS, 3),
+    System::new("ring", "tests/systems/ring.toml", 3).large(),
+    System::new("pendulum", "tests/systems/pendulum.toml", 5).kept(),
+    System::new("satellite", "tests/systems/satellite.toml", 3).cpp(),
+    System::new("plane_and_spin", "tests/systems/product.toml", 3),
+    System::new("brackets", "tests/systems/rotations_by_brackets.toml", 3),
     System::new("relativistic_body", "examples/relativistic_body.toml", 5).kept(),
-    System::new("six_variables", SIX, 3).cpp(),
-    System::new("driven", DRIVEN, 5).kept(),
-    System::new("driven_six", DRIVEN_SIX, 3).cpp(),
-    System::new("kicked_root", KICKED_ROOT, 3).kept(),
+    System::new("six_variables", "tests/systems/six.toml", 3).cpp(),
+    System::new("driven", "tests/systems/driven.toml", 5).kept(),
+    System::new("driven_six", "tests/systems/driven_six.toml", 3).cpp(),
+    System::new("kicked_root", "tests/systems/kicked_root.toml", 3).kept(),
 ];
 
 /// All systems, built once.
