@@ -375,13 +375,13 @@ fn skew(signs: Signs, random: &mut Random) -> MatrixGroup {
     MatrixGroup::from_structure_constants(n, &structure).expect("a Lie algebra")
 }
 
-/// A trial of one drawn step.
-type Trial = dyn Fn(&mut Random, &mut Tally) + Send + Sync;
+/// A step that is drawn and judged.
+type Draw = dyn Fn(&mut Random, &mut Tally) + Send + Sync;
 
 /// Families by the group, with any number of nodes, by the runtime and by programs; and by the number of nodes, on any group.
 pub(super) fn families(only: &str) -> Vec<Family> {
     let mut all = Vec::new();
-    let mut add = |name: String, one: Box<Trial>| {
+    let mut add = |name: String, one: Box<Draw>| {
         let steps = move |seed: u64, tally: &mut Tally| {
             let mut random = Random::new(seed);
             (0..DRAWS).for_each(|_| one(&mut random, tally));
