@@ -376,12 +376,12 @@ fn skew(signs: Signs, random: &mut Random) -> MatrixGroup {
 }
 
 /// A step that is drawn and judged.
-type Draw = dyn Fn(&mut Random, &mut Tally) + Send + Sync;
+type Judged = dyn Fn(&mut Random, &mut Tally) + Send + Sync;
 
 /// Families by the group, with any number of nodes, by the runtime and by programs; and by the number of nodes, on any group.
 pub(super) fn families(only: &str) -> Vec<Family> {
     let mut all = Vec::new();
-    let mut add = |name: String, one: Box<Draw>| {
+    let mut add = |name: String, one: Box<Judged>| {
         let steps = move |seed: u64, tally: &mut Tally| {
             let mut random = Random::new(seed);
             (0..DRAWS).for_each(|_| one(&mut random, tally));
