@@ -49,8 +49,8 @@ def _asked(run: Run, names: Iterable[str]) -> tuple[dict[str, Any], dict[str, tu
         raise InputError("a learned map has no derivatives: those are of systems known as text")
     if getattr(source, "_functions", None) is not None:
         raise InputError("a Hamiltonian that is a function has no derivatives: give it as an expression")
-    if getattr(source, "_acting", None):
-        raise InputError(f"a {next(iter(source._acting))} that is a function has no derivatives: give it as expressions")
+    if acting := getattr(source, "_acting", None):
+        raise InputError(f"a {next(iter(acting))} that is a function has no derivatives: give it as expressions")
     core: Any = source._core
     known = {name: tuple(shape) for name, shape in core.parameters()}
     wanted = [_arrays.text(name, "parameters") for name in names]
