@@ -244,6 +244,11 @@ impl Potential {
     /// is seen as well as any other.
     fn level(&self, programs: &Programs) -> Vec<Vec<f64>> {
         let (n, size, generators) = (self.algebra.dim(), self.size(), self.generators());
+        // Of a group whose elements would take long, the dual basis would too.
+        let elements = self.elements(&generators, 2 * n + 5);
+        if elements.is_empty() {
+            return Vec::new();
+        }
         let Some(dual) = self.algebra.dual_matrices() else { return Vec::new() };
         let dual: Vec<Vec<f64>> = dual.iter().map(|matrix| dense(matrix, size)).collect();
         let torque = programs.torque.with_open_functions();
@@ -263,7 +268,7 @@ impl Potential {
             let scale = if most == 0.0 { 1.0 } else { most };
             sums.iter().map(|(sum, _)| sum / scale).collect()
         };
-        let rows = self.elements(&generators, 2 * n + 5).into_iter().map(row);
+        let rows = elements.into_iter().map(row);
         let rows: Vec<Vec<f64>> = rows.filter(|row| row.iter().all(|x| x.is_finite())).collect();
         if rows.len() < n + 2 { Vec::new() } else { kernel(rows, n) }
     }
