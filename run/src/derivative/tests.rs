@@ -23,9 +23,9 @@ struct Case {
     step: f64,
 }
 
-/// The systems of `run/tests/derivatives.cases`; the first is a free body, the first two have series without a frame.
+/// The systems of `tests.cases`; the first is a free body, the first two have series without a frame.
 fn cases() -> Vec<Case> {
-    let all = include_str!("../../tests/derivatives.cases").split("==== ").skip(1);
+    let all = include_str!("tests.cases").split("==== ").skip(1);
     let case = |text: &'static str| {
         let (head, text) = text.split_once('\n').unwrap();
         let [varied, momentum, step] = head.split('|').collect::<Vec<_>>()[..] else {
