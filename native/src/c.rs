@@ -1,4 +1,4 @@
-//! Steps compiled by the system's C compiler, in a private folder.
+//! Steps compiled by the system's C compiler, in a private folder or in a store.
 
 use std::ffi::{OsStr, OsString};
 use std::fs::File;
@@ -15,6 +15,7 @@ use tempfile::TempDir;
 use crate::entry::Entry;
 use crate::error::{NativeError, first_errors};
 use crate::library::load;
+use crate::store::{Store, key};
 
 /// A step as machine code, and its origin.
 #[derive(Clone, Debug)]
@@ -28,24 +29,55 @@ pub struct Native {
 }
 
 impl Native {
-    /// The step of a kernel, compiled by a C compiler with the machine's own instructions; the bits are those of
-    /// the interpreter.
+    /// The step of a kernel, compiled by a C compiler with the machine's own instructions, or as the store has it; the bits are those
+    /// of the interpreter.
     ///
     /// # Errors
     /// [`NativeError`] where there is no compiler, it fails, is stopped or does not end in time, no temporary file can be written, or
     /// the library cannot be loaded.
     pub fn by_c(kernel: &Kernel, options: &COptions) -> Result<Self, NativeError> {
         let start = Instant::now();
-        let folder = private_folder()?;
-        let compiler = Compiler::find(options, folder.path())?;
         let text = native_unit(kernel, options.trajectories);
+        if let Some(kept) = Self::find(kernel, options, &text, start) {
+            return Ok(kept);
+        }
+        let store = options.store.as_ref();
+        let room = store.and_then(Store::room);
+        let is_room = room.is_some();
+        let folder = room.map_or_else(private_folder, Ok)?;
+        let compiler = Compiler::find(options, folder.path())?;
         let library = compiler.compile(&text, folder.path())?;
         let entry = load(kernel, options.trajectories, &library)?;
-        if cfg!(windows) {
-            // A loaded library needs its file no more, except there.
-            let _ = folder.keep();
+        match (store.filter(|_| is_room), compiler.key(&text)) {
+            // A loaded library can be moved, except on Windows, where there is no store.
+            (Some(store), Some(key)) => store.keep(folder, LIBRARY, &key),
+            _ if cfg!(windows) => drop(folder.keep()),
+            _ => {}
         }
         Ok(Self { entry, compiler: compiler.name(), ready: start.elapsed() })
+    }
+
+    /// The step of a kernel if the store has it.
+    pub fn kept(kernel: &Kernel, options: &COptions) -> Option<Self> {
+        let start = Instant::now();
+        options.store.as_ref()?;
+        Self::find(kernel, options, &native_unit(kernel, options.trajectories), start)
+    }
+
+    /// The step with this text, if the store has it. A library that cannot be loaded is removed from there.
+    fn find(kernel: &Kernel, options: &COptions, text: &str, start: Instant) -> Option<Self> {
+        let store = options.store.as_ref()?;
+        let compilers = Compiler::candidates(options).into_iter();
+        let keyed = |compiler: Compiler| Some((compiler.key(text)?, compiler));
+        let (key, compiler) = compilers.filter_map(keyed).next()?;
+        let place = store.find(&key)?;
+        match load(kernel, options.trajectories, &place.join(LIBRARY)) {
+            Ok(entry) => Some(Self { entry, compiler: compiler.name(), ready: start.elapsed() }),
+            Err(_) => {
+                store.remove(&key);
+                None
+            }
+        }
     }
 }
 
@@ -70,38 +102,50 @@ struct Compiler {
 const VERSION_LIMIT: Duration = Duration::from_secs(10);
 
 impl Compiler {
-    /// The compiler that was named, or that of the environment variable CC, else the first of `cc`, `gcc` and `clang`
-    /// that answers.
+    /// The compiler that was named, or that of the environment variable CC, else `cc`, `gcc` and `clang`.
+    fn candidates(options: &COptions) -> Vec<Self> {
+        let named = options.compiler.clone();
+        let environment = || std::env::var_os("CC").filter(|command| !command.is_empty());
+        let commands = match named.or_else(environment) {
+            Some(command) => vec![command],
+            None => ["cc", "gcc", "clang"].map(OsString::from).to_vec(),
+        };
+        let compiler = |command: OsString| {
+            let (program, arguments) = split(&command);
+            let (limit, stop) = (options.time_limit, options.stop.clone());
+            Self { program, arguments, limit, stop }
+        };
+        commands.into_iter().map(compiler).collect()
+    }
+
+    /// The first of the candidates that answers.
     fn find(options: &COptions, folder: &Path) -> Result<Self, NativeError> {
-        let named = options.compiler.as_deref();
-        let environment = std::env::var_os("CC").filter(|command| !command.is_empty());
-        if let Some(command) = named.map(OsStr::to_owned).or(environment) {
-            return Self::ask(&command, options, folder);
-        }
-        let candidates = ["cc", "gcc", "clang"];
-        let mut first = None;
-        for candidate in candidates {
-            match Self::ask(OsStr::new(candidate), options, folder) {
-                Ok(compiler) => return Ok(compiler),
+        let candidates = Self::candidates(options);
+        let tried = || candidates.iter().map(Self::name).collect::<Vec<_>>().join(", ");
+        let (mut first, several) = (None, candidates.len() > 1);
+        for compiler in &candidates {
+            match compiler.ask(folder) {
+                Ok(()) => return Ok(compiler.clone()),
                 Err(NativeError::Start { source, .. })
-                    if source.kind() == std::io::ErrorKind::NotFound => {}
+                    if several && source.kind() == std::io::ErrorKind::NotFound => {}
                 Err(error) => {
                     first.get_or_insert(error);
                 }
             }
         }
-        Err(first.unwrap_or_else(|| NativeError::NoCompiler { tried: candidates.join(", ") }))
+        Err(first.unwrap_or_else(|| NativeError::NoCompiler { tried: tried() }))
     }
 
-    /// A command that tells its version. It may have arguments, as in `ccache gcc`.
-    fn ask(command: &OsStr, options: &COptions, folder: &Path) -> Result<Self, NativeError> {
-        let (program, arguments) = split(command);
-        let (limit, stop) = (options.time_limit, options.stop.clone());
-        let compiler = Self { program, arguments, limit, stop };
-        let mut command = compiler.command();
+    /// Asks for the version. A command may have arguments, as in `ccache gcc`.
+    fn ask(&self, folder: &Path) -> Result<(), NativeError> {
+        let mut command = self.command();
         command.arg("--version");
-        compiler.run(command, limit.min(VERSION_LIMIT), folder)?;
-        Ok(compiler)
+        self.run(command, self.limit.min(VERSION_LIMIT), folder)
+    }
+
+    /// The key of what this compiler makes of a text.
+    fn key(&self, text: &str) -> Option<String> {
+        key(&self.program, &self.arguments, Self::flags(), text)
     }
 
     /// The name it was called by.
@@ -273,6 +317,8 @@ pub struct COptions {
     pub time_limit: Duration,
     /// The trajectories compiled for: either half takes about half the time.
     pub trajectories: Trajectories,
+    /// The store in which steps are kept and looked for; none if they are compiled anew.
+    pub store: Option<Store>,
     /// Set it from another thread to end the compiler and all that it has started.
     pub stop: Arc<AtomicBool>,
 }
@@ -283,6 +329,7 @@ impl Default for COptions {
             compiler: None,
             time_limit: Duration::from_secs(120),
             trajectories: Trajectories::Both,
+            store: None,
             stop: Arc::default(),
         }
     }

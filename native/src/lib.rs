@@ -1,7 +1,7 @@
 //! Steps as machine code, compiled when a system is known.
 //!
 //! An [`Entry`] is a compiled [`Kernel`](coadjoint_program::Kernel): the same loop, the same bits, no call per step.
-//! [`Native::by_c`] has the system's C compiler make one. [`cards`] runs kernels on graphics cards.
+//! [`Native::by_c`] has the system's C compiler make one, and a [`Store`] keeps it on disk. [`cards`] runs kernels on graphics cards.
 
 mod c;
 pub mod cards;
@@ -10,7 +10,9 @@ mod error;
 #[cfg(feature = "jit")]
 pub mod jit;
 mod library;
+mod store;
 
 pub use c::{COptions, Native};
 pub use entry::Entry;
 pub use error::NativeError;
+pub use store::Store;

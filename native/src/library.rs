@@ -1,7 +1,8 @@
 //! Loading a library that a compiler wrote: the one place where it happens.
 //!
 //! Loading runs code that the type system has not checked. It is sound for these reasons: the library was compiled from the
-//! text of this very kernel, by a compiler that the user chose, into a folder that nobody else can write to; its sizes
+//! text of this very kernel, by a compiler that the user chose, into a folder that nobody else can write to (one of a store has
+//! that text beside it); its sizes
 //! are compared with the kernel's before a function is called; and it stays loaded as long as an [`Entry`] needs it.
 #![allow(unsafe_code)]
 

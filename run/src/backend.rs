@@ -1,13 +1,13 @@
 //! The backend that evaluates the programs of a step.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 #[cfg(feature = "jit")]
 use std::time::Instant;
 
-use coadjoint_native::{COptions, Entry, Native};
+use coadjoint_native::{COptions, Entry, Native, Store};
 use coadjoint_program::{Kernel, Programs, Stepper, Trajectories};
 
 use crate::error::RunError;
@@ -65,6 +65,7 @@ pub struct Used {
 /// Machine code, what made it, and how long that took.
 #[derive(Debug)]
 struct Made {
+    backend: Backend,
     entry: Entry,
     name: String,
     ready: Duration,
@@ -73,25 +74,65 @@ struct Made {
 /// The code that is on its way, shared with the thread that makes it.
 #[derive(Debug, Default)]
 struct Coming {
-    made: OnceLock<Made>,
+    /// The first machine code, and one that took longer to make and is faster.
+    made: [OnceLock<Made>; 2],
     notes: Mutex<Vec<String>>,
     /// No more is to be expected.
     over: AtomicBool,
-    /// Ends a compiler that is at work.
-    stop: Arc<AtomicBool>,
 }
 
-/// Programs ready to make steps: interpreted until there is machine code of them, if any is made. The bits are the same.
+impl Made {
+    fn by_c(Native { entry, compiler, ready }: Native) -> Self {
+        let name = format!("machine code by {compiler}");
+        Self { backend: Backend::C, entry, name, ready }
+    }
+}
+
+impl Coming {
+    /// The fastest machine code so far, and its place.
+    fn best(&self) -> Option<(usize, &Made)> {
+        (0..2).rev().find_map(|place| Some((place, self.made[place].get()?)))
+    }
+
+    fn put(&self, made: Made) {
+        if let Err(better) = self.made[0].set(made) {
+            let _ = self.made[1].set(better);
+        }
+    }
+}
+
+/// A thread that makes machine code in the background.
+#[derive(Debug)]
+struct Worker {
+    thread: JoinHandle<()>,
+    /// Ends it.
+    stop: Arc<AtomicBool>,
+    /// True if it runs a compiler, which must not be left behind; Cranelift ends by itself, after half a second at most.
+    by_compiler: bool,
+}
+
+impl Worker {
+    fn end(self) {
+        self.stop.store(true, Ordering::Relaxed);
+        if self.by_compiler {
+            // One that panicked has made nothing.
+            let _ = self.thread.join();
+        }
+    }
+}
+
+/// Programs ready to make steps: interpreted until there is machine code of them, if any is made, by Cranelift until there is some by a C
+/// compiler, if that is worth its time. The bits are the same.
 #[derive(Debug)]
 pub(crate) struct Code {
     coming: Arc<Coming>,
-    /// Runs the compiler.
-    thread: Mutex<Option<JoinHandle<()>>>,
-    interpreted: AtomicBool,
+    /// The compiler that ends with the run that began it, and the one that goes on for later runs.
+    workers: [Mutex<Option<Worker>>; 2],
+    trajectories: Trajectories,
 }
 
-/// Steps that are made at a time while machine code is on its way.
-const FEW: u64 = 256;
+/// Steps that are made at a time while machine code is on its way: by the interpreter, and by other machine code.
+const FEW: [u64; 2] = [256, 1 << 14];
 
 impl Code {
     /// By the backend asked for, to make about `steps` steps of trajectories one by one or side by side, and `before` that were made in
@@ -105,47 +146,56 @@ impl Code {
         [steps, before]: [f64; 2],
         trajectories: Trajectories,
     ) -> Result<Self, RunError> {
-        let code = Self::interpreter();
+        let code = Self { coming: Arc::default(), workers: Default::default(), trajectories };
         match backend {
             Backend::Interpreter => {}
             Backend::Auto => {
-                let mut plan = plan(kernel, steps, trajectories);
-                if plan.is_empty() {
-                    // Of short runs again and again; a compiler that takes longer than these would be stopped by each.
-                    plan = self::plan(kernel, steps + before, trajectories);
-                    plan.retain(|backend| *backend != Backend::C);
-                }
+                let known = plan(kernel, steps, trajectories);
+                // A compiler that takes longer than short runs, again and again, goes on between them.
+                let lasting = known.is_empty();
+                let plan = if lasting { plan(kernel, steps + before, trajectories) } else { known };
                 if !plan.is_empty() {
-                    return Ok(code.start(plan, kernel, trajectories));
+                    code.start(plan, kernel, lasting);
+                    return Ok(code);
                 }
             }
             named => {
-                let made = named.make(kernel, trajectories, &code.coming.stop);
+                let made = named.make(kernel, trajectories, &Arc::default());
                 let made = made.map_err(|what| RunError::Option(format!("--backend: {what}")))?;
-                let _ = code.coming.made.set(made);
+                code.coming.put(made);
             }
         }
         code.coming.over.store(true, Ordering::Relaxed);
         Ok(code)
     }
 
-    fn interpreter() -> Self {
-        let (coming, thread) = (Arc::default(), Mutex::default());
-        Self { coming, thread, interpreted: AtomicBool::new(false) }
-    }
-
-    /// Has machine code made in the background, by the first of these backends that can.
-    fn start(self, plan: Vec<Backend>, kernel: &Kernel, trajectories: Trajectories) -> Self {
+    /// Has machine code made in the background: as it was kept on disk, else by the best of these backends, of which the first one is the
+    /// best, and one that is ready at once until then.
+    fn start(&self, plan: Vec<Backend>, kernel: &Kernel, lasting: bool) {
         let (coming, kernel) = (self.coming.clone(), kernel.clone());
-        let by_compiler = plan.first() == Some(&Backend::C);
+        let (trajectories, stop) = (self.trajectories, Arc::<AtomicBool>::default());
+        let (best, stopped) = (plan.first().copied(), stop.clone());
+        let by_compiler = plan.contains(&Backend::C);
+        coming.over.store(false, Ordering::Relaxed);
         let work = move || {
-            for backend in plan {
-                match backend.make(&kernel, trajectories, &coming.stop) {
+            let kept = Backend::kept(&kernel, trajectories);
+            let mut order = if kept.is_some() { Vec::new() } else { plan };
+            kept.into_iter().for_each(|made| coming.put(made));
+            if best == Some(Backend::C) {
+                order.reverse();
+            }
+            for backend in order {
+                if stopped.load(Ordering::Relaxed) {
+                    break;
+                }
+                match backend.make(&kernel, trajectories, &stopped) {
                     Ok(made) => {
-                        let _ = coming.made.set(made);
-                        break;
+                        coming.put(made);
+                        if best == Some(backend) {
+                            break;
+                        }
                     }
-                    Err(_) if coming.stop.load(Ordering::Relaxed) => break,
+                    Err(_) if stopped.load(Ordering::Relaxed) => break,
                     Err(error) => {
                         let mut notes = coming.notes.lock().unwrap_or_else(PoisonError::into_inner);
                         notes.push(format!("{error}; the run goes on without it"));
@@ -155,77 +205,109 @@ impl Code {
             coming.over.store(true, Ordering::Relaxed);
         };
         match std::thread::Builder::new().spawn(work) {
-            // Cranelift ends by itself, after half a second at most.
-            Ok(thread) if by_compiler => {
-                *self.thread.lock().unwrap_or_else(PoisonError::into_inner) = Some(thread);
+            Ok(thread) => {
+                let own = &self.workers[usize::from(lasting || best != Some(Backend::C))];
+                let worker = Worker { thread, stop, by_compiler };
+                *own.lock().unwrap_or_else(PoisonError::into_inner) = Some(worker);
             }
-            Ok(_) => {}
             Err(_) => self.coming.over.store(true, Ordering::Relaxed),
         }
-        self
     }
 
-    /// Ends a compiler that is still at work: the run is over.
-    pub(crate) fn stop(&self) {
-        let thread = self.thread.lock().unwrap_or_else(PoisonError::into_inner).take();
-        if let Some(thread) = thread {
-            self.coming.stop.store(true, Ordering::Relaxed);
-            // One that panicked has made nothing.
-            let _ = thread.join();
+    /// Has better machine code made for later steps, where all `steps` of runs so far and of this one are worth it.
+    pub(crate) fn improve(&self, kernel: &Kernel, steps: f64) {
+        let over = self.coming.over.load(Ordering::Relaxed);
+        let single = self.coming.made[1].get().is_none();
+        let known = self.coming.best().map(|(_, made)| made.backend);
+        let known = known.filter(|known| over && single && *known != Backend::C);
+        if known.is_some_and(|by| worth_a_compiler(kernel, steps, self.trajectories, by)) {
+            self.start(vec![Backend::C], kernel, true);
         }
+    }
+
+    /// Ends the worker of a run that is over, or the one that goes on.
+    fn end(&self, number: usize) {
+        let worker = self.workers[number].lock().unwrap_or_else(PoisonError::into_inner).take();
+        worker.into_iter().for_each(Worker::end);
     }
 
     /// True if it is machine code, or will be even if the run ends before.
     pub(crate) fn lasts(&self) -> bool {
-        let stays = || self.thread.lock().unwrap_or_else(PoisonError::into_inner).is_none();
-        self.is_machine_code() || !self.coming.over.load(Ordering::Relaxed) && stays()
-    }
-
-    /// True if it is machine code.
-    pub(crate) fn is_machine_code(&self) -> bool {
-        self.coming.made.get().is_some()
-    }
-
-    /// The steps to make before the backend is chosen anew.
-    pub(crate) fn at_a_time(&self) -> u64 {
-        let over = self.is_machine_code() || self.coming.over.load(Ordering::Relaxed);
-        if over { u64::MAX } else { FEW }
-    }
-
-    /// The backend that makes the steps now, in a few words.
-    pub(crate) fn maker(&self) -> &str {
-        self.coming.made.get().map_or("interpreter", |made| &made.name)
-    }
-
-    /// The backends that have made the steps, for reports.
-    pub(crate) fn used(&self) -> Used {
-        let first = self.is_machine_code() && self.interpreted.load(Ordering::Relaxed);
-        let name = format!("{}{}", if first { "interpreter, then " } else { "" }, self.maker());
-        Used { name, ready: self.coming.made.get().map(|made| made.ready) }
-    }
-
-    /// Notes on backends that are not available so far.
-    pub(crate) fn notes(&self) -> Vec<String> {
-        self.coming.notes.lock().unwrap_or_else(PoisonError::into_inner).clone()
-    }
-
-    /// The stepper for the next steps of this kernel, from which the code is.
-    pub(crate) fn stepper<'a>(&'a self, kernel: &'a Kernel) -> &'a dyn Stepper {
-        match self.coming.made.get() {
-            Some(made) => &made.entry,
-            None => {
-                if !self.interpreted.load(Ordering::Relaxed) {
-                    self.interpreted.store(true, Ordering::Relaxed);
-                }
-                kernel
-            }
-        }
+        let goes_on = || {
+            let ends = self.workers[0].lock().unwrap_or_else(PoisonError::into_inner).is_some();
+            !ends && !self.coming.over.load(Ordering::Relaxed)
+        };
+        self.coming.best().is_some() || goes_on()
     }
 }
 
 impl Drop for Code {
     fn drop(&mut self) {
-        self.stop();
+        (0..2).for_each(|number| self.end(number));
+    }
+}
+
+/// The code of one run, whose own compiler ends with it.
+#[derive(Debug)]
+pub(crate) struct Running {
+    code: Arc<Code>,
+    /// What has made steps, as bits: the interpreter, the first machine code, the better one.
+    used: AtomicU8,
+}
+
+impl Running {
+    pub(crate) fn new(code: Arc<Code>) -> Self {
+        Self { code, used: AtomicU8::new(0) }
+    }
+
+    /// The steps to make before the backend is chosen anew.
+    pub(crate) fn at_a_time(&self) -> u64 {
+        let coming = &self.code.coming;
+        let few = FEW[usize::from(coming.best().is_some())];
+        if coming.over.load(Ordering::Relaxed) { u64::MAX } else { few }
+    }
+
+    /// The backend that makes the steps now, in a few words.
+    pub(crate) fn maker(&self) -> &str {
+        self.code.coming.best().map_or("interpreter", |(_, made)| &made.name)
+    }
+
+    /// The backends that have made the steps, for reports.
+    pub(crate) fn used(&self) -> Used {
+        let coming = &self.code.coming;
+        let used = self.used.load(Ordering::Relaxed);
+        let name = |place: usize| match place {
+            0 => Some("interpreter"),
+            _ => coming.made[place - 1].get().map(|made| made.name.as_str()),
+        };
+        let names: Vec<&str> =
+            (0..3).filter(|place| used >> place & 1 == 1).filter_map(name).collect();
+        let name = if names.is_empty() { self.maker().to_owned() } else { names.join(", then ") };
+        Used { name, ready: coming.best().map(|(_, made)| made.ready) }
+    }
+
+    /// Notes on backends that are not available so far.
+    pub(crate) fn notes(&self) -> Vec<String> {
+        self.code.coming.notes.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// The stepper for the next steps of this kernel, from which the code is.
+    pub(crate) fn stepper<'a>(&'a self, kernel: &'a Kernel) -> &'a dyn Stepper {
+        let best = self.code.coming.best();
+        let bit = 1 << best.map_or(0, |(place, _)| place + 1);
+        if self.used.load(Ordering::Relaxed) & bit == 0 {
+            self.used.fetch_or(bit, Ordering::Relaxed);
+        }
+        match best {
+            Some((_, made)) => &made.entry,
+            None => kernel,
+        }
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        self.code.end(0);
     }
 }
 
@@ -243,31 +325,62 @@ impl Backend {
             let entry = coadjoint_native::jit::compile(kernel, trajectories);
             let entry = entry.map_err(|error| error.to_string())?;
             let name = "machine code by Cranelift".to_owned();
-            return Ok(Made { entry, name, ready: begun.elapsed() });
+            return Ok(Made { backend: self, entry, name, ready: begun.elapsed() });
         }
-        let options = COptions { trajectories, stop: stop.clone(), ..COptions::default() };
+        let options = COptions { stop: stop.clone(), ..options(trajectories) };
         let native = Native::by_c(kernel, &options).map_err(|error| error.to_string())?;
-        let name = format!("machine code by {}", native.compiler);
-        Ok(Made { entry: native.entry, name, ready: native.ready })
+        Ok(Made::by_c(native))
+    }
+
+    /// Machine code by the C compiler, where it is kept on disk.
+    fn kept(kernel: &Kernel, trajectories: Trajectories) -> Option<Made> {
+        let small = operations(kernel, 1) <= MOST_FOR_COMPILER;
+        small.then(|| Native::kept(kernel, &options(trajectories)))?.map(Made::by_c)
+    }
+}
+
+/// Options of C compilers: steps are kept on disk.
+fn options(trajectories: Trajectories) -> COptions {
+    static STORE: OnceLock<Option<Store>> = OnceLock::new();
+    let store = STORE.get_or_init(Store::of_user).clone();
+    COptions { trajectories, store, ..COptions::default() }
+}
+
+impl Cost {
+    /// The seconds until this number of steps is made, compiling included.
+    fn time(&self, kernel: &Kernel, steps: f64, trajectories: Trajectories) -> f64 {
+        let [start, each] = self.ready;
+        start + operations(kernel, 1) * each + self.steps(kernel, steps, trajectories)
+    }
+
+    /// The seconds that this number of steps takes.
+    fn steps(&self, kernel: &Kernel, steps: f64, trajectories: Trajectories) -> f64 {
+        let work = steps * operations(kernel, (kernel.corrections / SPARE).max(1));
+        work * self.pace[usize::from(trajectories == Trajectories::Lanes)] * 1e-9
+    }
+
+    /// False for a C compiler where programs are too large for it.
+    fn takes(&self, kernel: &Kernel) -> bool {
+        self.backend != Backend::C || operations(kernel, 1) <= MOST_FOR_COMPILER
     }
 }
 
 /// The backends that take less time for this number of steps than the interpreter, the best one first.
 fn plan(kernel: &Kernel, steps: f64, trajectories: Trajectories) -> Vec<Backend> {
-    let operations = operations(kernel, 1);
-    let work = steps * self::operations(kernel, (kernel.corrections / SPARE).max(1));
-    let lanes = usize::from(trajectories == Trajectories::Lanes);
-    let time = |cost: &Cost| {
-        let [start, each] = cost.ready;
-        start + operations * each + work * cost.pace[lanes] * 1e-9
-    };
-    let worth = |cost: &&Cost| {
-        let small = cost.backend != Backend::C || operations <= MOST_FOR_COMPILER;
-        small && time(cost) < time(&INTERPRETER)
-    };
+    let time = |cost: &Cost| cost.time(kernel, steps, trajectories);
+    let worth = |cost: &&Cost| cost.takes(kernel) && time(cost) < time(&INTERPRETER);
     let mut plan: Vec<&Cost> = COMPILERS.iter().filter(worth).collect();
     plan.sort_by(|a, b| time(a).total_cmp(&time(b)));
     plan.into_iter().map(|cost| cost.backend).collect()
+}
+
+/// True if this number of steps takes longer by this machine code than to compile them by a C compiler and make them.
+fn worth_a_compiler(kernel: &Kernel, steps: f64, trajectories: Trajectories, by: Backend) -> bool {
+    let of = |backend: Backend| COMPILERS.iter().find(|cost| cost.backend == backend);
+    of(by).zip(of(Backend::C)).is_some_and(|(now, then)| {
+        let now = now.steps(kernel, steps, trajectories);
+        then.takes(kernel) && then.time(kernel, steps, trajectories) < now
+    })
 }
 
 /// The operations of a step of this number of corrections.

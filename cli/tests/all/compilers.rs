@@ -50,3 +50,22 @@ fn a_run_never_waits_for_a_compiler() {
         }
     }
 }
+
+/// Two runs compile once, and a store that cannot be used is none.
+#[test]
+fn compiled_steps_are_kept_for_later_runs() {
+    let folder = Folder::new();
+    let counts = folder.at("counts");
+    let compiler =
+        compiler(folder.path(), &format!("echo >> {}; exec cc \"$@\"", counts.display()));
+    let mut numbers = Vec::new();
+    for (store, compiled) in [("store", 1), ("store", 1), ("off", 2), ("/proc/nowhere", 3)] {
+        let store = if store == "store" { folder.at(store) } else { store.into() };
+        let mut command = folder.command(&format!("simulate {BODY} --backend c --format json"));
+        command.env("CC", &compiler).env("COADJOINT_CACHE", store);
+        let ran = Ran::of(&command.output().unwrap()).ok().json();
+        numbers.push(ran["momentum"].clone());
+        assert_eq!(fs::read_to_string(&counts).unwrap().lines().count(), compiled);
+    }
+    assert!(numbers.iter().all(|momentum| *momentum == numbers[0] && momentum.is_array()));
+}

@@ -5,3 +5,5 @@ mod bits;
 #[cfg(unix)]
 mod faults;
 mod samples;
+#[cfg(target_os = "linux")]
+mod store;

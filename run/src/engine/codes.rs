@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use coadjoint_program::{Kernel, Trajectories};
 
-use crate::backend::{Backend, Code};
+use crate::backend::{Backend, Code, Running};
 use crate::error::RunError;
 
 /// Programs of more operations than this are not compiled: they are evaluated as data.
@@ -16,16 +16,6 @@ pub(super) struct Codes {
     codes: Mutex<Vec<(Backend, Trajectories, Arc<Code>)>>,
     /// The steps of runs so far.
     steps: Mutex<f64>,
-}
-
-/// The code of a run; nothing is compiled any more when the run is over.
-#[derive(Debug)]
-pub(super) struct Running(pub(super) Arc<Code>);
-
-impl Drop for Running {
-    fn drop(&mut self) {
-        self.0.stop();
-    }
 }
 
 impl Codes {
@@ -61,14 +51,18 @@ impl Codes {
         trajectories: Trajectories,
     ) -> Result<Running, RunError> {
         let backend = if is_large(kernel) { Backend::Interpreter } else { backend };
-        if let Some(code) = self.find(backend, trajectories) {
-            return Ok(Running(code));
-        }
         let mut made = self.steps.lock().unwrap_or_else(PoisonError::into_inner);
-        let code = Arc::new(Code::new(kernel, backend, [steps, *made], trajectories)?);
+        let before = *made;
         *made += steps;
+        if let Some(code) = self.find(backend, trajectories) {
+            if backend == Backend::Auto {
+                code.improve(kernel, *made);
+            }
+            return Ok(Running::new(code));
+        }
+        let code = Arc::new(Code::new(kernel, backend, [steps, before], trajectories)?);
         self.keep(backend, trajectories, &code);
-        Ok(Running(code))
+        Ok(Running::new(code))
     }
 }
 

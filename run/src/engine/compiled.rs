@@ -12,9 +12,9 @@ use coadjoint_codegen::step::{
 use coadjoint_program::fold::FoldError;
 use coadjoint_program::{Kernel, Precision, Program, Trajectories, WIDTH};
 
-use super::codes::{Codes, MOST_OPERATIONS, Running, is_large, operations};
+use super::codes::{Codes, MOST_OPERATIONS, is_large, operations};
 use super::varied::Varied;
-use crate::backend::{Backend, Code};
+use crate::backend::{Backend, Running};
 use crate::error::RunError;
 use crate::grid::Grid;
 use crate::number::maximum;
@@ -276,8 +276,8 @@ impl Compiled {
     }
 
     /// The backend that makes the steps.
-    pub(crate) fn code(&self) -> &Code {
-        &self.code.0
+    pub(crate) fn code(&self) -> &Running {
+        &self.code
     }
 
     /// The backend that makes the steps now, in a few words.

@@ -194,6 +194,29 @@ impl<'a> Motion<'a> {
         first: u64,
         count: u64,
     ) -> Result<Solves, (u64, StepError)> {
+        self.make(state, [first, count], true)
+    }
+
+    /// As [`advance`](Motion::advance), but steps that programs refuse are not made by other means, which take long.
+    ///
+    /// # Errors
+    /// As [`advance`](Motion::advance), the error of such a step being of no use.
+    pub(crate) fn advance_unrescued(
+        &self,
+        state: &mut Numbers,
+        first: u64,
+        count: u64,
+    ) -> Result<(), (u64, StepError)> {
+        self.make(state, [first, count], false).map(drop)
+    }
+
+    /// Makes steps that may contain breaks; by other means those that programs refuse, if they are to be rescued.
+    fn make(
+        &self,
+        state: &mut Numbers,
+        [first, count]: [u64; 2],
+        rescued: bool,
+    ) -> Result<Solves, (u64, StepError)> {
         let (mut total, mut done): (Solves, u64) = (None, 0);
         while done < count {
             let next = self.breaks.next(self.grid, first + done);
@@ -201,7 +224,7 @@ impl<'a> Motion<'a> {
             let made = match whole {
                 0 => self.in_parts(state, first + done).map_err(|error| (done, error))?,
                 _ => {
-                    let made = self.undivided(state, first + done, whole);
+                    let made = self.undivided(state, [first + done, whole], rescued);
                     made.map_err(|(more, error)| (done + more, error))?
                 }
             };
@@ -230,12 +253,13 @@ impl<'a> Motion<'a> {
     fn undivided(
         &self,
         state: &mut Numbers,
-        first: u64,
-        count: u64,
+        [first, count]: [u64; 2],
+        rescued: bool,
     ) -> Result<Solves, (u64, StepError)> {
         if let Some(compiled) = &self.space.compiled {
-            let rescue = |state: &mut Numbers, number| {
-                self.rescue(state, self.grid.time(number), self.grid.step)
+            let rescue = |state: &mut Numbers, number| match rescued {
+                true => self.rescue(state, self.grid.time(number), self.grid.step),
+                false => Err(StepError::InvalidStep { step: f64::NAN }),
             };
             let made = compiled.advance(state, self.grid.start, [first, count], rescue)?;
             // A bound, which may be far below what rounding leaves.

@@ -9,10 +9,10 @@ use coadjoint_program::states::{into_lane, of_lane};
 use coadjoint_program::{Kernel, Trajectories, WIDTH};
 use nalgebra::{DMatrix, DMatrixView};
 
-use super::codes::{Codes, Running};
+use super::codes::Codes;
 use super::compiled::{Compiled, Numbers, refusal};
 use super::varied::{Sense, Varied};
-use crate::backend::Backend;
+use crate::backend::{Backend, Running};
 use crate::error::RunError;
 
 /// Two steps that differ by less, relative to the momentum, are the same one.
@@ -215,7 +215,7 @@ impl Carried<'_> {
     fn made(&mut self, slots: &[f64], count: u64) -> u64 {
         let (mut done, n) = (0, self.state.mu.len());
         while done < count {
-            let asked = (count - done).min(self.code.0.at_a_time());
+            let asked = (count - done).min(self.code.at_a_time());
             let made = match self.columns.ncols() {
                 1 => self.alone(slots, asked),
                 _ => self.side_by_side(slots, asked, n),
@@ -229,7 +229,7 @@ impl Carried<'_> {
     }
 
     fn alone(&mut self, slots: &[f64], count: u64) -> u64 {
-        let (stepper, n) = (self.code.0.stepper(&self.tangent.kernel), self.state.mu.len());
+        let (stepper, n) = (self.code.stepper(&self.tangent.kernel), self.state.mu.len());
         let mut mu = [&self.state.mu[..], self.columns.as_slice()].concat();
         let made = stepper.advance(slots, &mut self.state.g, &mut mu, count).steps;
         let (state, columns) = mu.split_at(n);
@@ -239,7 +239,7 @@ impl Carried<'_> {
     }
 
     fn side_by_side(&mut self, slots: &[f64], count: u64, n: usize) -> u64 {
-        let stepper = self.code.0.stepper(&self.tangent.kernel);
+        let stepper = self.code.stepper(&self.tangent.kernel);
         let (start, rows, mut made) = (self.state.clone(), self.columns.nrows(), 0);
         for columns in self.columns.as_mut_slice().chunks_mut(rows * WIDTH) {
             let own = columns.len() / rows;

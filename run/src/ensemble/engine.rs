@@ -278,7 +278,7 @@ impl<'a> Engine<'a> {
         for &place in &known {
             stop(&mut ways[place], Some((0, String::new())));
         }
-        let overall = Overall::default();
+        let (overall, before) = (Overall::default(), states.clone());
         if layout.parameters.is_empty() && self.system.alike() {
             self.march(&mut ways, &mut states, &overall, course, watch)?;
         } else {
@@ -292,11 +292,11 @@ impl<'a> Engine<'a> {
         let mut values = vec![0.0; count * long];
         let known_momenta =
             self.system.invariants.directions.as_ref().is_none_or(|known| !known.is_empty());
-        let blocks = states.blocks().par_chunks(length).zip(ways.par_chunks_mut(WIDTH));
-        let found = blocks.zip(values.par_chunks_mut(WIDTH * long).zip(given()));
-        let gauge = || (self.drifts.gauge(), vec![f64::NAN; length]);
-        let largest = found.map_init(gauge, |(gauge, before), ((after, ways), (values, given))| {
-            self.read_block(layout, given, before, |_, _| {});
+        let blocks = before.blocks().par_chunks(length).zip(states.blocks().par_chunks(length));
+        let found = blocks.zip(ways.par_chunks_mut(WIDTH));
+        let found = found.zip(values.par_chunks_mut(WIDTH * long).zip(given()));
+        let gauge = || self.drifts.gauge();
+        let largest = found.map_init(gauge, |gauge, (((before, after), ways), (values, given))| {
             let space = self.motion.space();
             let drifts = gauge
                 .drifts([before, after], |block, spatial| space.spatial_momenta(block, spatial));

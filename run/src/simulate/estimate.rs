@@ -177,12 +177,9 @@ impl Made<'_, '_> {
                 return Err(Unknown::STOPPED);
             }
             let (count, begun) = (pace.steps().min(end - at), Instant::now());
-            let refuse = |_: &mut Numbers, _| Err(StepError::InvalidStep { step: f64::NAN });
-            let made = match motion.lanes().filter(|_| !patient) {
-                Some(programs) => {
-                    programs.advance(state, self.motion.grid().start, [at, count], refuse).map(drop)
-                }
-                None => motion.advance(state, at, count).map(drop),
+            let made = match patient {
+                true => motion.advance(state, at, count).map(drop),
+                false => motion.advance_unrescued(state, at, count),
             };
             if let Err((_, refused)) = made {
                 return Ok(Err(refused));

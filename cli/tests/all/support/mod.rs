@@ -26,6 +26,7 @@ pub(crate) fn text_of(path: &str) -> String {
 fn command(folder: &Path, arguments: &str) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_coadjoint"));
     command.current_dir(folder).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command.env("COADJOINT_CACHE", "off");
     for (number, part) in arguments.split('\'').enumerate() {
         match number % 2 {
             0 => command.args(part.split_whitespace()),
