@@ -135,6 +135,11 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
         self.sweeps
     }
 
+    /// Guesses the next step by its state alone, whatever was before: its bits then follow from the state.
+    pub fn forget(&mut self) {
+        self.end.clear();
+    }
+
     /// Advances the spins, in the order of the graph's sites, by `steps` steps.
     ///
     /// # Errors
