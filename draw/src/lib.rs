@@ -29,6 +29,7 @@ mod panel;
 pub mod run;
 mod style;
 mod svg;
+pub mod vectors;
 
 pub use axis::Axis;
 pub use curves::unbeaten;

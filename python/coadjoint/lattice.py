@@ -30,6 +30,8 @@ class LatticeRun:
     """The mean spin at these times, (records, 3)."""
     energy: NDArray[np.float64]
     """The energy at these times."""
+    sites: NDArray[np.float64]
+    """The spins of the chosen sites at these times, (records, sites, 3)."""
     method: str
     """The family of rotations and its order, or collocation."""
     step: float
@@ -65,13 +67,15 @@ class Lattice:
         truncation: int | None = None,
         seed: int = 1,
         every: int | None = None,
+        sites: Sequence[int] = (),
         estimate: bool = True,
         progress: bool | Progress | None = None,
     ) -> LatticeRun:
         """Follows spins (sites, 3), or ``"random"`` ones by a ``seed``, for a time, in steps of a size or by a tolerance.
 
         ``splitting`` is ``"auto"``, ``"axes"``, ``"bonds"`` or ``"sublattices"``; ``method="collocation"`` takes Gauss's method in
-        its place. Steps have the order ``truncation`` + 1. Every ``every``-th step is recorded.
+        its place. Steps have the order ``truncation`` + 1. Every ``every``-th step is recorded,
+        with the spins of the ``sites`` with these numbers.
 
         >>> import coadjoint as ca, numpy as np
         >>> ring = ca.System.lattice([8], bonds={(1,): -np.eye(3)}, site="-z/2")
@@ -90,7 +94,8 @@ class Lattice:
         else:
             arrays["spins"] = np.asarray(spins, dtype=float)
             initial = {"momentum": '{ table = "spins" }'}
-        lines = _text.table("integrator", integrator) + _text.table("initial", initial)
+        recorded = {"sites": str([_arrays.count(site, "sites", 0) for site in sites])}
+        lines = _text.table("integrator", integrator) + _text.table("initial", initial) + _text.table("run", recorded)
         asked = dict(
             step=step, tolerance=tolerance, region=None, truncation=None, t0=t0, time=float(time), frame=None
         )
@@ -117,6 +122,8 @@ def lattice(
     boundary: str | Sequence[str] | None = None,
     edges: ArrayLike | None = None,
     parameters: Mapping[str, Any] | None = None,
+    velocity: Sequence[str] | str | None = None,
+    damping: Any = None,
     name: str = "lattice",
 ) -> Lattice:
     """The lattice that these arguments describe, as :meth:`System.lattice` has it."""
@@ -140,7 +147,14 @@ def lattice(
         "edges": None if edges is None else '"edges"',
         "site": None if site is None else _text.quoted(site),
     }
-    top = {"name": _text.quoted(name), "group": _text.quoted(group)}
+    top = {
+        "name": _text.quoted(name),
+        "group": _text.quoted(group),
+        "damping": None if damping is None else _text.numbers(damping, "damping"),
+        "velocity": None,
+    }
+    if velocity is not None:
+        top["velocity"] = _text.quoted(velocity) if isinstance(velocity, str) else _text.strings(list(velocity))
     lines = _text.table(None, top) + _text.table("parameters", given) + _text.table("lattice", table)
     for key, energy in bonds.items():
         lines.append("[[lattice.bond]]")

@@ -195,6 +195,8 @@ class System:
         boundary: str | Sequence[str] | None = None,
         edges: Any = None,
         parameters: Mapping[str, Any] | None = None,
+        velocity: Sequence[str] | str | None = None,
+        damping: Real | str | Numbers | None = None,
         name: str = "lattice",
     ) -> Lattice:
         """Spins on a lattice, of any number, with one energy over its edges.
@@ -203,7 +205,8 @@ class System:
         cells of its two spins, or for (offset, from, to) with the numbers of the sites in these cells; with ``edges``, rows (i, j) or
         (i, j, type), for each type, or for None. ``site`` is the energy of a site in x, y and z. ``kind`` is ``"cubic"``,
         ``"triangular"``, ``"honeycomb"`` or ``"kagome"``, ``boundary`` ``"periodic"`` or ``"open"``, or one of them an axis. Arrays of more
-        than 16 numbers among ``parameters`` are tables with one number a site.
+        than 16 numbers among ``parameters`` are tables with one number a site. ``damping`` is Gilbert's, and ``velocity``, three texts or
+        a vector, is added to ω = ∂H/∂s of each site: functions of x, y, z, ``omega[0]``, …, tables and t.
 
         >>> import coadjoint as ca, numpy as np
         >>> cube = ca.System.lattice([4, 4, 4], bonds={(1, 0, 0): -np.eye(3), (0, 1, 0): "-dot(a, b)"}, site="D*z^2",
@@ -214,7 +217,7 @@ class System:
         """
         return lattice(
             shape, group=group, bonds=bonds, site=site, kind=kind, boundary=boundary, edges=edges, parameters=parameters,
-            name=name,
+            velocity=velocity, damping=damping, name=name,
         )
 
     def _read(

@@ -39,15 +39,17 @@ pub fn simulate_lattice<'py>(
     let arrays: Arrays = arrays.into_iter().map(given).collect();
     let made = work(py, progress.as_ref(), move |control| {
         let (mut time, mut magnetisation, mut energy) = (Vec::new(), Vec::new(), Vec::new());
+        let mut chosen: Vec<f64> = Vec::new();
         let mut told = |news: News<'_>| {
             match news {
-                News::Begin(plan) => control.total.store(plan.schedule.steps, Ordering::Relaxed),
+                News::Begin(plan, _) => control.total.store(plan.schedule.steps, Ordering::Relaxed),
                 News::Record(record) => {
                     time.push(record.time);
                     magnetisation.extend(record.magnetisation);
                     energy.push(record.energy);
+                    chosen.extend(record.spins.as_flattened());
                 }
-                News::Steps(n) => control.done.store(n, Ordering::Relaxed),
+                News::Steps(n, _) => control.done.store(n, Ordering::Relaxed),
             }
             !control.stop.load(Ordering::Relaxed)
         };
@@ -57,17 +59,20 @@ pub fn simulate_lattice<'py>(
         let end = pool.install(|| {
             let lattice = Simulation::read(Path::new(&name), &text, &arrays)?;
             let none = || RunError::Option("the text has no [lattice]".to_owned());
-            lattice.ok_or_else(none)?.run(&accuracy, Some(every.unwrap_or(1)), estimate, &mut told)
+            let settings = (Some(every.unwrap_or(1)), estimate);
+            lattice.ok_or_else(none)?.run(&accuracy, settings, None, &mut told)
         })?;
-        Ok((end, time, magnetisation, energy))
+        Ok((end, time, magnetisation, energy, chosen))
     })?;
-    let (end, time, magnetisation, energy) = made.map_err(|error: RunError| raised(py, &error))?;
+    let (end, time, magnetisation, energy, chosen) = made.map_err(|error: RunError| raised(py, &error))?;
     let found = PyDict::new(py);
     let (sites, rows) = (end.spins.len(), time.len());
     found.set_item("spins", end.spins.into_flattened().into_pyarray(py).reshape([sites, 3])?)?;
     found.set_item("time", time.into_pyarray(py))?;
     found.set_item("magnetisation", magnetisation.into_pyarray(py).reshape([rows, 3])?)?;
     found.set_item("energy", energy.into_pyarray(py))?;
+    let each = chosen.len() / (3 * rows.max(1));
+    found.set_item("sites", chosen.into_pyarray(py).reshape([rows, each, 3])?)?;
     found.set_item("method", end.plan.method.label())?;
     found.set_item("step", end.plan.schedule.step)?;
     found.set_item("steps", end.plan.schedule.steps)?;

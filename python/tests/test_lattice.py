@@ -40,6 +40,22 @@ def test_tables_are_given_as_arrays() -> None:
     assert graph.simulate(np.eye(3), tolerance=1e-8, time=1).estimated_error < 1e-8
 
 
+def test_damping_and_velocity_are_those_of_ordinary_systems() -> None:
+    start = np.array([[np.cos(i), np.sin(2 * i), 0.5] for i in range(3)])
+    ring = ca.System.lattice(
+        [3], bonds={(1,): np.eye(3)}, damping=[0.1, 0.2, 0.3], velocity=["c*y", "0.1*omega[2] - c*x", "cos(t)"], parameters=dict(c=0.2)
+    )
+    run = ring.simulate(start, time=1, step=0.05, truncation=7)
+    pairs = " + ".join(f"{x}[{i}]*{x}[{(i + 1) % 3}]" for i in range(3) for x in "xyz")
+    velocity = [text for i in range(3) for text in (f"0.2*y[{i}]", f"0.1*omega[{3 * i + 2}] - 0.2*x[{i}]", "cos(t)")]
+    whole = ca.System("SO3^3", pairs, coordinates="x y z", damping=[0.1, 0.2, 0.3], velocity=velocity, truncation=7)
+    expected = whole.simulate(start.ravel(), time=1, step=0.05).momentum[-1]
+    assert run.method == "collocation, order 8"
+    assert np.abs(run.spins.ravel() - expected).max() < 1e-9
+    with pytest.raises(ca.InputError, match="damping or a velocity acts beside it"):
+        ring.simulate(start, time=1, step=0.05, splitting="bonds")
+
+
 def test_mistakes_are_refused_in_words() -> None:
     ring = ca.System.lattice([4], bonds={(1,): "dot(a, b)"})
     with pytest.raises(ca.InputError, match="the lattice 4 sites"):

@@ -17,7 +17,10 @@ use crate::note::{self, Identity};
 use crate::progress;
 
 /// The way to forget an earlier run.
-const ANEW: &str = "remove it to begin anew";
+pub(super) const ANEW: &str = "remove it to begin anew";
+
+/// Advice on a checkpoint of another run.
+pub(super) const AGAIN: &str = "give the same command as then, or another --checkpoint";
 
 /// A run that has ended, for reports and pictures.
 #[derive(Clone, Debug)]
@@ -125,8 +128,7 @@ impl Keeper<'_> {
             Some(path) => note::read::<Checkpoint>(path, "checkpoint", ANEW)?.map(|f| (path, f)),
         };
         if let Some((path, found)) = &found {
-            let advice = "give the same command as then, or another --checkpoint";
-            note::agree(path, &found.identity, &self.identity(), advice)?;
+            note::agree(path, &found.identity, &self.identity(), AGAIN)?;
             let samples = found.samples.as_ref();
             if samples.is_some_and(|samples| !samples.fits(begun.coordinates.len())) {
                 return Err(CliError::Option(format!(

@@ -23,11 +23,11 @@ const DELAY: Duration = Duration::from_millis(500);
 
 /// The progress of a run, on the disk. Records that it counts are there before it is.
 #[derive(Debug, Deserialize, Serialize)]
-pub(crate) struct Checkpoint {
+pub(crate) struct Checkpoint<R = Resume> {
     /// The description of the run.
     pub identity: Identity,
     /// The state, and the maxima so far.
-    pub resume: Resume,
+    pub resume: R,
     /// Bytes of the file of records.
     pub bytes: u64,
     /// The checksum of these.
@@ -62,12 +62,12 @@ pub(crate) struct Records {
 impl Records {
     /// Begins anew, or goes on where a checkpoint was made: what came after it is cut off, and nothing is added to a file
     /// that an earlier run has completed. `output` is the file that the target has opened.
-    pub(crate) fn open(
+    pub(crate) fn open<R>(
         target: &Destination,
         output: Option<Output>,
         header: Header,
         names: Vec<String>,
-        found: Option<&Checkpoint>,
+        found: Option<&Checkpoint<R>>,
     ) -> Result<Self, CliError> {
         // After an earlier end the name may have been given already.
         let fresh = output.as_ref().is_some_and(Output::is_fresh);

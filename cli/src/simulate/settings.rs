@@ -45,18 +45,21 @@ impl<'a> Settings<'a> {
         out: Option<Destination>,
         setup: Setup,
     ) -> Result<Self, CliError> {
-        let what = "--checkpoint-interval must be a number of seconds, 0 or more";
-        let checkpoint = match &options.checkpoint {
-            None => None,
-            Some(path) => {
-                let interval = Duration::try_from_secs_f64(options.checkpoint_interval);
-                Some((path.clone(), interval.map_err(|_| CliError::Option(what.to_owned()))?))
-            }
-        };
+        let checkpoint = checkpoint(options)?;
         let setup = Setup { recording: out.is_some(), ..setup };
         let (inputs, sampled) = (inputs(options), options.plot.is_some());
         Ok(Self { file, hash, inputs, setup, out, sampled, checkpoint })
     }
+}
+
+/// The file of checkpoints, and the time between two.
+pub(crate) fn checkpoint(
+    options: &SimulateOptions,
+) -> Result<Option<(PathBuf, Duration)>, CliError> {
+    let what = "--checkpoint-interval must be a number of seconds, 0 or more";
+    let Some(path) = &options.checkpoint else { return Ok(None) };
+    let interval = Duration::try_from_secs_f64(options.checkpoint_interval);
+    Ok(Some((path.clone(), interval.map_err(|_| CliError::Option(what.to_owned()))?)))
 }
 
 /// The run of a system, by the options, else by the file.

@@ -6,7 +6,7 @@ use coadjoint::lattice::{Family, Graph, Lattice, Order};
 use coadjoint_learn::{npy_header, table::array};
 use nalgebra::{Matrix3, Vector3};
 
-use crate::support::{Folder, distance};
+use crate::support::{Folder, distance, text_of};
 
 const CUBE: &str = r#"
 name = "cube"
@@ -154,4 +154,51 @@ fn threads_make_the_same_bytes() {
         [-0.3197191109585733, 0.5661120624858509, -0.7598005151326732],
     ];
     assert_eq!([lattice.start()[0], lattice.start()[5]], known);
+}
+
+/// The skyrmion of the manual: its charge, and the energy of the same equation by DOP853 of SciPy at rtol = 1e-9; records of a site.
+#[test]
+fn damping_relaxes_a_skyrmion() {
+    let folder = Folder::with(
+        &(text_of("examples/lattices/skyrmion.toml").replace("truncation = 3", "truncation = 5")
+            + "sites = [119]\n"),
+    );
+    let run =
+        "simulate system.toml --no-estimate --every 50 --format json --out run.csv --final end.npy";
+    let report = folder.run(run).json();
+    let energy = report["end"]["energy"].as_f64().unwrap();
+    assert!((energy + 577.203_143_345).abs() < 1e-6, "{energy}");
+    assert!(report["drift"]["length"].as_f64().unwrap() < 1e-13);
+    let end = spins(&folder.at("end.npy"));
+    let spin = |i: usize, j: usize| Vector3::from(end[i % 16 * 16 + j % 16]);
+    let triangle = |a: Vector3<f64>, b: Vector3<f64>, c: Vector3<f64>| {
+        2.0 * a.dot(&b.cross(&c)).atan2(1.0 + a.dot(&b) + b.dot(&c) + c.dot(&a))
+    };
+    let cell = |i: usize, j: usize| {
+        let [a, b, c, d] = [spin(i, j), spin(i + 1, j), spin(i + 1, j + 1), spin(i, j + 1)];
+        triangle(a, b, c) + triangle(a, c, d)
+    };
+    let charge: f64 = (0..256).map(|at| cell(at / 16, at % 16)).sum();
+    assert!((charge / (4.0 * std::f64::consts::PI) + 1.0).abs() < 1e-9, "{charge}");
+    let text = folder.text("run.csv");
+    assert!(text.contains("\nt,m_1,m_2,m_3,energy,x[119],y[119],z[119]\n0,"), "{text}");
+    let last = text.lines().rev().nth(1).unwrap();
+    let last: Vec<f64> = last.split(',').skip(5).map(|x| x.parse().unwrap()).collect();
+    assert_eq!(last, end[119]);
+}
+
+/// Its picture is that of the manual.
+#[test]
+fn a_plane_is_drawn() {
+    let folder = Folder::with(&text_of("examples/lattices/skyrmion.toml"));
+    folder.run("simulate system.toml --no-estimate --plot p.svg").ok();
+    assert_eq!(folder.text("p.svg"), text_of("docs/images/skyrmion.svg"));
+    let cube =
+        text_of("examples/lattices/heisenberg_cube.toml").replace("[64, 64, 64]", "[3, 4, 3]");
+    folder.write("cube.toml", cube);
+    folder.run("simulate cube.toml --no-estimate --time 0.1 --plot p.svg").ok();
+    let picture = folder.text("p.svg");
+    assert!(picture.contains(">layer k = 0</text>"));
+    // Twelve squares and arrows.
+    assert!((12..=24).contains(&picture.matches("<polygon").count()));
 }

@@ -35,6 +35,11 @@ fn smooth(out: &str) -> String {
     format!("simulate smooth.toml --time 4000 --every 3 --format json --out {out}")
 }
 
+/// A lattice, by collocation or by rotations.
+fn magnet(method: &str, out: &str) -> String {
+    format!("simulate {method}.toml --every 3 --format json --out {out} --plot {out}.svg")
+}
+
 /// Starts a command, and waits until a file has been written and replaced `times` times.
 fn start(place: &Folder, arguments: &str, file: &str, times: usize) -> Child {
     let _ = std::fs::remove_file(place.at(file));
@@ -121,6 +126,35 @@ fn an_interrupted_run_leaves_a_whole_part_and_goes_on() {
         }
         same(&place, &whole, place.run(&run), out);
     }
+}
+
+#[test]
+fn a_killed_run_of_a_lattice_ends_with_the_same_bits() {
+    let place = Folder::new();
+    let text = text_of("examples/lattices/skyrmion.toml")
+        .replace("\ntime = 40", "\ntime = 8")
+        .replace("step = 0.2", "step = 0.05");
+    place.write("collocation.toml", text.clone() + "sites = [0, 119]\n");
+    let turned =
+        text.replace("damping = 0.3", "").replace("truncation = 3", "splitting = \"axes\"");
+    place.write("rotations.toml", turned);
+    for (method, out) in [("collocation", "c.csv"), ("rotations", "r.npy")] {
+        let whole = place.run(&magnet(method, &format!("whole.{}", &out[2..]))).ok();
+        let run = magnet(method, out) + KEEP;
+        kill(start(&place, &run, "state", 1));
+        place.refused(&[(&format!("{run} --step 0.02"), "another step: 0.05 then, 0.02 now")]);
+        same(&place, &whole, place.run(&run), out);
+        let again = place.run(&run).ok().says(&["this run has finished"]);
+        assert_eq!(again.out, whole.out);
+        std::fs::remove_file(place.at("state")).unwrap();
+    }
+    let run = magnet("collocation", "i.csv") + KEEP;
+    let child = start(&place, &run, "state", 1);
+    kill_process(Pid::from_child(&child), Signal::INT).unwrap();
+    let ran = Ran::of(&child.wait_with_output().unwrap());
+    ran.fails(130, &["interrupted after ", "goes on from state"]);
+    let whole = place.run(&magnet("collocation", "whole.csv")).ok();
+    same(&place, &whole, place.run(&run), "i.csv");
 }
 
 #[test]

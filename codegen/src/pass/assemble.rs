@@ -317,18 +317,16 @@ fn assemble_polynomial(draft: Draft, read: Read, diagnostics: &Diagnostics) -> O
 /// Functions that are not H, and what they depend on.
 const POTENTIAL: [&str; 2] = ["potential", "the group element"];
 
-/// The program of a function of coordinates with these names and the time, without parameters, and its slots; `None` where
+/// The program of functions of coordinates with these names and the time, without parameters, and its slots; `None` where
 /// something is wrong, which has then been reported.
 #[cfg(feature = "system")]
 pub(crate) fn function(
-    energy: &Formula,
+    (arena, roots): (&Arena, &[ExprId]),
     names: &[String],
     diagnostics: &Diagnostics,
 ) -> Option<(coadjoint_program::Program, Vec<f64>)> {
-    let (root, _) = energy.root?;
-    let names = [names, &[], &[]];
-    let roots = (&[root][..], Kinked::Nowhere);
-    let lowered = lower(&energy.arena, roots, names, &mut Interner::new(), diagnostics)?;
+    let (names, roots) = ([names, &[], &[]], (roots, Kinked::Nowhere));
+    let lowered = lower(arena, roots, names, &mut Interner::new(), diagnostics)?;
     Some((lowered.value, values(&lowered.symbols)))
 }
 

@@ -16,7 +16,7 @@ use crate::pass::{Acting, Formula, entries};
 use crate::signal::Signal;
 
 const DAMPING: &str = "damping = \"1/100\"";
-const VELOCITY: &str = "velocity = [\"0\", \"0\", \"c*z\"]";
+pub(super) const VELOCITY: &str = "velocity = [\"0\", \"0\", \"c*z\"]";
 const TORQUE: &str = "torque = [\"-c*x\", \"-c*y\", \"-c*z\"]";
 
 /// The lists of expressions that make a drive, each with an example.
@@ -105,7 +105,7 @@ pub(super) fn read(
 }
 
 /// The components of a list of expressions, or of one vector: those in the list may be vectors too, three components each.
-fn list(
+pub(super) fn list(
     root: &Table<'_>,
     key: &str,
     example: &str,
@@ -129,7 +129,7 @@ fn list(
 }
 
 /// Reads `damping`: a number, or a list of one for each coordinate. None where all of them are 0.
-fn damping(root: &Table<'_>, algebra: Option<&LieAlgebra>) -> Option<Vec<f64>> {
+pub(super) fn damping(root: &Table<'_>, algebra: Option<&LieAlgebra>) -> Option<Vec<f64>> {
     let value = root.get("damping")?;
     let numbers = match value.get_ref().as_array() {
         Some(_) => coordinates(root, "damping", DAMPING, algebra)?.0,

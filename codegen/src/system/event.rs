@@ -68,6 +68,7 @@ fn event(table: &Table<'_>, names: &Names, inputs: &[String]) -> Option<Event> {
     let energy = table.energy("when", WHEN, names, Vec::new())?;
     let name = table.string("name", NAME).map(|(name, _)| name.to_owned());
     let name = name.unwrap_or_else(|| energy.source.clone());
-    let (function, slots) = function(&energy, inputs, table.diagnostics)?;
+    let (root, _) = energy.root?;
+    let (function, slots) = function((&energy.arena, &[root]), inputs, table.diagnostics)?;
     Some(Event { name, function, slots, direction, stop })
 }

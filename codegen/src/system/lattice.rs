@@ -3,15 +3,17 @@
 use coadjoint_program::{Graph, Program};
 use toml::de::{DeTable, DeValue};
 
+use super::drive::{VELOCITY, damping, list};
 use super::options::Options;
 use super::parameters::Parameters;
 use super::run::{self, Run};
 use super::table::{Table, Value, span};
 use super::{name, read_by};
 use crate::diagnostic::{Diagnostics, Mistake, Span, nearest};
-use crate::expr::ParameterExpr;
+use crate::expr::{Arena, ParameterExpr};
+use crate::lie::catalogue;
 use crate::number::{Rational, nearest_float};
-use crate::parse::{Name, Names};
+use crate::parse::{Name, Names, text};
 use crate::pass::{Choice, OfSites, function, of_sites};
 use crate::poly::split_at;
 use crate::problem::{Parameter, Shape, Symbol};
@@ -29,6 +31,7 @@ const TABLE: &str = "D = { table = \"D.npy\" }";
 const MOMENTUM: &str = "momentum = { table = \"spins.npy\" }";
 /// Steps have order 8 at most.
 const MOST_TRUNCATION: usize = 7;
+const SITES: &str = "sites = [0, 17]";
 const SEED: &str = "seed = 1";
 
 /// Spins on a graph and a run of them, as a file describes them.
@@ -50,6 +53,10 @@ pub struct Lattice {
     pub site: Interaction,
     /// The bonds.
     pub bonds: Vec<Bond>,
+    /// The diagonal of Γ of the velocity Γ (s × ω) of damping, ω = ∂H/∂s.
+    pub damping: Option<Vec<f64>>,
+    /// The velocity of a site beside ω: a program of its spin, of ω, of the tables of sites and the time, with its slots.
+    pub velocity: Option<(Program, Vec<f64>)>,
     /// The step is by rotations of this family, or by collocation; `auto` where nothing is asked for.
     pub splitting: &'static str,
     /// The truncation K asked for: steps have order K + 1.
@@ -58,6 +65,10 @@ pub struct Lattice {
     pub start: Option<Start>,
     /// The step or the tolerance, the duration, and what is recorded.
     pub run: Run,
+    /// The numbers of the sites whose spins are recorded.
+    pub sites: Vec<usize>,
+    /// The names of the coordinates of a spin.
+    pub coordinates: [String; 3],
 }
 
 /// A file of an array, with its place in the text.
@@ -160,6 +171,8 @@ fn system(document: &DeTable<'_>, text: &str, diagnostics: &Diagnostics) -> Opti
         "coordinates",
         "parameters",
         "lattice",
+        "damping",
+        "velocity",
         "integrator",
         "initial",
         "run",
@@ -191,13 +204,16 @@ fn system(document: &DeTable<'_>, text: &str, diagnostics: &Diagnostics) -> Opti
         None => shape(&lattice),
     };
     let open = if edges.is_none() { boundary(&lattice, shape.len()) } else { Vec::new() };
+    let own = tables(&root);
     let site = match lattice.string("site", SITE) {
         Some(_) => {
             let spin = [("", &coordinates), ("s", &coordinates)];
-            energy(&lattice, "site", SITE, &spin, &root).unwrap_or_default()
+            energy(&lattice, "site", SITE, &spin, &own).unwrap_or_default()
         }
-        None => Interaction::default(),
+        None => Interaction { tables: files(&own), ..Interaction::default() },
     };
+    let damping = damping(&root, catalogue::lookup("SO3").ok().as_ref());
+    let velocity = velocity(&root, &coordinates, &own);
     let mut bonds = Vec::new();
     if let Some((list, _)) = lattice.array("bond", BOND) {
         for value in list {
@@ -205,12 +221,17 @@ fn system(document: &DeTable<'_>, text: &str, diagnostics: &Diagnostics) -> Opti
             bonds.extend(bond(&table, edges.is_some(), &coordinates));
         }
     }
-    if bonds.is_empty() && site.terms.is_empty() && site.function.is_none() {
+    let still = bonds.is_empty() && site.terms.is_empty() && site.function.is_none();
+    if still && !root.has("velocity") {
         let what = "[lattice] has no energy: neither `site` nor a bond";
         lattice.refuse(lattice.span, what, BOND);
     }
     let integrator = root.table("integrator");
-    let run = run::read(&root, integrator.as_ref());
+    let run = run::read(&root, integrator.as_ref(), &["sites"]);
+    let recorded = root.table("run");
+    let sites = recorded.as_ref().and_then(|run| run.array("sites", SITES)).map(|(list, _)| list);
+    let number = |value: &&Value<'_>| whole(recorded.as_ref()?, ("sites", SITES), value);
+    let sites = sites.unwrap_or_default().iter().filter_map(number).collect();
     let (splitting, truncation) = integrator.map_or(("auto", None), |table| method(&table));
     let mut lattice = Lattice {
         name: name(&root),
@@ -221,10 +242,14 @@ fn system(document: &DeTable<'_>, text: &str, diagnostics: &Diagnostics) -> Opti
         place,
         site,
         bonds,
+        damping,
+        velocity,
         splitting,
         truncation,
         start: None,
         run,
+        sites,
+        coordinates,
     };
     if let Some(initial) = root.table("initial") {
         initial.check_keys(&["momentum", "seed", "time"]);
@@ -274,7 +299,7 @@ fn shape(lattice: &Table<'_>) -> (Vec<usize>, &'static str, Span) {
         return (Vec::new(), kind, lattice.span);
     };
     let shape: Vec<usize> =
-        list.iter().filter_map(|value| whole(lattice, "shape", value)).collect();
+        list.iter().filter_map(|value| whole(lattice, ("shape", SHAPE), value)).collect();
     let axes = KINDS.iter().find(|(name, _)| *name == kind).map_or(0, |(_, axes)| *axes);
     if !(axes == list.len() || axes == 0 && (1..=3).contains(&list.len())) {
         let needed =
@@ -286,25 +311,19 @@ fn shape(lattice: &Table<'_>) -> (Vec<usize>, &'static str, Span) {
 }
 
 /// A whole number from 0.
-fn whole(table: &Table<'_>, key: &str, value: &Value<'_>) -> Option<usize> {
-    signed(table, key, value).and_then(|n| {
-        let found = usize::try_from(n).ok();
-        if found.is_none() {
-            table.wrong_kind(key, "whole numbers from 0", value, SHAPE);
-        }
-        found
-    })
-}
-
-fn signed(table: &Table<'_>, key: &str, value: &Value<'_>) -> Option<isize> {
-    let found = match value.get_ref() {
-        DeValue::Integer(n) => isize::from_str_radix(n.as_str(), n.radix()).ok(),
-        _ => None,
-    };
+fn whole(table: &Table<'_>, (key, example): (&str, &str), value: &Value<'_>) -> Option<usize> {
+    let found = integer(value).and_then(|n| usize::try_from(n).ok());
     if found.is_none() {
-        table.wrong_kind(key, "whole numbers", value, OFFSET);
+        table.wrong_kind(key, "whole numbers from 0", value, example);
     }
     found
+}
+
+fn integer(value: &Value<'_>) -> Option<isize> {
+    match value.get_ref() {
+        DeValue::Integer(n) => isize::from_str_radix(n.as_str(), n.radix()).ok(),
+        _ => None,
+    }
 }
 
 /// The axes that are open, by one word or one an axis.
@@ -341,9 +360,16 @@ fn bond(table: &Table<'_>, listed: bool, coordinates: &[String; 3]) -> Option<Bo
         table.missing("offset", OFFSET);
     }
     let (offset, _) = table.array("offset", OFFSET).unwrap_or_default();
-    let offset = offset.iter().map(|value| signed(table, "offset", value)).collect::<Option<_>>();
-    let site = |key: &str| table.get(key).map_or(Some(0), |value| whole(table, key, value));
-    let kind = table.get("type").and_then(|value| whole(table, "type", value));
+    let signed = |value: &&Value<'_>| {
+        let found = integer(value);
+        if found.is_none() {
+            table.wrong_kind("offset", "whole numbers", value, OFFSET);
+        }
+        found
+    };
+    let offset = offset.iter().map(signed).collect::<Option<_>>();
+    let site = |key: &str| table.get(key).map_or(Some(0), |value| whole(table, (key, BOND), value));
+    let kind = table.get("type").and_then(|value| whole(table, ("type", BOND), value));
     let numbers = Parameters::read_those(table, Options::default(), &[], |value| !value.is_table());
     let mut constants = numbers.constants.clone();
     constants.include(table.constants);
@@ -365,7 +391,7 @@ fn bond(table: &Table<'_>, listed: bool, coordinates: &[String; 3]) -> Option<Bo
         }
         (None, true) => {
             let spins = [("a", coordinates), ("b", coordinates)];
-            energy(&known, "energy", ENERGY, &spins, &known)?
+            energy(&known, "energy", ENERGY, &spins, &tables(&known))?
         }
         (matrix, _) => {
             let what = match matrix {
@@ -409,15 +435,51 @@ fn tables(owner: &Table<'_>) -> Vec<(String, File)> {
     found
 }
 
+fn files(tables: &[(String, File)]) -> Vec<File> {
+    tables.iter().map(|(_, file)| file.clone()).collect()
+}
+
+/// Reads `velocity`: expressions in the spin of a site, ω = ∂H/∂s as `omega`, tables and the time.
+fn velocity(
+    root: &Table<'_>,
+    coordinates: &[String; 3],
+    tables: &[(String, File)],
+) -> Option<(Program, Vec<f64>)> {
+    let omega = [0, 1, 2].map(|axis| format!("omega[{axis}]"));
+    let own = tables.iter().map(|(name, _)| name.clone());
+    let inputs: Vec<String> = coordinates.iter().cloned().chain(omega).chain(own).collect();
+    let mut names = Names::default();
+    for (at, name) in inputs.iter().enumerate() {
+        names.known(name, Name::Coordinate(at));
+    }
+    for (axis, name) in coordinates.iter().enumerate() {
+        names.alias(format!("s.{name}"), Name::Coordinate(axis));
+        names.alias(format!("s[{axis}]"), Name::Coordinate(axis));
+    }
+    names.include(root.constants);
+    names.known("t", Name::Time);
+    let (texts, place) = list(root, "velocity", VELOCITY, (&names, 3))?;
+    if texts.len() != 3 {
+        let what = format!("`velocity` has {} components, and a spin 3", texts.len());
+        root.refuse(place, &what, VELOCITY);
+        return None;
+    }
+    let mut arena = Arena::new();
+    let mut parse = |(own, place): &(String, Span)| {
+        text::parse(own, root.offset(*place, own), &[], &names, &mut arena, root.diagnostics)
+    };
+    let roots: Vec<_> = texts.iter().map(&mut parse).collect();
+    function((&arena, &roots), &inputs, root.diagnostics)
+}
+
 /// Reads an energy of spins with these names and coordinates, with the tables of its owner.
 fn energy(
     table: &Table<'_>,
     key: &str,
     example: &str,
     spins: &[(&str, &[String; 3])],
-    owner: &Table<'_>,
+    tables: &[(String, File)],
 ) -> Option<Interaction> {
-    let tables = tables(owner);
     // A spin without a name is the same one as that after it.
     let alone = spins[0].0.is_empty();
     let mut names = Names::default();
@@ -450,7 +512,7 @@ fn energy(
     let found = table.energy(key, example, &names, parameters)?;
     let (_, place) = found.root?;
     let refuse = |what: &str| table.refuse(place, what, example);
-    let files: Vec<File> = tables.iter().map(|(_, file)| file.clone()).collect();
+    let files = files(tables);
     let depends = |symbol: &Symbol| {
         // What depends on a number that is none is none.
         let all = |of_tables: f64, time: f64| {
@@ -580,8 +642,9 @@ fn start(initial: &Table<'_>) -> Option<Start> {
                     let number = graph.constant(number);
                     return Some((graph.finish(inputs.len(), &[number]), Vec::new()));
                 };
-                let energy = initial.formula(text, span(value), &names);
-                function(&energy, &inputs, initial.diagnostics)
+                let formula = initial.formula(text, span(value), &names);
+                let (root, _) = formula.root?;
+                function((&formula.arena, &[root]), &inputs, initial.diagnostics)
             };
             list.iter().map(formula).collect::<Option<Vec<_>>>().map(Start::Formulas)
         }

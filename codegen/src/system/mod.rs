@@ -353,7 +353,7 @@ fn system<H>(
     let units = units::read(&root, &coordinates);
     let integrator = root.table("integrator");
     let choice = choice(integrator.as_ref(), options, diagnostics);
-    let mut run = run::read(&root, integrator.as_ref());
+    let mut run = run::read(&root, integrator.as_ref(), &[]);
     run.events = event::read(&root, algebra.as_ref(), &coordinates);
     let velocity = initial::read(&root, algebra.as_ref(), &mut run);
     if integrator.as_ref().is_some_and(|table| table.has("truncation")) {

@@ -57,8 +57,8 @@ impl Run {
     }
 }
 
-/// Reads `[run]`, and `step`, `tolerance` and `region` of `[integrator]`.
-pub(super) fn read(root: &Table<'_>, integrator: Option<&Table<'_>>) -> Run {
+/// Reads `[run]`, which may have `more` keys, and `step`, `tolerance` and `region` of `[integrator]`.
+pub(super) fn read(root: &Table<'_>, integrator: Option<&Table<'_>>, more: &[&'static str]) -> Run {
     let mut run = Run::default();
     if let Some(table) = integrator {
         let step = table.number("step", "step = 0.1");
@@ -78,7 +78,7 @@ pub(super) fn read(root: &Table<'_>, integrator: Option<&Table<'_>>) -> Run {
         run.region = region(table);
     }
     if let Some(table) = root.table("run") {
-        table.check_keys(&["time", "every", "looks", "estimate"]);
+        table.check_keys(&[&["time", "every", "looks", "estimate"][..], more].concat());
         let time = table.number("time", "time = 100.0");
         run.time = accepted(&table, time, "time = 100.0", |time| {
             (time <= 0.0 || !time.is_finite()).then_some("the time must be finite and positive")

@@ -11,6 +11,7 @@ use std::time::Instant;
 
 use coadjoint::lattice::{Family, LatticeError, Order};
 use coadjoint_codegen::system::{lattice as text, read_lattice};
+use serde::{Deserialize, Serialize};
 
 use crate::asked::Accuracy;
 use crate::error::RunError;
@@ -26,6 +27,8 @@ const MOST_HALVINGS: u32 = 8;
 const ROUNDING: f64 = 1e-9;
 /// The truncation of a run with a step that asks for none: order 6.
 const TRUNCATION: usize = 5;
+/// Steps by collocation, which are guessed from those before them, begin anew after this number, so that a run can go on there.
+const RENEWAL: u64 = 32;
 
 /// A lattice and its spins, ready to run.
 #[derive(Debug)]
@@ -53,7 +56,7 @@ pub struct Itinerary {
 }
 
 /// A moment of a run.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Record {
     /// The time.
     pub time: f64,
@@ -61,17 +64,48 @@ pub struct Record {
     pub magnetisation: [f64; 3],
     /// The energy.
     pub energy: f64,
+    /// The spins of the sites that are recorded.
+    pub spins: Vec<[f64; 3]>,
 }
 
 /// News of a run.
 #[derive(Clone, Copy, Debug)]
 pub enum News<'a> {
-    /// The method and the steps are known.
-    Begin(&'a Itinerary),
+    /// The method and the steps are known, and the moment at the start.
+    Begin(&'a Itinerary, &'a Record),
     /// A moment to record.
-    Record(Record),
-    /// This number of steps is made.
-    Steps(u64),
+    Record(&'a Record),
+    /// This number of steps is made; where there are spins, a run may go on from them.
+    Steps(u64, Option<&'a [[f64; 3]]>),
+}
+
+/// A point of a run from which it may go on.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct Waypoint {
+    /// Steps made.
+    pub step: u64,
+    /// The spins after them.
+    pub spins: Vec<[f64; 3]>,
+    splitting: String,
+    order: u32,
+    /// The step size asked for, or found.
+    asked: f64,
+    error: Option<f64>,
+}
+
+impl Itinerary {
+    /// The point of its run after some steps, with the spins there.
+    #[must_use]
+    pub fn waypoint(&self, step: u64, spins: &[[f64; 3]]) -> Waypoint {
+        Waypoint {
+            step,
+            spins: spins.to_vec(),
+            splitting: self.method.name(),
+            order: self.method.order(),
+            asked: self.schedule.asked,
+            error: self.error,
+        }
+    }
 }
 
 /// The end of a run.
@@ -106,6 +140,11 @@ impl Simulation {
         let files = Files { system: path, given };
         let tables = Contents::read(files, &text).map_err(placed)?;
         let problem = Magnet::whole(&text, &tables).map_err(placed)?;
+        let sites = problem.lattice.graph().sites();
+        if let Some(bad) = text.sites.iter().find(|site| **site >= sites) {
+            let what = format!("`sites` of [run]: there is no site {bad}, but 0 to {}", sites - 1);
+            return Err(placed(Misplaced(text.place, what)));
+        }
         let graph = problem.lattice.graph();
         let cut = Magnet::cut(&text, &tables, graph).map_err(placed)?;
         let start = problem::start(files, &text, graph);
@@ -144,6 +183,37 @@ impl Simulation {
         &self.source
     }
 
+    /// The sites of the plane of the first two axes that the third one begins with, in their places, every n-th cell so that there are
+    /// at most `most` along an axis; none of a graph by edges.
+    #[must_use]
+    pub fn plane(&self, most: usize) -> Option<Vec<(usize, [f64; 2])>> {
+        let graph = self.problem.lattice.graph();
+        if self.text.edges.is_some() {
+            return None;
+        }
+        const HEIGHT: f64 = 0.866_025_403_784_438_6;
+        let (kind, length) = (self.text.kind, |axis| graph.shape().get(axis).copied().unwrap_or(1));
+        let place = |row: usize, column: usize, site: usize| {
+            let [u, v] = match (kind, site) {
+                ("honeycomb", 1) => [1.0 / 3.0; 2],
+                ("kagome", 1) => [0.5, 0.0],
+                ("kagome", 2) => [0.0, 0.5],
+                _ => [0.0; 2],
+            };
+            let [u, v] = [u + row as f64, v + column as f64];
+            if kind == "cubic" { [u, v] } else { [u + 0.5 * v, HEIGHT * v] }
+        };
+        let every = length(0).max(length(1)).div_ceil(most.max(1)).max(1);
+        let columns = || (0..length(1)).step_by(every);
+        let rows = (0..length(0)).step_by(every);
+        let rows = rows.flat_map(|row| columns().map(move |column| (row, column)));
+        let of = |(row, column): (usize, usize)| {
+            let first = (row * length(1) + column) * length(2) * graph.cell();
+            (0..graph.cell()).map(move |site| (first + site, place(row, column, site)))
+        };
+        Some(rows.flat_map(of).collect())
+    }
+
     /// The spins of the cut.
     fn cut_of(&self, spins: &[[f64; 3]]) -> Spins {
         match &self.cut.cut {
@@ -156,19 +226,18 @@ impl Simulation {
     fn candidates(&self, orders: &[Order]) -> Result<Vec<Algorithm>, RunError> {
         let refuse = |what: String| RunError::of(&self.path)(what);
         let nodes = self.text.truncation.unwrap_or(TRUNCATION).div_ceil(2);
-        let quadratic = self.problem.is_quadratic();
+        let beyond = self.problem.is_beyond_rotations();
         let axes = || {
             let shift = self.problem.lattice.shift(&self.start);
             shift.map(|shift| Family::Axes { shift }).map_err(RunError::of(&self.path))
         };
         let families = match self.text.splitting {
             "collocation" => return Ok(vec![Algorithm::Gauss(nodes)]),
-            "auto" if !quadratic => return Ok(vec![Algorithm::Gauss(nodes)]),
+            "auto" if beyond.is_some() => return Ok(vec![Algorithm::Gauss(nodes)]),
             "auto" => vec![axes()?, Family::Bonds],
-            name if !quadratic => {
+            name if let Some(reason) = beyond => {
                 return Err(refuse(format!(
-                    "splitting = \"{name}\": rotations are of energies of degree two, a·M b of bonds and f·s + s·A s of sites, and one \
-                     here is none: write method = \"collocation\""
+                    "splitting = \"{name}\": {reason}: write method = \"collocation\""
                 )));
             }
             "axes" => vec![axes()?],
@@ -191,13 +260,22 @@ impl Simulation {
         }
     }
 
+    fn tolerance(&self, asked: &Accuracy) -> Option<f64> {
+        asked.tolerance.or(self.text.run.tolerance.filter(|_| asked.step.is_none()))
+    }
+
+    /// The step that is given.
+    fn step(&self, asked: &Accuracy) -> Option<f64> {
+        asked.step.or(self.text.run.step).filter(|_| self.tolerance(asked).is_none())
+    }
+
     /// Chooses method and step, by what is asked for, else by the file.
     ///
     /// # Errors
     /// Steps and times that make no sense, families that do not admit the energy, a tolerance that is not met.
     pub fn plan(&self, asked: &Accuracy) -> Result<Itinerary, RunError> {
         let run = &self.text.run;
-        let tolerance = asked.tolerance.or(run.tolerance.filter(|_| asked.step.is_none()));
+        let tolerance = self.tolerance(asked);
         let orders = match (self.text.truncation, tolerance) {
             (None, Some(_)) => vec![Order::Four, Order::Six, Order::Eight],
             (truncation, _) => vec![match truncation.unwrap_or(TRUNCATION) {
@@ -209,7 +287,7 @@ impl Simulation {
         };
         let candidates = self.candidates(&orders)?;
         let time = asked.time.or(run.time).ok_or_else(|| RunError::no_time(&self.path))?;
-        let step = asked.step.or(run.step).filter(|_| tolerance.is_none());
+        let step = self.step(asked);
         if tolerance.is_none() && step.is_none() {
             return Err(RunError::no_step(&self.path));
         }
@@ -295,19 +373,37 @@ impl Simulation {
         )))
     }
 
-    /// Makes all steps. With `every`, every n-th of them is recorded, and the last. `told` is given the news and returns false to
-    /// stop.
+    /// The plan of a run that went as far as this point.
+    fn plan_again(&self, asked: &Accuracy, found: &Waypoint) -> Result<Itinerary, RunError> {
+        let orders = [Order::Two, Order::Four, Order::Six, Order::Eight];
+        let mut all = self.candidates(&orders)?.into_iter();
+        let own =
+            |method: &Algorithm| method.name() == found.splitting && method.order() == found.order;
+        let (Some(method), true) = (all.find(own), found.spins.len() == self.sites()) else {
+            return Err(RunError::of(&self.path)(
+                "the state to go on from is not one of this lattice",
+            ));
+        };
+        let time = asked.time.or(self.text.run.time);
+        let time = time.ok_or_else(|| RunError::no_time(&self.path))?;
+        let step = self.step(asked).unwrap_or(found.asked);
+        let schedule = Schedule::of(Grid { start: asked.start(&self.text.run), step }, time)?;
+        Ok(Itinerary { method, schedule, tried: Vec::new(), error: found.error })
+    }
+
+    /// Makes all steps, or those after a point that an earlier run has come to. With `every`, every n-th of them is recorded, and the
+    /// last. `told` is given the news and returns false to stop.
     ///
     /// # Errors
     /// As [`Simulation::plan`]; steps that cannot be made; [`RunError::Halted`] where it was told to stop.
     pub fn run(
         &self,
         asked: &Accuracy,
-        every: Option<u64>,
-        estimate: bool,
+        (every, estimate): (Option<u64>, bool),
+        from: Option<&Waypoint>,
         told: &mut dyn FnMut(News<'_>) -> bool,
     ) -> Result<Conclusion, RunError> {
-        let plan = self.plan(asked)?;
+        let plan = from.map_or_else(|| self.plan(asked), |from| self.plan_again(asked, from))?;
         let Itinerary { method, schedule, .. } = &plan;
         let halted = |n: u64| RunError::Halted { time: schedule.time(n), step: n };
         let failed = |n: u64| {
@@ -318,23 +414,23 @@ impl Simulation {
             }
         };
         let mut tell = |n: u64, news: News<'_>| if told(news) { Ok(()) } else { Err(halted(n)) };
-        tell(0, News::Begin(&plan))?;
-        let mut spins = self.start.clone();
-        let lengths: Vec<f64> = spins.iter().map(length).collect();
+        let first = self.record(schedule.start, &self.start)?;
+        tell(0, News::Begin(&plan, &first))?;
+        let mut spins = from.map_or(&self.start, |from| &from.spins).clone();
         let mut steps = self.problem.steps(*method, schedule.step).map_err(failed(0))?;
-        let first = self.record(schedule.start, &spins)?;
-        if every.is_some() {
-            tell(0, News::Record(first))?;
+        if every.is_some() && from.is_none() {
+            tell(0, News::Record(&first))?;
         }
         // Steps at a time: about a twentieth of a second's, or one where each has its own time.
-        let (mut made, mut share) = (0, 1);
-        let mut last = first;
+        let (mut made, mut share) = (from.map_or(0, |from| from.step), 1);
+        let mut last = self.record(schedule.time(made), &spins)?;
+        let renewal = if matches!(method, Algorithm::Gauss(_)) { RENEWAL } else { 1 };
+        let next = |made: u64, every: u64| (made / every + 1) * every;
         while made < schedule.steps {
-            let rest = every
-                .map_or(schedule.steps, |every| (made / every + 1) * every)
-                .min(schedule.steps)
-                - made;
-            let count = if self.problem.is_driven() { 1 } else { rest.min(share) };
+            let end = every.map_or(schedule.steps, |every| next(made, every)).min(schedule.steps);
+            let end = if renewal > 1 { end.min(next(made, renewal)) } else { end };
+            let rest = end - made;
+            let count = if self.problem.is_timed() { 1 } else { rest.min(share) };
             let clock = Instant::now();
             steps.advance(&mut spins, schedule.time(made), count).map_err(failed(made))?;
             share =
@@ -343,16 +439,19 @@ impl Simulation {
             if made == schedule.steps || every.is_some_and(|every| made.is_multiple_of(every)) {
                 last = self.record(schedule.time(made), &spins)?;
                 if every.is_some() {
-                    tell(made, News::Record(last))?;
+                    tell(made, News::Record(&last))?;
                 }
             }
-            tell(made, News::Steps(made))?;
+            let renewed = made.is_multiple_of(renewal);
+            if renewed {
+                steps.forget();
+            }
+            tell(made, News::Steps(made, renewed.then_some(&spins)))?;
         }
         drop(steps);
-        let changes = spins
-            .iter()
-            .zip(&lengths)
-            .map(|(spin, before)| (length(spin) - before).abs() / before.max(f64::MIN_POSITIVE));
+        let changes = spins.iter().zip(&self.start).map(|(spin, before)| {
+            (length(spin) - length(before)).abs() / length(before).max(f64::MIN_POSITIVE)
+        });
         let lengths = changes.fold(0.0, f64::max);
         let error = match plan.error {
             Some(error) => Some(error),
@@ -397,7 +496,13 @@ impl Simulation {
         let of = || {
             let total = self.problem.lattice.total_spin(spins)?;
             let magnetisation = total.map(|sum| sum / spins.len() as f64);
-            Ok(Record { time, magnetisation, energy: self.problem.energy(time, spins)? })
+            let own = self.text.sites.iter().map(|site| spins[*site]).collect();
+            Ok(Record {
+                time,
+                magnetisation,
+                energy: self.problem.energy(time, spins)?,
+                spins: own,
+            })
         };
         of().map_err(|error: LatticeError| RunError::Run { time, step: 0, what: error.to_string() })
     }

@@ -1,5 +1,6 @@
 //! The spins and the energy that a system file describes, on the whole lattice or on a cut of it.
 
+use std::array::from_fn;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -147,6 +148,8 @@ pub(super) struct Magnet {
     pub lattice: Lattice,
     functions: Vec<Cluster>,
     driven: Driven,
+    /// True if there is damping, and a velocity.
+    moved: [bool; 2],
     /// The sites of the whole lattice that these are; none where they are all.
     pub cut: Option<Vec<usize>>,
 }
@@ -288,6 +291,19 @@ impl Magnet {
             let driven = driven.clone();
             lattice = lattice.driven(move |time| field(&driven, time));
         }
+        if let Some(damping) = &text.damping {
+            let damping = from_fn(|axis| damping.get(axis).copied().unwrap_or(0.0));
+            lattice = lattice.damped(damping).map_err(at(text.place))?;
+        }
+        if let Some((program, slots)) = text.velocity.clone() {
+            let tables = of_sites.to_vec();
+            lattice = lattice.moved(move |time, site, spin, omega| {
+                let tables = tables.iter().map(|table| table[site]);
+                let numbers = spin.into_iter().chain(omega).chain(tables).chain([time]);
+                let found = program.run(&numbers.collect::<Vec<_>>(), &slots);
+                from_fn(|axis| found.get(axis).copied().unwrap_or(f64::NAN))
+            });
+        }
         let mut function = |energy: &Interaction, sites: Vec<usize>, spins: usize| {
             if let Some(function) = &energy.function {
                 let (programs, slots) = (**function).clone();
@@ -318,22 +334,32 @@ impl Magnet {
                 function(&own.energy, edges.map_err(&refuse)?.into_flattened(), 2);
             }
         }
-        Ok(Self { lattice, functions, driven, cut: None })
+        let moved = [text.damping.is_some(), text.velocity.is_some()];
+        Ok(Self { lattice, functions, driven, moved, cut: None })
     }
 
-    /// True if all energies are quadratic forms.
-    pub(super) fn is_quadratic(&self) -> bool {
-        self.functions.is_empty()
+    /// The reason why rotations cannot make its steps, if there is one.
+    pub(super) fn is_beyond_rotations(&self) -> Option<&'static str> {
+        match (self.functions.is_empty(), self.moved) {
+            (true, [false, false]) => None,
+            (false, _) => Some(
+                "rotations are of energies of degree two, a·M b of bonds and f·s + s·A s of sites, and one here is none",
+            ),
+            _ => {
+                Some("rotations are of the energy alone, and damping or a velocity acts beside it")
+            }
+        }
     }
 
-    pub(super) fn is_driven(&self) -> bool {
-        !self.driven.is_empty()
+    /// True if its steps depend on the time.
+    pub(super) fn is_timed(&self) -> bool {
+        !self.driven.is_empty() || self.moved[1]
     }
 
     /// The energy at a time.
     pub(super) fn energy(&self, time: f64, spins: &Spins) -> Result<f64, LatticeError> {
         let mut energy = self.lattice.energy(spins)?;
-        if self.is_driven() {
+        if !self.driven.is_empty() {
             let total = self.lattice.total_spin(spins)?;
             let field = field(&self.driven, time);
             energy += (0..3).map(|axis| field[axis] * total[axis]).sum::<f64>();
@@ -397,6 +423,9 @@ impl Magnet {
 pub(super) trait Evolve {
     /// Advances spins by some steps from this time on.
     fn advance(&mut self, spins: &mut Spins, time: f64, steps: u64) -> Result<(), LatticeError>;
+
+    /// Makes what comes by the state alone.
+    fn forget(&mut self) {}
 }
 
 impl Evolve for RotationStep {
@@ -406,6 +435,10 @@ impl Evolve for RotationStep {
 }
 
 impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> Evolve for GaussStep<M, F> {
+    fn forget(&mut self) {
+        self.forget();
+    }
+
     fn advance(&mut self, spins: &mut Spins, time: f64, steps: u64) -> Result<(), LatticeError> {
         self.advance_from(spins, time, steps)
     }

@@ -23,8 +23,15 @@ pub struct Energies {
     pub anisotropy: Matrix3<f64>,
     /// Energies that are not those of all sites.
     pub own: Vec<Own>,
-    pub driven: Option<Driven>,
+    /// A field on all sites that depends on time: ∂H/∂s.
+    pub driven: Option<UserFunction<dyn Fn(f64) -> [f64; 3] + Send + Sync>>,
+    /// The velocity of a site beside ω = ∂H/∂s is Γ (s × ω) with this diagonal of Γ, and a function of t, its number, s and ω.
+    pub damping: [f64; 3],
+    pub velocity: Option<UserFunction<Velocity>>,
 }
+
+/// The velocity of a site by the time, its number, its spin s and ω = ∂H/∂s.
+pub type Velocity = dyn Fn(f64, usize, [f64; 3], [f64; 3]) -> [f64; 3] + Send + Sync;
 
 /// Edges (a, b) with the energy a·M b, times a factor for each if there are any.
 #[derive(Clone, Debug)]
@@ -42,17 +49,27 @@ pub struct Own<L = Vec<f64>> {
     pub square: L,
 }
 
-/// A field on all sites that depends on time: ∂H/∂s.
-#[derive(Clone)]
-pub struct Driven(pub Arc<dyn Fn(f64) -> [f64; 3] + Send + Sync>);
+/// A function that a user gave.
+pub struct UserFunction<F: ?Sized>(pub Arc<F>);
 
-impl fmt::Debug for Driven {
+impl<F: ?Sized> Clone for UserFunction<F> {
+    fn clone(&self) -> Self {
+        Self(Arc::clone(&self.0))
+    }
+}
+
+impl<F: ?Sized> fmt::Debug for UserFunction<F> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("Driven")
+        f.write_str("UserFunction")
     }
 }
 
 impl Energies {
+    /// True if sites have a velocity beside that of the energy.
+    pub fn is_driven(&self) -> bool {
+        self.velocity.is_some() || self.damping != [0.0; 3]
+    }
+
     /// Adds factor·(f·s + s·A s), with a factor for each site.
     pub fn add_own(&mut self, factors: &[f64], field: Vector3<f64>, anisotropy: Matrix3<f64>) {
         let linear = [field.x, field.y, field.z, 0.0, 0.0, 0.0];
@@ -124,6 +141,8 @@ enum Applied {
 /// Neighbours whose spins have one matrix before them in the field.
 struct Bundle {
     matrix: Matrix3<f64>,
+    /// The first bit in which the colours of the ends differ, of matrices that are not symmetric, where groups are by it.
+    bit: Option<u32>,
     applied: Applied,
     neighbours: Neighbours,
 }
@@ -136,22 +155,34 @@ pub struct Couplings {
 }
 
 impl Couplings {
-    pub fn new(sites: usize, bonds: &[Bond]) -> Self {
+    /// Neighbours in groups, by the matrix before them; with `by_bits` those whose matrix is not symmetric are also in groups by
+    /// the first bit in which the colours of the two sites differ.
+    pub fn new(sites: usize, bonds: &[Bond], by_bits: bool) -> Self {
         let edges = || bonds.iter().flat_map(|bond| &bond.edges);
         let all = Adjacency::new(sites, || edges().flat_map(|&[a, b]| [(a, b), (b, a)]));
         let (colours, count) = colours::sites(&all);
         let places = Places::new(&colours, count);
+        let bit_of = |matrix: &Matrix3<f64>, [a, b]: Edge| {
+            let differ = colours[a as usize] ^ colours[b as usize];
+            (by_bits && *matrix != matrix.transpose()).then_some(differ.trailing_zeros())
+        };
         // Bonds with factors have lists of their own.
-        let mut matrices: Vec<(Matrix3<f64>, Option<usize>)> = Vec::new();
-        for (number, Bond { matrix, factors, .. }) in bonds.iter().enumerate() {
-            for matrix in [*matrix, matrix.transpose()] {
-                let key = (matrix, factors.is_some().then_some(number));
+        let mut matrices: Vec<(Matrix3<f64>, Option<usize>, Option<u32>)> = Vec::new();
+        for (number, Bond { edges, matrix, factors }) in bonds.iter().enumerate() {
+            let mut bits: Vec<_> = edges.iter().map(|edge| bit_of(matrix, *edge)).collect();
+            bits.sort_unstable();
+            bits.dedup();
+            for (matrix, bit) in [*matrix, matrix.transpose()]
+                .iter()
+                .flat_map(|m| bits.iter().map(move |b| (*m, *b)))
+            {
+                let key = (matrix, factors.is_some().then_some(number), bit);
                 if !matrices.contains(&key) {
                     matrices.push(key);
                 }
             }
         }
-        let adjacency = matrices.iter().map(|(matrix, number)| {
+        let adjacency = matrices.iter().map(|(matrix, number, bit)| {
             let of = |at: usize, bond: &Bond| match number {
                 Some(number) => at == *number,
                 None => bond.factors.is_none(),
@@ -160,9 +191,12 @@ impl Couplings {
             // The number of an edge of a bond, from one of its ends to the other.
             let directed = || {
                 those().flat_map(|(_, Bond { edges, matrix: own, .. })| {
-                    let numbered = |taken: bool| taken.then_some(edges).into_iter().flatten();
-                    let ahead = numbered(own == matrix).enumerate();
-                    let back = numbered(own.transpose() == *matrix).enumerate();
+                    let numbered = move |taken: bool| {
+                        let all = taken.then_some(edges).into_iter().flatten().enumerate();
+                        all.filter(move |(_, edge)| bit_of(own, **edge) == *bit)
+                    };
+                    let ahead = numbered(own == matrix);
+                    let back = numbered(own.transpose() == *matrix);
                     let ahead = ahead.map(|(at, &[a, b])| (a, b, at));
                     ahead.chain(back.map(|(at, &[a, b])| (b, a, at)))
                 })
@@ -174,15 +208,15 @@ impl Couplings {
             (Adjacency::new(sites, || directed().map(|(from, to, _)| (from, to))), factors)
         });
         let (copies, neighbours) = Copies::new(&places, &adjacency.collect::<Vec<_>>());
-        let matrices = matrices.into_iter().map(|(matrix, _)| matrix);
-        let group = |(matrix, neighbours): (Matrix3<f64>, Neighbours)| {
+        let matrices = matrices.into_iter().map(|(matrix, _, bit)| (matrix, bit));
+        let group = |((matrix, bit), neighbours): ((Matrix3<f64>, Option<u32>), Neighbours)| {
             let diagonal = Matrix3::from_diagonal(&matrix.diagonal()) == matrix;
             let applied = match <[f64; 3]>::from(matrix.diagonal()) {
                 [x, y, z] if diagonal && x == y && y == z => Applied::Isotropic(x),
                 list if diagonal => Applied::Diagonal(list),
                 _ => Applied::Full([0, 1, 2].map(|i| [0, 1, 2].map(|j| matrix[(i, j)]))),
             };
-            Bundle { matrix, applied, neighbours }
+            Bundle { matrix, bit, applied, neighbours }
         };
         Self { groups: matrices.zip(neighbours).map(group).collect(), places, copies }
     }
@@ -190,6 +224,11 @@ impl Couplings {
     /// The matrices, in the order of the weights of [`Couplings::along`].
     pub fn matrices(&self) -> impl Iterator<Item = &Matrix3<f64>> {
         self.groups.iter().map(|group| &group.matrix)
+    }
+
+    /// The bits of [`Couplings::new`], in the same order.
+    pub fn bits(&self) -> impl Iterator<Item = Option<u32>> {
+        self.groups.iter().map(|group| group.bit)
     }
 
     /// The most neighbours of a site that have each matrix, in the same order, times the largest factor.
@@ -240,7 +279,7 @@ impl Couplings {
     #[inline(always)]
     pub fn along(&self, weights: &[f64], numbers: &[f64], pack: usize) -> Pack {
         let mut total = Pack::of(0.0);
-        for (at, group) in self.groups.iter().enumerate() {
+        for (at, group) in self.groups.iter().enumerate().filter(|(at, _)| weights[*at] != 0.0) {
             let mut sum = Pack::of(0.0);
             group.neighbours.each(
                 pack,

@@ -68,11 +68,8 @@ pub enum LatticeError {
         /// The factors given.
         found: usize,
     },
-    /// A family of exact rotations does not admit the energy.
-    #[error(
-        "{family} admit couplings by symmetric matrices only: take {}, which admit any matrix, or `gauss`",
-        Family::Bonds
-    )]
+    /// Exact rotations are of the energy alone.
+    #[error("{family} are of the energy alone: damping and a velocity are made by `gauss`")]
     NotAdmitted {
         /// The family.
         family: Family,

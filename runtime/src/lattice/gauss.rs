@@ -13,7 +13,7 @@ use coadjoint_geometry::number::Number;
 use coadjoint_geometry::vector::{V3, cross, difference, dot, each, plus, plus_by, scaled, sum};
 use coadjoint_program::collocation::{MAX_SWEEPS, Nodes, ROUNDING, SOLVED};
 
-use super::couplings::{Couplings, Driven, Energies, Own, multiplied};
+use super::couplings::{Couplings, Energies, Own, UserFunction, Velocity, multiplied};
 use super::error::{LatticeError, check_spins, check_step};
 use super::lanes::{LANES, Pack, larger};
 use super::layout::{Column, Piece, Spins, Vectors, pieces, split, store};
@@ -49,11 +49,11 @@ pub type NoField = fn(&[[f64; 3]], &mut [[f64; 3]]);
 /// within rounding.
 pub struct GaussStep<const M: usize, F = NoField> {
     couplings: Couplings,
-    /// The field, and twice the anisotropy.
+    /// All of the velocity but the fields of neighbours.
     equation: Equation<M>,
     /// The field without that which depends on time.
     held: V3<f64>,
-    driven: Option<Driven>,
+    driven: Option<UserFunction<dyn Fn(f64) -> [f64; 3] + Send + Sync>>,
     /// The times of the nodes, in steps.
     times: [f64; M],
     gradient: Option<F>,
@@ -88,7 +88,7 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
         gradient: Option<F>,
     ) -> Result<Self, LatticeError> {
         check_step(step)?;
-        let couplings = Couplings::new(sites, &energies.bonds);
+        let couplings = Couplings::new(sites, &energies.bonds, false);
         let Nodes { times, weights, matrix, .. } = const { Nodes::<M>::new() };
         let times = times.map(|time| time + 0.5);
         let guess = from_fn(|i| {
@@ -108,6 +108,9 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
                 constant: [energies.field.into(); M],
                 own: energies.own.iter().map(|own| own.placed(&couplings.places)).collect(),
                 anisotropy: anisotropic.then(|| from_fn(|i| from_fn(|j| twice[(i, j)]))),
+                damping: (energies.damping != [0.0; 3]).then_some(energies.damping),
+                velocity: energies.velocity.clone().map(|own| (own, couplings.places.sites_at())),
+                times: [0.0; M],
             },
             held: energies.field.into(),
             driven: energies.driven.clone(),
@@ -130,6 +133,11 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
     #[must_use]
     pub fn sweeps(&self) -> u64 {
         self.sweeps
+    }
+
+    /// Guesses the next step by its state alone, whatever was before: its bits then follow from the state.
+    pub fn forget(&mut self) {
+        self.end.clear();
     }
 
     /// Advances the spins, in the order of the graph's sites, by `steps` steps.
@@ -159,10 +167,10 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
         let mut made = Ok(());
         for steps in 0..steps {
             self.start(goes_on);
-            if let Some(Driven(field)) = &self.driven {
-                let now = time + steps as f64 * self.step;
-                self.equation.constant =
-                    self.times.map(|at| sum(self.held, field(now + at * self.step)));
+            let now = time + steps as f64 * self.step;
+            self.equation.times = self.times.map(|at| now + at * self.step);
+            if let Some(UserFunction(field)) = &self.driven {
+                self.equation.constant = self.equation.times.map(|at| sum(self.held, field(at)));
             }
             goes_on = true;
             if let Err(error) = self.solve(size, steps) {
@@ -286,6 +294,7 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
                     }
                     let mut rates = equation.rates(&spins, further.as_ref(), place);
                     rates = couplings.fields(rates, around.each_ref(), place / LANES);
+                    equation.drive(&spins, &mut rates, place);
                     let turns = solved(matrix, &rates);
                     let start = now.row(place);
                     let [mut gaps, mut squares] = [Pack::of(0.0); 2];
@@ -330,6 +339,7 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
                     }
                     let mut rates = equation.rates(&spins, further.as_ref(), place);
                     rates = couplings.fields(rates, nodes, place / LANES);
+                    equation.drive(&spins, &mut rates, place);
                     let turns = solved(matrix, &rates);
                     let mut turn = one();
                     for j in 0..M {
@@ -347,11 +357,16 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
     }
 }
 
-/// The part of ∂H/∂s that does not depend on neighbours.
+/// The part of ∂H/∂s that does not depend on neighbours, and the velocity beside it.
 struct Equation<const M: usize> {
     constant: [V3<f64>; M],
     own: Vec<Own<Option<Column>>>,
     anisotropy: Option<[[f64; 3]; 3]>,
+    damping: Option<[f64; 3]>,
+    /// With the sites at all places.
+    velocity: Option<(UserFunction<Velocity>, Vec<Option<usize>>)>,
+    /// The times of the nodes.
+    times: [f64; M],
 }
 
 impl<const M: usize> Equation<M> {
@@ -385,6 +400,43 @@ impl<const M: usize> Equation<M> {
             }
         }
         rates
+    }
+
+    /// Adds damping and velocity to ω = ∂H/∂s at the nodes.
+    #[inline(always)]
+    fn drive(&self, spins: &[V3<Pack>; M], rates: &mut [V3<Pack>; M], place: usize) {
+        let velocity = self.velocity.as_ref().map(|_| self.velocity_of(spins, rates, place));
+        if let Some(damping) = &self.damping {
+            for i in 0..M {
+                let fall = cross(spins[i], rates[i]);
+                rates[i] = each(|axis| fall[axis].by_plus(damping[axis], rates[i][axis]));
+            }
+        }
+        for (rate, own) in rates.iter_mut().zip(velocity.iter().flatten()) {
+            *rate = sum(*rate, *own);
+        }
+    }
+
+    /// The velocities of a pack, one site after the other.
+    #[inline(never)]
+    fn velocity_of(
+        &self,
+        spins: &[V3<Pack>; M],
+        rates: &[V3<Pack>; M],
+        place: usize,
+    ) -> [V3<Pack>; M] {
+        let mut all = [[Pack::of(0.0); 3]; M];
+        let Some((UserFunction(velocity), sites)) = &self.velocity else { return all };
+        for lane in 0..LANES {
+            let Some(site) = sites[place + lane] else { continue };
+            for i in 0..M {
+                let [spin, rate] =
+                    [&spins[i], &rates[i]].map(|of| [of[0].0[lane], of[1].0[lane], of[2].0[lane]]);
+                let own = velocity(self.times[i], site, spin, rate);
+                (0..3).for_each(|axis| all[i][axis].0[lane] = own[axis]);
+            }
+        }
+        all
     }
 }
 

@@ -85,6 +85,15 @@ impl Places {
         self.of[site as usize]
     }
 
+    /// The sites at all places.
+    pub fn sites_at(&self) -> Vec<Option<usize>> {
+        let mut sites = alloc::vec![None; self.len()];
+        for (site, place) in self.of.iter().enumerate() {
+            sites[*place as usize] = Some(site);
+        }
+        sites
+    }
+
     /// Numbers of sites at their places, and zeros.
     pub fn column(&self, numbers: &[f64], number: usize) -> Column {
         let mut column = Column::new(self.len() + LANES, number);
@@ -176,10 +185,7 @@ impl Copies {
         places: &Places,
         adjacency: &[(Adjacency, Option<Adjacency<f64>>)],
     ) -> (Self, Vec<Neighbours>) {
-        let mut sites = alloc::vec![None; places.len()];
-        for (site, place) in places.of.iter().enumerate() {
-            sites[*place as usize] = Some(site);
-        }
+        let sites = places.sites_at();
         let mut found: Vec<_> = adjacency.iter().map(|_| Neighbours::default()).collect();
         let start = places.len() + LANES;
         let mut copies = Self { lists: Vec::new(), of_colour: Vec::new(), start };

@@ -6,7 +6,7 @@
 //!
 //! | [`Family`] | energies | keeps |
 //! |---|---|---|
-//! | [`Family::Axes`] | symmetric M | a Poisson map |
+//! | [`Family::Axes`] | any M | a Poisson map |
 //! | [`Family::Bonds`] | any M | a Poisson map; the total spin, where M are isotropic |
 //! | [`Family::Sublattices`] | any M | the energy without A; not symplectic |
 //! | [`Lattice::gauss`] | any | a Poisson map to rounding; the total spin, where H does |
@@ -39,7 +39,7 @@ pub use gauss::{GaussStep, NoField};
 pub use graph::{Boundary, Graph};
 pub use rotations::RotationStep;
 
-use couplings::{Bond, Driven, Energies};
+use couplings::{Bond, Energies, UserFunction};
 use error::{check_factors, check_spins, finite};
 use graph::{Edge, MOST, Offset};
 
@@ -197,7 +197,30 @@ impl Lattice {
     /// are those without it.
     #[must_use]
     pub fn driven(mut self, field: impl Fn(f64) -> [f64; 3] + Send + Sync + 'static) -> Self {
-        self.energies.driven = Some(Driven(Arc::new(field)));
+        self.energies.driven = Some(UserFunction(Arc::new(field)));
+        self
+    }
+
+    /// Damps every site: beside ω = ∂H/∂s it has the velocity Γ (s × ω), with this diagonal of Γ. For unit spins and equal
+    /// numbers that is the damping of Gilbert, Landau and Lifshitz. The energy falls, lengths are kept; [`Lattice::gauss`] alone
+    /// makes such steps.
+    ///
+    /// # Errors
+    /// [`LatticeError::Coefficient`].
+    pub fn damped(mut self, damping: [f64; 3]) -> Result<Self, LatticeError> {
+        finite(&damping)?;
+        self.energies.damping = damping;
+        Ok(self)
+    }
+
+    /// Adds a velocity η to ω = ∂H/∂s, ds/dt = s × (ω + η): a function of the time, the number of a site, its spin and its ω.
+    /// Lengths are kept; [`Lattice::gauss`] alone makes such steps.
+    #[must_use]
+    pub fn moved(
+        mut self,
+        velocity: impl Fn(f64, usize, [f64; 3], [f64; 3]) -> [f64; 3] + Send + Sync + 'static,
+    ) -> Self {
+        self.energies.velocity = Some(UserFunction(Arc::new(velocity)));
         self
     }
 

@@ -12,7 +12,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::colours;
 use super::composition::Order;
 use super::couplings::{
-    Bond, Couplings, Driven, Dyad, Energies, Own, by_directions, directions, dyads,
+    Bond, Couplings, Dyad, Energies, Own, UserFunction, by_directions, directions, dyads,
 };
 use super::error::{LatticeError, check_spins, check_step};
 use super::family::Family;
@@ -55,7 +55,7 @@ enum Summand {
     Colour(usize, [f64; 3]),
     Sites(Site, Option<Own<Option<Column>>>),
     /// All sites in the field that depends on time.
-    Driven(Driven),
+    Driven(UserFunction<dyn Fn(f64) -> [f64; 3] + Send + Sync>),
 }
 
 /// Energies of the components along a direction, of all sites.
@@ -63,7 +63,9 @@ struct Axis {
     direction: Site,
     /// The number of the axis, if it is one.
     axis: Option<usize>,
-    /// The weights of couplings.
+    /// The direction of sites whose colour has this bit, if that is another.
+    crossed: Option<(u32, [f64; 3])>,
+    /// The weights of couplings; those of crossed directions are antisymmetric.
     weights: Vec<f64>,
     own: Option<Own<Option<Column>>>,
 }
@@ -99,9 +101,13 @@ impl RotationStep {
         step: f64,
     ) -> Result<Self, LatticeError> {
         check_step(step)?;
-        let couplings = Couplings::new(sites, &energies.bonds);
+        if energies.is_driven() {
+            return Err(LatticeError::NotAdmitted { family });
+        }
+        let couplings =
+            Couplings::new(sites, &energies.bonds, matches!(family, Family::Axes { .. }));
         let mut parts = match family {
-            Family::Axes { shift } => axes(&couplings, energies, shift)?,
+            Family::Axes { shift } => axes(&couplings, energies, shift),
             Family::Bonds => {
                 let mut parts = pairs(sites, &couplings, energies);
                 parts.extend(single(&couplings.places, energies, energies.field));
@@ -161,7 +167,7 @@ impl RotationStep {
                     now += time;
                     continue;
                 };
-                if let Summand::Driven(Driven(field)) = &self.parts[part] {
+                if let Summand::Driven(UserFunction(field)) = &self.parts[part] {
                     let field = field(now);
                     let x = each(|axis| Pack::of(field[axis] * time));
                     let turn = turn::<false>(x);
@@ -192,21 +198,29 @@ impl RotationStep {
             Summand::Axis(part) => match part.axis {
                 Some(axis) => about_axis::<SHORT>(couplings, part, axis, time, spins),
                 None => {
+                    let colours = || couplings.places.colours.iter().zip(0_u32..);
                     let [x, y, z] = spins.all();
-                    for (at, own) in along.all_mut()[..places].iter_mut().enumerate() {
-                        *own = dot([x[at], y[at], z[at]], part.direction.direction);
+                    for (range, colour) in colours() {
+                        let (direction, _) = part.of_colour(colour);
+                        for (at, own) in range.clone().zip(&mut along.all_mut()[range.clone()]) {
+                            *own = dot([x[at], y[at], z[at]], direction);
+                        }
                     }
                     couplings.copies.refresh(along.all_mut(), couplings.copies.all());
                     let along = along.all();
-                    each_pack(
-                        spins.all_mut(),
-                        places,
-                        #[inline(always)]
-                        |pack, spin| {
-                            let field = part.rate(couplings, along, pack);
-                            about::<SHORT>(part.direction.direction, field.by(time), spin)
-                        },
-                    );
+                    for (range, colour) in colours() {
+                        let (direction, sign) = part.of_colour(colour);
+                        let first = range.start / LANES;
+                        each_pack(
+                            split(spins, range).1,
+                            range.len(),
+                            #[inline(always)]
+                            |pack, spin| {
+                                let field = part.rate(couplings, along, first + pack);
+                                about::<SHORT>(direction, field.by(sign * time), spin)
+                            },
+                        );
+                    }
                 }
             },
             Summand::Pairs(pairs, exchange) => {
@@ -266,6 +280,14 @@ impl Site {
 }
 
 impl Axis {
+    /// The direction of the sites of a colour, and the sign of their weights.
+    fn of_colour(&self, colour: u32) -> ([f64; 3], f64) {
+        match self.crossed {
+            Some((bit, direction)) if colour >> bit & 1 == 1 => (direction, -1.0),
+            _ => (self.direction.direction, 1.0),
+        }
+    }
+
     /// The speed of rotation of a pack about the direction, along which all spins have these components.
     #[inline(always)]
     fn rate(&self, couplings: &Couplings, along: &[f64], pack: usize) -> Pack {
@@ -398,16 +420,10 @@ fn exchange_all<const SHORT: bool>(
     }
 }
 
-/// The parts of the energy that depend on one component of all spins each.
-fn axes(
-    couplings: &Couplings,
-    energies: &Energies,
-    shift: f64,
-) -> Result<Vec<Summand>, LatticeError> {
-    if couplings.matrices().any(|matrix| *matrix != matrix.transpose()) {
-        return Err(LatticeError::NotAdmitted { family: Family::Axes { shift } });
-    }
-    let weights: Vec<[f64; 6]> = couplings.matrices().map(by_directions).collect();
+/// The parts of the energy that depend on one component of each spin.
+fn axes(couplings: &Couplings, energies: &Energies, shift: f64) -> Vec<Summand> {
+    let symmetric = |matrix: &Matrix3<f64>| by_directions(&((matrix + matrix.transpose()) * 0.5));
+    let weights: Vec<[f64; 6]> = couplings.matrices().map(symmetric).collect();
     let squares = by_directions(&(2.0 * energies.anisotropy - Matrix3::identity() * shift));
     let part = |(at, direction): (usize, [f64; 3])| {
         let axis = (at < 3).then_some(at);
@@ -418,9 +434,34 @@ fn axes(
         let none = linear == 0.0 && squares[at] == 0.0 && weights.iter().all(|w| *w == 0.0);
         let direction = Site { direction, linear, square: squares[at] };
         let all = own.is_some() || !none;
-        all.then_some(Summand::Axis(Axis { direction, axis, weights, own }))
+        all.then_some(Summand::Axis(Axis { direction, axis, crossed: None, weights, own }))
     };
-    Ok(directions().into_iter().enumerate().filter_map(part).collect())
+    let parts = directions().into_iter().enumerate().filter_map(part);
+    // Antisymmetric parts Σ w aₚ b_q, p ≠ q: sites whose colours differ in a bit have the component p or q by it, and commute.
+    let last = couplings.bits().flatten().max();
+    let crossed = (0..last.map_or(0, |last| last + 1)).flat_map(|bit| {
+        let pairs = [[0, 1], [1, 0], [1, 2], [2, 1], [2, 0], [0, 2]];
+        pairs.into_iter().filter_map(move |[p, q]| {
+            let weight = |(matrix, own): (&Matrix3<f64>, Option<u32>)| {
+                let weight = 0.5 * (matrix[(p, q)] - matrix[(q, p)]);
+                if own == Some(bit) { weight } else { 0.0 }
+            };
+            let weights: Vec<f64> =
+                couplings.matrices().zip(couplings.bits()).map(weight).collect();
+            let [direction, other] = [p, q].map(|at| directions()[at]);
+            let direction = Site { direction, linear: 0.0, square: 0.0 };
+            let crossed = Some((bit, other));
+            let none = weights.iter().all(|weight| *weight == 0.0);
+            (!none).then_some(Summand::Axis(Axis {
+                direction,
+                axis: None,
+                crossed,
+                weights,
+                own: None,
+            }))
+        })
+    });
+    parts.chain(crossed).collect()
 }
 
 /// The energies of the edges of each bond and colour.

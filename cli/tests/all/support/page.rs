@@ -166,12 +166,14 @@ fn execute(command: &str, folder: &Path) -> (i32, String) {
 /// A folder with the example files in `examples`, as from the root of the repository.
 pub(crate) fn with_examples() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    let copies = folder.path().join("examples");
-    std::fs::create_dir_all(&copies).unwrap();
-    for entry in std::fs::read_dir(super::root().join("examples")).unwrap() {
-        let file = entry.unwrap().path();
-        if file.is_file() {
-            std::fs::copy(&file, copies.join(file.file_name().unwrap())).unwrap();
+    for own in ["examples", "examples/lattices"] {
+        let copies = folder.path().join(own);
+        std::fs::create_dir_all(&copies).unwrap();
+        for entry in std::fs::read_dir(super::root().join(own)).unwrap() {
+            let file = entry.unwrap().path();
+            if file.is_file() {
+                std::fs::copy(&file, copies.join(file.file_name().unwrap())).unwrap();
+            }
         }
     }
     folder
