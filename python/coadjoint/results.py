@@ -174,6 +174,13 @@ class Run:
         return self._array("energy")
 
     @property
+    def work(self) -> float | None:
+        """The work ∫⟨τ, ω⟩ dt of the torque over the whole run, to the order of the step; None where none acts, or where it is not
+        known since steps were made without programs."""
+        work: float | None = self._found["work"]
+        return work
+
+    @property
     def drift(self) -> Drift:
         """The relative differences from the start at the records, (N,) each."""
         drifts = self._array("drifts")

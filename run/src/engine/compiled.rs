@@ -209,6 +209,30 @@ impl Compiled {
         self.programs.step.forget(&mut state.g);
     }
 
+    /// Marks the work of the torque as not known: the step to this state was made elsewhere.
+    pub(super) fn lose_work(&self, state: &mut Numbers) {
+        if let Some(at) = self.step().work_at() {
+            state.g[at] = f64::NAN;
+        }
+    }
+
+    /// The energy at both ends of a run, of these times, and the work of a torque between them; none where it is not known.
+    pub(crate) fn work(&self, ends: [(f64, &Numbers); 2]) -> Option<[f64; 3]> {
+        let at = self.step().work_at()?;
+        let energy = |(time, state): (f64, &Numbers)| {
+            let watched = self.kernel().watch(&self.coefficients_at(time), &state.g, &state.mu);
+            watched.first().copied()
+        };
+        let [start, end] = ends;
+        let work = [energy(start)?, energy(end)?, end.1.g[at] - start.1.g[at]];
+        work.iter().all(|number| number.is_finite()).then_some(work)
+    }
+
+    /// The numbers of an element without those that steps leave to the next one.
+    pub(crate) fn lasting<'a>(&self, g: &'a [f64]) -> &'a [f64] {
+        &g[..g.len().saturating_sub(self.step().memory())]
+    }
+
     /// These steps with another size or other values of the parameters.
     ///
     /// # Errors

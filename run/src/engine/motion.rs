@@ -167,6 +167,9 @@ impl<'a> Motion<'a> {
             advise(error, size, |shorter| step(&mut phase.clone(), shorter).is_ok())
         })?;
         *state = self.space.state(&next);
+        if let Some(compiled) = &self.space.compiled {
+            compiled.lose_work(state);
+        }
         Ok(solves)
     }
 
