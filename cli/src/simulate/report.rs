@@ -206,7 +206,8 @@ fn text(run: &Trajectory, units: &Units) -> String {
     if let Some([start, end, work]) = end.work {
         let change = shortest(end - start);
         let work = shortest(work);
-        let _ = writeln!(out, "  work       {work:>24} of the torque; the energy changed by {change}");
+        let _ =
+            writeln!(out, "  work       {work:>24} of the torque; the energy changed by {change}");
     }
     let _ = match &end.estimated_error {
         Ok(error) => writeln!(out, "  estimated relative error at the end {error:.1e}"),

@@ -533,7 +533,8 @@ impl<'a> Assembly<'a> {
         let in_units = |numbers: &[Id]| largest_in_units(&graph, numbers, &self.smooth.units, 1);
         let mut scale = in_units(&mu);
         let sweep = self.sweep(&graph, &rates, (&mu, &impulse), &g);
-        let Sweep { momenta, change, sizes: [of_x, mut of_p], defect, impulse: pushes, work } = sweep;
+        let Sweep { momenta, change, sizes: [of_x, mut of_p], defect, impulse: pushes, work } =
+            sweep;
         if self.impulse > 0 {
             scale = graph.max(scale, in_units(&impulse));
             of_p = graph.max(of_p, in_units(&plus(&graph, &pushes[0], -1.0, &impulse)));

@@ -116,7 +116,9 @@ fn opening(
         Language::Cpp => " for C++11",
     };
     let work = match step.work_at() {
-        Some(_) => " The last one is the work of the torque since it was 0, to the order of the step.",
+        Some(_) => {
+            " The last one is the work of the torque since it was 0, to the order of the step."
+        }
         None => "",
     };
     let unit = options.time.as_ref().map(|unit| format!(" in {}", c_comment(unit)));
