@@ -197,7 +197,18 @@ impl Step {
     /// Puts the times at which programs ask for it, and the values of the signals there, among the coefficients of a step of
     /// this size that begins at this time.
     pub fn set_time(&self, slots: &mut [f64], step: f64, time: f64) {
+        self.set_time_by(None, slots, [step, time]);
+    }
+
+    /// As [`Step::set_time`], with other signals in place of the system's where there are any.
+    pub fn set_time_by(
+        &self,
+        others: Option<&[Signal]>,
+        slots: &mut [f64],
+        [step, time]: [f64; 2],
+    ) {
         let Some(Moving { first, times, signals }) = &self.moving else { return };
+        let signals = others.unwrap_or(signals);
         // Of the places those that the programs read.
         let put = |slots: &mut [f64], time: f64| {
             let values = std::iter::once(time).chain(signals.iter().map(|signal| signal.at(time)));
