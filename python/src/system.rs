@@ -394,7 +394,7 @@ impl Core {
 
     /// Many trajectories: the states at the end, the rows that failed as (row, step, reason), and facts. The last columns of
     /// the states are those of the parameters that vary.
-    #[pyo3(signature = (states, asked, *, parameters, inputs, at, backend, threads, progress))]
+    #[pyo3(signature = (states, asked, *, parameters, inputs=Vec::new(), at, backend, threads, progress))]
     #[allow(clippy::type_complexity, clippy::too_many_arguments)]
     fn ensemble<'py>(
         &self,

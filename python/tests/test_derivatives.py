@@ -154,7 +154,7 @@ def test_a_control_loop_keeps_its_state() -> None:
 
 def test_events_that_end_runs_have_derivatives() -> None:
     def low(t: float, g: np.ndarray, mu: np.ndarray) -> float:
-        return float(mu[2] - 0.3 * g[2, 2])
+        return float(mu[2] - 0.6 + 0.1 * g[0, 0])
 
     low.terminal = True  # type: ignore[attr-defined]
 

@@ -155,8 +155,8 @@ def test_rows_have_inputs_of_their_own(hold: str) -> None:
     middle = system.ensemble(start, time=3, step=0.1, inputs={"u": samples}, at=[1.25, 3], threads=1)
     np.testing.assert_array_equal(middle[:, 1], final)
     for wrong, words in [
-        ({"u": samples.T}, r"shape \\[4, 11\\]; 11 rows of 4 samples"),
-        ({"u": samples[0]}, r"shape \\[4\\]"),
+        ({"u": samples.T}, r"shape \[4, 11\]; 11 rows of 4 samples"),
+        ({"u": samples[0]}, r"shape \[4\]"),
         ({"w": samples}, "is no input of the system; those with samples: u, v"),
     ]:
         with pytest.raises(InputError, match=words):
