@@ -70,6 +70,7 @@ class Core:
         asked: _Asked,
         *,
         parameters: list[str],
+        inputs: list[tuple[str, tuple[int, ...], NDArray[np.float64]]] = ...,
         at: NDArray[np.float64] | None,
         backend: str,
         threads: int | None,

@@ -27,6 +27,8 @@ class Tangent(NamedTuple):
     group_element: Floats
     #: δμ, (N, n).
     momentum: Floats
+    #: The changes of the records' times, (N,): that of an event which ended the run, else 0.
+    time: Floats
 
 
 class Gradient(NamedTuple):
@@ -68,17 +70,21 @@ def _asked(run: Run, names: Iterable[str]) -> tuple[dict[str, Any], dict[str, tu
         "truncation": run.truncation,
         "comoving": "comoving" in run.label,
         "parameters": list(shapes),
+        "event": run._found["ended_by"],
     }
     return asked, shapes
 
 
 def _steps(run: Run) -> list[int]:
-    """The number of steps made up to each record."""
-    steps = np.rint((run.time - run.t0) / run.step)
-    apart = np.abs(run.time - (run.t0 + steps * run.step))
-    if (apart > _SLACK * (np.abs(run.time - run.t0) + abs(run.step))).any():
+    """The number of steps made up to each record; one more than all whole ones at the event that ended the run."""
+    ended = run._found["ended_by"]
+    last = [run.steps + 1] if ended and len(run) and run.time[-1] == ended[2] else []
+    times = run.time[: len(run) - len(last)]
+    steps = np.rint((times - run.t0) / run.step)
+    apart = np.abs(times - (run.t0 + steps * run.step))
+    if (apart > _SLACK * (np.abs(times - run.t0) + abs(run.step))).any():
         raise InputError("derivatives are of whole steps: record every n-th step, or times that are multiples of the step")
-    return [int(step) for step in steps]
+    return [int(step) for step in steps] + last
 
 
 def _samples(run: Run, names: Iterable[str]) -> dict[str, int]:
@@ -116,11 +122,15 @@ def forward(
     samples = {name: _arrays.vector(sampled[name], f"inputs[{name!r}]", count) for name, count in _samples(run, sampled).items()}
     columns = {name: own[:, np.newaxis] for name, own in samples.items()}
     found = _core.forward(asked, state[:, np.newaxis], change[:, np.newaxis], columns, _steps(run))
-    both = found.reshape(len(run), 2, n)
-    return Tangent(both[:, 0], both[:, 1])
+    both, times = found[: 2 * n * len(run)].reshape(len(run), 2, n), np.zeros(len(run))
+    if len(found) > both.size:
+        times[-1] = found[-1]
+    return Tangent(both[:, 0], both[:, 1], times)
 
 
-def backward(run: Run, momentum: Any, group_element: Any, parameters: Iterable[str], inputs: Iterable[str]) -> Gradient:
+def backward(
+    run: Run, momentum: Any, group_element: Any, time: Any, parameters: Iterable[str], inputs: Iterable[str]
+) -> Gradient:
     """:meth:`Run.vjp`."""
     asked, shapes = _asked(run, [parameters] if isinstance(parameters, str) else parameters)
     samples = _samples(run, [inputs] if isinstance(inputs, str) else inputs)
@@ -134,7 +144,8 @@ def backward(run: Run, momentum: Any, group_element: Any, parameters: Iterable[s
             raise InputError(f"{what} has the shape {array.shape}: give a row for each record, {(count, n)}")
         return array
 
-    both = np.hstack([rows(group_element, "group_element"), rows(momentum, "momentum")])
+    times = np.zeros(count) if time is None else _arrays.vector(time, "time", count)
+    both = np.hstack([rows(group_element, "group_element"), rows(momentum, "momentum"), times[:, np.newaxis]])
     found, of_inputs = _core.backward(asked, both, _steps(run))
     named: dict[str, Floats] = {}
     place = 2 * n
@@ -151,7 +162,7 @@ def monodromy(run: Run) -> Floats:
     size = 2 * len(run.final_momentum)
     steps = _steps(run)[-1:]
     found = _core.forward(asked, np.eye(size), np.zeros((0, size)), {}, steps)
-    return found.reshape(size, size).T
+    return found.reshape(size, -1).T[:size]
 
 
 def largest_exponent(run: Run, transient: Any) -> float:

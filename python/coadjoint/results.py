@@ -174,6 +174,13 @@ class Run:
         return self._array("energy")
 
     @property
+    def work(self) -> float | None:
+        """The work ∫⟨τ, ω⟩ dt of the torque over the whole run, to the order of the step; None where none acts, or where it is not
+        known since steps were made without programs."""
+        work: float | None = self._found["work"]
+        return work
+
+    @property
     def drift(self) -> Drift:
         """The relative differences from the start at the records, (N,) each."""
         drifts = self._array("drifts")
@@ -254,7 +261,9 @@ class Run:
         ``momentum`` (n,) is the change of the momentum at the start, ``group_element`` (n,) that of the attitude as
         ξ = g⁻¹δg in the basis of the Lie algebra, in radians for rotations; ``parameters`` has a number, or an array of its
         shape, for the name of each parameter that changes, and ``inputs`` the changes of the samples, one at each of its times, for the
-        name of each input that changes. They are derivatives of the steps themselves, to rounding. Records between steps have none.
+        name of each input that changes. They are derivatives of the steps themselves, to rounding. Records between steps have none,
+        but for that of an event that ended the run: its changes are those of the state where the event occurs, and ``time`` is that of the
+        event's time, by differences of its function there.
 
         >>> import coadjoint as ca
         >>> body = ca.System("SO3", "x^2/(2*I) + y^2/4 + z^2/5", coordinates="x y z", parameters=dict(I=1.5))
@@ -269,6 +278,7 @@ class Run:
         *,
         momentum: Numbers | None = None,
         group_element: Numbers | None = None,
+        time: Numbers | None = None,
         parameters: Iterable[str] = (),
         inputs: Iterable[str] = (),
     ) -> Gradient:
@@ -276,10 +286,10 @@ class Run:
         times the derivative.
 
         ``momentum`` (N, n) and ``group_element`` (N, n) are the derivatives of that number in the momentum and in
-        ξ = g⁻¹δg of each record. Whatever their number, it takes about the time of two runs and one :meth:`jvp`, and of N
+        ξ = g⁻¹δg of each record, and ``time`` (N,) those in the records' times, which count at an event that ended the run. Whatever their number, it takes about the time of two runs and one :meth:`jvp`, and of N
         steps the memory of 2√N states.
         """
-        return backward(self, momentum, group_element, parameters, inputs)
+        return backward(self, momentum, group_element, time, parameters, inputs)
 
     def monodromy(self) -> Floats:
         """The derivative of the last record in the start, (2n, 2n), for columns (ξ, δμ). After a period of the motion its

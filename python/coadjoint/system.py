@@ -407,6 +407,7 @@ class System:
             "group_element": None if element is None else element.tolist(),
             "backend": backend,
         }
+        found["ended_by"] = _ended_by(found, watched)
         return Run(found, self)
 
     def _times(self, at: Numbers | None, step: Real | None) -> Floats | None:
@@ -430,6 +431,7 @@ class System:
         tolerance: Real | None = None,
         region: Real | None = None,
         truncation: int | None = None,
+        inputs: Mapping[str, Numbers] | None = None,
         at: Numbers | None = None,
         backend: Backend = "auto",
         threads: int | None = None,
@@ -440,7 +442,8 @@ class System:
         A row is a momentum, (N, n), or a momentum and the entries of the matrix g row by row, (N, n + d²), or, for
         SO(3), a momentum and a unit quaternion w, x, y, z, (N, n + 4). Data frames, dictionaries and other tables go by
         the names of :meth:`layouts`, or of the coordinates, in any order; a column named after a parameter, or a number of
-        it such as ``J[0][1]``, gives each row a value of its own. The result has the columns of an array; rows that
+        it such as ``J[0][1]``, gives each row a value of its own. ``inputs`` gives each row samples of its own for the name of an input,
+        (N, samples), at the times of the system's. The result has the columns of an array; rows that
         cannot be followed (NaN among them) are NaN, listed in ``failed``, and told by a warning. With times ``at`` the result
         is that of the trajectories there, (N, times, columns); of a row that fails on its way, from there on NaN. The bits depend
         neither on ``threads`` nor on ``backend``, nor on the other rows.
@@ -455,6 +458,7 @@ class System:
         """
         times = self._times(at, step)
         rows, parameters = self._rows(states)
+        sampled = {k: _arrays.floats(v, f"inputs[{k!r}]") for k, v in _text.mapping(inputs, "inputs").items()}
         if rows.ndim != 2:
             raise InputError(
                 f"states must be a table with a row for each state; its shape is {rows.shape}: "
@@ -465,6 +469,7 @@ class System:
                 rows,
                 self._asked(t0, time, step, tolerance, region, truncation),
                 parameters=parameters,
+                inputs=[(name, own.shape, own.ravel()) for name, own in sampled.items()],
                 at=times,
                 backend=_arrays.text(backend, "backend"),
                 threads=None if threads is None else _arrays.count(threads, "threads", 1),
@@ -885,6 +890,15 @@ def _events(given: Any) -> list[tuple[str, Callable[..., float], int, bool]]:
         direction = _arrays.real(getattr(function, "direction", 0), f"the direction of {name}")
         found.append((name, function, int(np.sign(direction)), bool(getattr(function, "terminal", False))))
     return found
+
+
+def _ended_by(found: dict[str, Any], watched: list[Any]) -> tuple[Any, int, float] | None:
+    """The event that ended a run: itself where it is a function of Python, its number, and its time."""
+    if not found["events"]:
+        return None
+    number, time = found["events"][-1][:2]
+    own = number - (found["watched"] - len(watched))
+    return (watched[own] if own >= 0 else None, number, time) if found["terminal"][number] else None
 
 
 def hardly_converges(ratio: float) -> str:

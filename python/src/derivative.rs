@@ -6,7 +6,7 @@ use std::sync::{Arc, PoisonError};
 use coadjoint_codegen::problem::FrameChoice;
 use coadjoint_codegen::signal::Signal;
 use coadjoint_codegen::system::Options;
-use coadjoint_run::simulate::{Schedule, Setup};
+use coadjoint_run::simulate::{Event, Schedule, Setup};
 use coadjoint_run::{Changes, Derivatives, Derived, RunError};
 use nalgebra::DMatrix;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray2};
@@ -15,6 +15,7 @@ use pyo3::prelude::*;
 use crate::asked::backend_of;
 use crate::control::work;
 use crate::error::raised_by;
+use crate::event::Watched;
 use crate::system::Core;
 
 /// A run, and the parameters that its derivatives are taken in.
@@ -31,6 +32,8 @@ pub struct Request {
     momentum: Option<Vec<f64>>,
     group_element: Option<Vec<Vec<f64>>>,
     backend: String,
+    /// The event that ended the run: itself where it is a function of Python, its number, and its time.
+    event: Option<(Option<Watched>, usize, f64)>,
 }
 
 /// The system of a run as it was derived for it, with the parameters kept.
@@ -75,7 +78,17 @@ fn with<T: Send + 'static>(
         let schedule = Schedule { asked: step, step, steps, start, end };
         let setup = Setup::new(schedule, momentum.unwrap_or_default());
         let setup = Setup { backend, group_element, ..setup };
-        job(&Derivatives::new(&derived, &setup)?)
+        let derivatives = Derivatives::new(&derived, &setup)?;
+        let ended = run.event.and_then(|(function, number, time)| {
+            let size = core.shape().matrix_size;
+            let of_file = || given.events.get(number).cloned().map(Event::of);
+            let of_python = function.map(|own| own.event(size, core.failures.clone()));
+            Some((of_python.or_else(of_file)?, time))
+        });
+        job(&match ended {
+            Some((event, time)) => derivatives.until(event, time),
+            None => derivatives,
+        })
     })?;
     result.map_err(|error: RunError| raised_by(py, &error, &failures))
 }
@@ -89,7 +102,7 @@ fn matrix(array: &PyReadonlyArray2<'_, f64>) -> DMatrix<f64> {
 }
 
 /// The tangents after these numbers of steps, of k columns of (ξ, ν) at the start, of changes of the parameters and of the samples of
-/// inputs by their names: column after column, step after step.
+/// inputs by their names: column after column, step after step; last of all the change of the time of the event that ended the run.
 #[pyfunction]
 pub fn forward<'py>(
     py: Python<'py>,
@@ -113,7 +126,7 @@ pub fn forward<'py>(
 }
 
 /// The derivatives in (ξ, ν) at the start, after them in the parameters, and in the samples of each input by its name, of a sum given by
-/// a cotangent, a row (λ, κ), for each of these numbers of steps.
+/// a cotangent, a row (λ, κ) and the derivative in its time, for each of these numbers of steps.
 #[pyfunction]
 pub fn backward<'py>(
     py: Python<'py>,
@@ -122,11 +135,14 @@ pub fn backward<'py>(
     at: Vec<u64>,
 ) -> PyResult<Backward<'py>> {
     let array = cotangents.as_array();
-    let rows = array.rows().into_iter();
-    let rows = rows.map(|row| DMatrix::from_iterator(row.len(), 1, row.iter().copied()));
-    let cotangents: Vec<(u64, DMatrix<f64>)> = at.into_iter().zip(rows).collect();
+    let rows: Vec<Vec<f64>> = array.rows().into_iter().map(|row| row.to_vec()).collect();
     let (found, names) = with(py, run, move |run| {
         let names = run.signals().iter().map(|signal| signal.name.clone()).collect::<Vec<_>>();
+        // Of states at fixed times the time does not change.
+        let column = |(at, row): (u64, Vec<f64>)| {
+            (at, DMatrix::from_iterator(run.rows(at), 1, row.into_iter().take(run.rows(at))))
+        };
+        let cotangents: Vec<_> = at.into_iter().zip(rows).map(column).collect();
         Ok((run.backward(&cotangents)?, names))
     })?;
     let numbers: Vec<f64> = found.state.iter().chain(found.parameters.iter()).copied().collect();

@@ -86,7 +86,9 @@ impl Actor for Called {
                 self.function.bind(py).call1((time, matrix, PyArray1::from_slice(py, mu)))?;
             numbers(&found)
         });
-        told(&self.failures, (self.name, mu.len()), found, || format!("time {time}, momentum {mu:?}"))
+        told(&self.failures, (self.name, mu.len()), found, || {
+            format!("time {time}, momentum {mu:?}")
+        })
     }
 }
 

@@ -74,6 +74,7 @@ pub fn result_of<'py>(
     found.set_item("unmeasured", outcome.unmeasured)?;
     found.set_item("potential", outcome.potential)?;
     found.set_item("has_energy", outcome.energy.is_some())?;
+    found.set_item("work", outcome.work.map(|[.., work]| work))?;
     let used = outcome.backend.as_ref();
     found.set_item("backend", used.map_or("interpreter", |used| used.name.as_str()))?;
     let ready = used.and_then(|used| used.ready).map(|time| time.as_secs_f64());

@@ -106,7 +106,12 @@ pub struct ControlLoop {
 #[pymethods]
 impl ControlLoop {
     /// Makes `steps` more steps with these values of the parameters, one after the other.
-    fn advance(&mut self, py: Python<'_>, steps: u64, parameters: Option<Vec<f64>>) -> PyResult<()> {
+    fn advance(
+        &mut self,
+        py: Python<'_>,
+        steps: u64,
+        parameters: Option<Vec<f64>>,
+    ) -> PyResult<()> {
         let parameters = parameters.as_deref();
         let mut left = steps;
         while left > 0 {

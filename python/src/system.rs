@@ -14,7 +14,7 @@ use coadjoint_codegen::system::{Options, Run};
 use coadjoint_codegen::tolerance::Choice;
 use coadjoint_learn::table;
 use coadjoint_run::ensemble::{
-    self, Attitude, Course, Engine, Found, How, Known, Layout, Shape, Watch,
+    self, Attitude, Course, Disturbance, Engine, Found, How, Known, Layout, Shape, Watch,
 };
 use coadjoint_run::simulate::{Event, Schedule, Setup, Single, Times, run};
 use coadjoint_run::{
@@ -201,7 +201,7 @@ impl Core {
     }
 
     /// The shape of a row.
-    fn shape(&self) -> Shape {
+    pub(crate) fn shape(&self) -> Shape {
         Shape::of_system(&self.system)
     }
 }
@@ -346,6 +346,7 @@ impl Core {
             .chain(events.into_iter().map(|event| event.event(size, self.failures.clone())))
             .collect();
         let looked_for = events.len();
+        let terminal: Vec<bool> = events.iter().map(|event| event.terminal).collect();
         let looks = looks.or(given.looks.map(|looks| looks as u32)).unwrap_or(1);
         let mut here = self.here();
         here.system.run.momentum = Some(momentum.clone());
@@ -384,6 +385,7 @@ impl Core {
             result.map_err(|error: RunError| self.raised(py, &error))?;
         let found = result_of(py, table, &outcome, &schedule)?;
         found.set_item("watched", looked_for)?;
+        found.set_item("terminal", terminal)?;
         found.set_item("truncation", truncation)?;
         found.set_item("choice", choice.map(|choice| choice.to_string()))?;
         found.set_item("label", label)?;
@@ -392,7 +394,7 @@ impl Core {
 
     /// Many trajectories: the states at the end, the rows that failed as (row, step, reason), and facts. The last columns of
     /// the states are those of the parameters that vary.
-    #[pyo3(signature = (states, asked, *, parameters, at, backend, threads, progress))]
+    #[pyo3(signature = (states, asked, *, parameters, inputs=Vec::new(), at, backend, threads, progress))]
     #[allow(clippy::type_complexity, clippy::too_many_arguments)]
     fn ensemble<'py>(
         &self,
@@ -400,6 +402,7 @@ impl Core {
         states: PyReadonlyArray2<'py, f64>,
         asked: Asked,
         parameters: Vec<String>,
+        inputs: Vec<(String, Vec<usize>, PyReadonlyArray1<'py, f64>)>,
         at: Option<PyReadonlyArray1<'py, f64>>,
         backend: &str,
         threads: Option<usize>,
@@ -417,6 +420,12 @@ impl Core {
             return Err(refused(py, what));
         }
         let at = at.map(|at| at.as_array().to_vec());
+        let inputs = inputs.into_iter().map(|(input, shape, values)| Disturbance {
+            input,
+            shape,
+            values: values.as_array().to_vec(),
+        });
+        let inputs: Vec<Disturbance> = inputs.collect();
         let here = self.here();
         let result = work(py, progress.as_ref(), move |control| {
             let path = Path::new(&here.name);
@@ -455,7 +464,7 @@ impl Core {
             let how = How { backend, work: schedule.steps as f64 * lanes, device: None };
             derived.reaches(&schedule)?;
             derived.resolves(schedule.grid(), schedule.steps, momentum.as_deref())?;
-            let engine = Engine::new(&derived, schedule.grid(), how)?;
+            let engine = Engine::disturbed(&derived, schedule.grid(), how, (inputs, count))?;
             control.total.store(schedule.steps * count as u64, Ordering::Relaxed);
             // Threads of its own: those of a parent process are not there in a fork.
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();

@@ -57,3 +57,10 @@ def test_mistakes_of_functions_are_raised() -> None:
     for call in (lambda: system.emit("c"), lambda: system.simulate(**START).jvp(momentum=[1, 0, 0])):
         with pytest.raises(ca.InputError, match="torque"):
             call()
+
+
+def test_the_work_of_a_torque_is_the_change_of_the_energy() -> None:
+    wheel = ca.System("R1", "l^2/2", coordinates="l", torque=["-l/10"])
+    run = wheel.simulate([1], time=10, step=0.1)
+    assert run.work == pytest.approx((np.exp(-2) - 1) / 2, abs=1e-13)
+    assert ca.System("R1", "l^2/2", coordinates="l").simulate([1], time=1, step=0.1).work is None

@@ -150,3 +150,30 @@ def test_a_control_loop_keeps_its_state() -> None:
     with pytest.raises(ca.RunError):
         loop.advance(1, u=[1e9, 0, 0])
     assert (loop.momentum == before).all()
+
+
+def test_events_that_end_runs_have_derivatives() -> None:
+    def low(t: float, g: np.ndarray, mu: np.ndarray) -> float:
+        return float(mu[2] - 0.6 + 0.1 * g[0, 0])
+
+    low.terminal = True  # type: ignore[attr-defined]
+
+    def run(start: np.ndarray, c: float) -> ca.Run:
+        torque = ["0", "c*g[2][0]", "-z/5"]
+        system = ca.System("SO3", "x^2/3 + y^2/4 + z^2/5", coordinates="x y z", torque=torque, parameters=dict(c=c))
+        return system.simulate(start, time=20, step=0.05, events=low)
+
+    start, change = np.array([0.2, 0.5, 1.0]), np.array([0.5, -1, 0.25])
+    here = run(start, 0.3)
+    ahead, behind = run(start + 1e-4 * change, 0.3 + 1e-4), run(start - 1e-4 * change, 0.3 - 1e-4)
+    found = here.jvp(momentum=change, parameters=dict(c=1))
+    end = len(here) - 1
+    assert abs(found.time[end] - (ahead.time[-1] - behind.time[-1]) / 2e-4) < 1e-6 and not found.time[:end].any()
+    difference = (ahead.final_momentum - behind.final_momentum) / 2e-4
+    np.testing.assert_allclose(found.momentum[end], difference, atol=1e-6)
+    weights, times = np.zeros((len(here), 3)), np.zeros(len(here))
+    weights[-1], times[-1] = [0.5, 2, -1], 0.75
+    gradient = here.vjp(momentum=weights, time=times, parameters=["c"])
+    both = gradient.momentum @ change + gradient.parameters["c"]
+    assert abs(both - found.momentum[end] @ weights[-1] - 0.75 * found.time[end]) < 1e-11
+    assert here.monodromy().shape == (6, 6)

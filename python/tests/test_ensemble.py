@@ -138,3 +138,27 @@ def test_an_ensemble_runs_in_a_forked_process(body: ca.System) -> None:
 def _advance(work: tuple[ca.System, np.ndarray]) -> np.ndarray:
     system, rows = work
     return np.asarray(system.ensemble(rows, time=1, step=0.1))
+
+
+@pytest.mark.parametrize("hold", ["previous", "linear", "spline"])
+def test_rows_have_inputs_of_their_own(hold: str) -> None:
+    def driven(u: np.ndarray) -> ca.System:
+        given = dict(times=[0, 0.75, 2, 3.5], u=u.tolist(), v=[0.1, 0.2, 0.3, 0.1], hold=hold)
+        return ca.System("SO3", "x^2/3 + y^2/4 + z^2/5 + v*x", coordinates="x y z", torque=["u", "0", "-z/5"], inputs=given)
+
+    start, samples = states(11), states(11, 4)
+    final = driven(np.zeros(4)).ensemble(start, time=3, step=0.1, inputs={"u": samples})
+    for row in range(11):
+        alone = driven(samples[row]).simulate(start[row], time=3, step=0.1)
+        np.testing.assert_array_equal(final[row], alone.final_momentum)
+    system = driven(np.zeros(4))
+    middle = system.ensemble(start, time=3, step=0.1, inputs={"u": samples}, at=[1.25, 3], threads=1)
+    np.testing.assert_array_equal(middle[:, 1], final)
+    for wrong, words in [
+        ({"u": samples.T}, r"shape \[4, 11\]; 11 rows of 4 samples"),
+        ({"u": samples[0]}, r"shape \[4\]"),
+        ({"w": samples}, "is no input of the system; those with samples: u, v"),
+    ]:
+        with pytest.raises(InputError, match=words):
+            system.ensemble(start, time=3, step=0.1, inputs=wrong)
+    assert system.ensemble(start[:0], time=3, step=0.1, inputs={"u": samples[:0]}).shape == (0, 3)

@@ -1,15 +1,18 @@
 //! The derivatives of runs: forwards, backwards, over a period, and their growth.
 
+mod ending;
 #[cfg(test)]
 mod tests;
 
+use coadjoint_codegen::lie::LieAlgebra;
 use coadjoint_codegen::signal::{Gathered, Signal};
 use nalgebra::{DMatrix, DVector};
 
+use self::ending::{Ending, Slope};
 use crate::engine::{Carried, Motion, Numbers, Read, Reading, Sense, Tangents};
 use crate::error::RunError;
 use crate::load::Derived;
-use crate::simulate::{Schedule, Setup};
+use crate::simulate::{Event, Schedule, Setup};
 
 /// The derivatives of a run of N steps.
 ///
@@ -24,6 +27,9 @@ pub struct Derivatives<'a> {
     signals: &'a [Signal],
     start: Numbers,
     schedule: Schedule,
+    algebra: &'a LieAlgebra,
+    /// The event that ends the run, which is then the state after one step more than the whole ones.
+    ending: Option<Ending>,
 }
 
 /// k changes of what a run depends on.
@@ -60,7 +66,46 @@ impl<'a> Derivatives<'a> {
         let schedule = setup.schedule;
         let tangents = motion.tangents(setup.backend, schedule.steps as f64);
         let tangents = tangents.map_err(RunError::unmade)?;
-        Ok(Self { motion, tangents, signals: system.signals(), start, schedule })
+        let (signals, algebra, ending) = (system.signals(), system.facts().algebra, None);
+        Ok(Self { motion, tangents, signals, start, schedule, algebra, ending })
+    }
+
+    /// Of the run that this event ends at this time, within the step after those of the settings. The number of steps there is one
+    /// more than theirs, and tangents and cotangents have one row more, of the event's time: the others are of the state where the event
+    /// occurs. Of the event's function and of the motion there differences are taken.
+    pub fn until(mut self, event: Event, time: f64) -> Self {
+        self.ending = Some(Ending { event, time });
+        self
+    }
+
+    /// The number of the last state.
+    fn last(&self) -> u64 {
+        self.schedule.steps + u64::from(self.ending.is_some())
+    }
+
+    /// True if the step after `done` is that up to the event.
+    fn ends(&self, done: u64) -> bool {
+        self.ending.is_some() && done == self.schedule.steps
+    }
+
+    /// The rows of a tangent after this number of steps.
+    pub fn rows(&self, at: u64) -> usize {
+        2 * self.dim() + usize::from(at > self.schedule.steps)
+    }
+
+    /// When the parts of the step after `done` begin, and their sizes.
+    fn parts_of(&self, done: u64) -> Vec<[f64; 2]> {
+        let from = self.schedule.time(done);
+        match self.ending.as_ref().filter(|_| self.ends(done)) {
+            Some(Ending { time, .. }) if *time == from => Vec::new(),
+            Some(Ending { time, .. }) => self.motion.parts_of([from, time - from]),
+            None => self.motion.parts(done),
+        }
+    }
+
+    /// The event to first order at the state where it occurs.
+    fn slope(&self, ending: &Ending, state: &Numbers) -> Result<Slope, RunError> {
+        ending.slope(&self.motion, self.algebra, state).map_err(RunError::Option)
     }
 
     /// # Errors
@@ -110,11 +155,23 @@ impl<'a> Derivatives<'a> {
         [done, count]: [u64; 2],
         changes: Option<&Reading<'_>>,
     ) -> Result<(), RunError> {
-        let made = self.motion.carry(carried, [done, count], changes);
-        match made.map_err(|(more, error)| self.failed(done + more, &error))? {
-            made if made < count => Err(self.too_long(done + made)),
-            _ => self.finite(done + count, [&carried.columns]),
+        let whole = count.min(self.schedule.steps.saturating_sub(done));
+        let made = self.motion.carry(carried, [done, whole], changes);
+        let made = made.map_err(|(more, error)| self.failed(done + more, &error))?;
+        if made < whole {
+            return Err(self.too_long(done + made));
         }
+        let parts = if whole < count { self.parts_of(done + whole) } else { Vec::new() };
+        for part in parts {
+            let failed = |error| self.failed(done + whole, &error);
+            if let Some(changes) = changes {
+                carried.reading(&changes(&self.motion.read(part).map_err(failed)?));
+            }
+            if !self.motion.carry_part(carried, part).map_err(failed)? {
+                return Err(self.too_long(done + whole));
+            }
+        }
+        self.finite(done + count, [&carried.columns])
     }
 
     /// These tangents, 2n×k, with these changes of the parameters, q×k, at the start.
@@ -154,11 +211,11 @@ impl<'a> Derivatives<'a> {
     /// # Errors
     /// Fails if numbers of steps do not ascend, or the last is not in the run.
     fn ascending(&self, at: impl Iterator<Item = u64> + Clone) -> Result<(), RunError> {
-        let in_run = at.clone().all(|step| step <= self.schedule.steps);
+        let in_run = at.clone().all(|step| step <= self.last());
         if in_run && at.clone().zip(at.skip(1)).all(|(a, b)| a < b) {
             return Ok(());
         }
-        let what = format!("numbers of steps must ascend from 0 to {}", self.schedule.steps);
+        let what = format!("numbers of steps must ascend from 0 to {}", self.last());
         Err(RunError::Option(what))
     }
 
@@ -203,7 +260,17 @@ impl<'a> Derivatives<'a> {
         let mut found = Vec::new();
         for &at in at {
             self.carry(&mut carried, [done, at - done], changes)?;
-            found.push(carried.tangents().into_owned());
+            let fixed = carried.tangents().into_owned();
+            found.push(match self.ending.as_ref().filter(|_| at == self.last()) {
+                None => fixed,
+                Some(ending) => {
+                    let slope = self.slope(ending, &carried.state)?;
+                    let times = slope.times(&fixed);
+                    let mut moved = (fixed + &slope.motion * &times).insert_row(2 * n, 0.0);
+                    moved.row_mut(2 * n).copy_from(&times);
+                    moved
+                }
+            });
             done = at;
         }
         Ok(found)
@@ -212,7 +279,7 @@ impl<'a> Derivatives<'a> {
     /// The parts of the step after `done` from this state, with the states before them.
     fn parts(&self, done: u64, mut state: Numbers) -> Result<Vec<([f64; 2], Numbers)>, RunError> {
         let mut found = Vec::new();
-        let parts = self.motion.parts(done);
+        let parts = self.parts_of(done);
         for (number, &part) in parts.iter().enumerate() {
             found.push((part, state.clone()));
             if number + 1 < parts.len() {
@@ -262,6 +329,26 @@ impl<'a> Derivatives<'a> {
         Ok(read)
     }
 
+    /// The cotangent, at a fixed time, of what has this one where the event occurs, from the state after all whole steps.
+    fn at_fixed_time(
+        &self,
+        ending: &Ending,
+        state: &Numbers,
+        own: &DMatrix<f64>,
+    ) -> Result<DMatrix<f64>, RunError> {
+        let (two_n, done) = (2 * self.dim(), self.schedule.steps);
+        let mut state = state.clone();
+        for part in self.parts_of(done) {
+            let made = self.motion.part(&mut state, part);
+            made.map_err(|error| self.failed(done, &error))?;
+        }
+        let slope = self.slope(ending, &state)?;
+        let fixed = own.rows(0, two_n);
+        // The derivatives in the event's time.
+        let times = slope.motion.transpose() * fixed + own.row(two_n);
+        Ok(fixed - &slope.function * (times / slope.rate))
+    }
+
     /// The adjoint: the derivatives, in the start, in the parameters and in the samples of inputs, of k sums over the run, given as cotangents (2n×k)
     /// of the states after these numbers of steps, which ascend.
     ///
@@ -275,8 +362,13 @@ impl<'a> Derivatives<'a> {
         let (q, reads) = (tangents.parameters, tangents.reads);
         let (n, count) = (self.dim(), cotangents.last().map_or(0, |&(last, _)| last));
         let k = cotangents.first().map_or(0, |(_, first)| first.ncols());
-        if cotangents.iter().any(|(_, own)| own.shape() != (2 * n, k)) {
-            return Err(RunError::Option(format!("cotangents are {}×{k} numbers each", 2 * n)));
+        if cotangents.iter().any(|(at, own)| own.shape() != (self.rows(*at), k)) {
+            let what = format!(
+                "cotangents are {}×{k} numbers each, of an event that ends the run {}×{k}",
+                2 * n,
+                2 * n + 1
+            );
+            return Err(RunError::Option(what));
         }
         self.ascending(cotangents.iter().map(|&(step, _)| step))?;
         let stretch = count.isqrt().max(1);
@@ -315,10 +407,13 @@ impl<'a> Derivatives<'a> {
                 let done = first + number as u64;
                 if let Some((_, own)) = left.next_if(|(step, _)| *step == done + 1) {
                     let mut now = columns.rows_mut(0, 2 * n);
-                    now += own;
+                    match self.ending.as_ref().filter(|_| self.ends(done)) {
+                        None => now += own,
+                        Some(ending) => now += self.at_fixed_time(ending, &state, own)?,
+                    }
                 }
                 let parts = self.parts(done, state)?;
-                let divided = parts.len() > 1;
+                let divided = parts.len() > 1 || self.ends(done);
                 for (part, state) in parts.into_iter().rev() {
                     let own = (done, divided.then_some(part));
                     let weights = self.back(&mut carried, own, state, &mut columns)?;
@@ -348,7 +443,7 @@ impl<'a> Derivatives<'a> {
         Ok(Adjoint { state: now, parameters, inputs, kept })
     }
 
-    /// The monodromy matrix (2n×2n): the derivative of the state at the end in that at the start. Along a periodic or
+    /// The monodromy matrix (2n×2n): the derivative of the state after all whole steps in that at the start. Along a periodic or
     /// relatively periodic motion its eigenvalues are the Floquet multipliers.
     ///
     /// # Errors

@@ -218,6 +218,11 @@ impl Derived {
         Some(self.with(self.origin.without_velocity()?))
     }
 
+    /// This system with these inputs in place of its own.
+    pub(crate) fn with_signals(&self, signals: Vec<Signal>) -> Self {
+        self.with(self.origin.with_signals(signals))
+    }
+
     /// Other equations on the same group, with the same conserved quantities.
     fn with(&self, origin: Origin) -> Self {
         Self {

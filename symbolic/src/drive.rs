@@ -37,7 +37,7 @@ impl std::fmt::Debug for Acts {
 /// the time, and the values of the signals then; their slots are the symbols.
 #[derive(Clone, Debug)]
 pub struct Drive {
-    /// η, then τ, 2n outputs.
+    /// η, then τ, 2n outputs; where [a torque works](Drive::works) ⟨τ, ω⟩ too, without the potential's part.
     pub program: Program,
     /// As [`Programs::watched`].
     pub watched: Program,
@@ -150,6 +150,7 @@ impl Drive {
             expressions.extend(texts);
             symbols.extend(own_symbols);
         }
+        let of_user = tau.clone();
         let mut force = vec![graph.zero(); dim];
         let moving = potential.as_ref().is_some_and(|own| own.alone().is_some());
         let of_potential = symbols.len();
@@ -196,9 +197,15 @@ impl Drive {
             _ => None,
         };
         let lasting = potential.filter(|own| own.alone().is_none());
+        let omega = &all[places.omega()];
+        let power = |tau: &[Id]| {
+            let terms = tau.iter().zip(omega);
+            terms.fold(graph.zero(), |sum, (&tau, &omega)| graph.times_plus(tau, omega, sum))
+        };
+        let power = no_energy.map(|_| power(if lasting.is_some() { &of_user } else { &tau }));
         let torque = if no_energy.is_some() { Some(alone()) } else { lasting.clone() };
         Some(Self {
-            program: finish(&[eta.clone(), tau.clone()].concat()),
+            program: finish(&[eta, tau, power.into_iter().collect()].concat()),
             watched: finish(&watched),
             functions,
             expressions,
@@ -219,6 +226,11 @@ impl Drive {
     /// True if the energy falls: a velocity damps, and no torque acts but that of a potential.
     pub fn is_dissipative(&self) -> bool {
         self.damps && self.torque.as_ref().is_none_or(|torque| torque.alone().is_none())
+    }
+
+    /// True if a torque acts, of which the energy knows nothing.
+    pub fn works(&self) -> bool {
+        self.no_energy.is_some()
     }
 
     /// This drive without its velocity.

@@ -167,6 +167,7 @@ impl Smooth {
         let inputs = drive.inputs(entries, [mu, omega], time, &self.signals);
         let mut velocity = drive.program.run(&inputs, symbols.get(drive.first..).unwrap_or(&[]));
         let mut torque = velocity.split_off(mu.len());
+        torque.truncate(mu.len());
         for (sum, function) in [&mut velocity, &mut torque].into_iter().zip(&drive.functions) {
             let own = function.iter().flat_map(|function| function.0.acting(time, entries, mu));
             sum.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);

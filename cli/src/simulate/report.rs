@@ -33,6 +33,11 @@ pub(crate) fn report(runs: &[Trajectory], units: &Units, format: Format) -> Stri
     }
 }
 
+/// The energy at both ends, conserved or not.
+fn energies(end: &Outcome) -> Option<[f64; 2]> {
+    end.energy.or_else(|| end.work.map(|[start, end, _]| [start, end]))
+}
+
 /// A quantity without a number has no key; the error at the end, which every run is asked for, is null with the reason beside it.
 fn object(run: &Trajectory, units: &Units) -> Value {
     let end = &run.outcome;
@@ -69,8 +74,11 @@ fn object(run: &Trajectory, units: &Units) -> Value {
     if let Some(off) = end.off_group {
         object["off_group"] = json!(off);
     }
-    if let Some([start, end]) = end.energy {
+    if let Some([start, end]) = energies(end) {
         object["energy"] = json!({ "start": start, "end": end });
+    }
+    if let Some([.., work]) = end.work {
+        object["work"] = json!(work);
     }
     let mut given = serde_json::Map::new();
     given.extend(units.time.as_ref().map(|unit| ("time".to_owned(), json!(unit))));
@@ -192,8 +200,14 @@ fn text(run: &Trajectory, units: &Units) -> String {
     if let Some(off) = end.off_group.filter(|off| *off > 1e-12) {
         let _ = writeln!(out, "  gᵀg − 1    {off:>24.1e}");
     }
-    if let Some([_, energy]) = end.energy {
+    if let Some([_, energy]) = energies(end) {
         let _ = writeln!(out, "  energy     {:>24}", shortest(energy));
+    }
+    if let Some([start, end, work]) = end.work {
+        let change = shortest(end - start);
+        let work = shortest(work);
+        let _ =
+            writeln!(out, "  work       {work:>24} of the torque; the energy changed by {change}");
     }
     let _ = match &end.estimated_error {
         Ok(error) => writeln!(out, "  estimated relative error at the end {error:.1e}"),

@@ -7,6 +7,7 @@ use coadjoint_codegen::step::Origin;
 use coadjoint_codegen::system::Options;
 use num_traits::ToPrimitive;
 
+use super::ending::{coordinates, difference};
 use super::*;
 use crate::grid::Grid;
 use crate::load::read_varying;
@@ -58,39 +59,6 @@ impl Case {
             ..Setup::new(schedule, self.momentum.clone())
         }
     }
-}
-
-/// The eighth-order central difference of f at 0, and where it evaluates f.
-fn difference<T>(
-    spacing: f64,
-    f: impl Fn(f64) -> T,
-    less: impl Fn(&T, &T) -> DVector<f64>,
-) -> DVector<f64> {
-    let weights = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
-    let terms = weights.iter().zip(1..).map(|(&weight, k)| {
-        let at = spacing * f64::from(k);
-        less(&f(at), &f(-at)) * (weight / spacing)
-    });
-    terms.reduce(|a, b| a + b).unwrap()
-}
-
-/// The coordinates of g⁻¹ δg, both by rows.
-fn coordinates(algebra: &LieAlgebra, g: &[f64], change: &[f64]) -> DVector<f64> {
-    let generators: Vec<Vec<f64>> = algebra
-        .matrices()
-        .iter()
-        .map(|e| {
-            let places = (0..e.rows()).flat_map(|i| (0..e.columns()).map(move |j| (i, j)));
-            places.map(|(i, j)| e.get(i, j).to_f64().unwrap()).collect()
-        })
-        .collect();
-    let size = g.len().isqrt();
-    let body = DMatrix::from_row_slice(size, size, g).try_inverse().unwrap()
-        * DMatrix::from_row_slice(size, size, change);
-    let rows = DVector::from_vec(body.transpose().as_slice().to_vec());
-    let generators = DMatrix::from_fn(size * size, generators.len(), |i, j| generators[j][i]);
-    let gram = generators.tr_mul(&generators);
-    gram.try_inverse().unwrap() * generators.tr_mul(&rows)
 }
 
 /// The state after steps by the generic solver, its matrix by rows, with other values of the parameters.
@@ -178,7 +146,7 @@ fn tangents_are_the_derivatives_of_runs() {
                 let (a, b) = ([&a.g[..], &a.mu].concat(), [&b.g[..], &b.mu].concat());
                 DVector::from_vec(a) - DVector::from_vec(b)
             };
-            let change = difference(0.005, |s| at(column, s), less);
+            let change = difference(0.005, less, |s| Ok::<_, ()>(at(column, s))).unwrap();
             let (entries, nu) = change.as_slice().split_at(size * size);
             let xi = coordinates(algebra, &here.g, entries);
             let wanted = DVector::from_iterator(2 * n, xi.iter().chain(nu).copied());
@@ -216,7 +184,7 @@ fn tangents_of_a_step_are_those_in_doubled_precision() {
             let less = |a: &Vec<DoubleDouble>, b: &Vec<DoubleDouble>| {
                 DVector::from_iterator(a.len(), a.iter().zip(b).map(|(&a, &b)| (a - b).to_f64()))
             };
-            let change = difference(1.0 / 64.0, |s| at(column, s), less);
+            let change = difference(1.0 / 64.0, less, |s| Ok::<_, ()>(at(column, s))).unwrap();
             let (entries, nu) = change.as_slice().split_at(change.len() - n);
             let xi = coordinates(&problem.algebra, &here[..entries.len()], entries);
             let wanted = DVector::from_iterator(2 * n, xi.iter().chain(nu).copied());
@@ -320,6 +288,77 @@ fn multipliers_of_a_steady_rotation_are_known() {
         assert!(off.abs() < 1e-11, "power {k}: {off:e}");
         power *= &monodromy;
     }
+}
+
+/// The run of a case up to the first change of sign of z, with the samples and the momentum changed: when it ends, and its momentum there.
+fn until(case: &Case, system: &Derived, momentum: Vec<f64>) -> (Event, f64, u64, Vec<f64>) {
+    let event = Event {
+        name: "fallen".into(),
+        function: std::sync::Arc::new(|t, g, mu| Ok(mu[2] - 0.25 * g[8] - 0.125 * t + 0.25)),
+        direction: crate::simulate::Direction::Both,
+        terminal: true,
+    };
+    let setup = Setup { momentum, events: vec![event.clone()], ..case.setup(400) };
+    let outcome = crate::simulate::run(system, &setup, &mut Nothing).unwrap();
+    assert_eq!(outcome.events.len(), 1);
+    (event, outcome.time, outcome.steps, outcome.momentum)
+}
+
+struct Nothing;
+
+impl crate::simulate::Sink for Nothing {}
+
+/// A body with held samples of its torque, whose event lies within a step.
+fn held() -> Case {
+    let text = "group = 'SO3'\nhamiltonian = 'a*mu[0]^2 + mu[1]^2/3 + mu[2]^2/4'\ntorque = ['u', '0', '-mu[2]/2 + u/8']\n\
+                [parameters]\na = 0.5\n[inputs]\ntimes = [0, 1.9, 2.6, 40]\nu = [0.25, 0.5, -0.25, 0.25]\n\
+                hold = 'previous'\n[integrator]\ntruncation = 7";
+    Case { text, varied: vec!["a".into()], momentum: vec![0.25, 0.5, 1.0], step: 0.0625 }
+}
+
+#[test]
+fn events_that_end_runs_move_as_their_derivatives_say() {
+    let case = held();
+    let system = case.system();
+    let (event, time, steps, _) = until(&case, &system, case.momentum.clone());
+    assert!(time > 2.65 && time < 10.0, "{time}");
+    let derivatives = Derivatives::new(&system, &case.setup(steps)).unwrap().until(event, time);
+    let found = derivatives.forward(&all(&derivatives), &[steps, steps + 1]).unwrap().remove(1);
+    let n = 3;
+    let wanted = |column: usize| {
+        let less = |a: &DVector<f64>, b: &DVector<f64>| a - b;
+        let run = |s: f64| {
+            let mut momentum = case.momentum.clone();
+            let mut other = None;
+            match column {
+                j if j < n => momentum[j] += s,
+                j => other = Some(with_sample(&case, j - n, s)),
+            }
+            let (_, time, _, mu) = until(&case, other.as_ref().unwrap_or(&system), momentum);
+            Ok::<_, ()>(DVector::from_vec([&mu[..], &[time]].concat()))
+        };
+        difference(0.002, less, run).unwrap()
+    };
+    // The momenta at the start, and the samples, after the parameter.
+    for (number, column) in (n..2 * n).chain(2 * n + 1..2 * n + 4).enumerate() {
+        let wanted = wanted(number);
+        let off = (found.column(column).rows(n, n + 1) - &wanted).amax() / (1.0 + wanted.amax());
+        assert!(off < 1e-10, "column {column}: {off:e}");
+    }
+    let weights =
+        |rows: usize| DMatrix::from_fn(rows, 2, |i, j| ((1 + 3 * i + 7 * j) as f64).sin());
+    let adjoint = derivatives.backward(&[(steps + 1, weights(2 * n + 1))]).unwrap();
+    let wanted = found.tr_mul(&weights(2 * n + 1));
+    let own = [&adjoint.state, &adjoint.parameters, &adjoint.inputs[0]];
+    let rows: usize = own.iter().map(|own| own.nrows()).sum();
+    assert_eq!(rows, wanted.nrows());
+    let mut first = 0;
+    for own in own {
+        let off = (own - wanted.rows(first, own.nrows())).amax() / wanted.amax();
+        assert!(off < 1e-12, "{off:e}");
+        first += own.nrows();
+    }
+    assert!(matches!(derivatives.backward(&[(steps + 1, weights(6))]), Err(RunError::Option(_))));
 }
 
 #[test]

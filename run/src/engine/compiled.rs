@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use coadjoint::StepError;
 use coadjoint_codegen::integrator::Integrator;
+use coadjoint_codegen::signal::Signal;
 use coadjoint_codegen::step::{
     self, Convergence, DriftPrograms, Invariants, Observation, Origin, Step,
 };
@@ -149,6 +150,8 @@ pub(crate) struct Compiled {
     /// True if a comoving frame moves: then each step is a block of its own, so that bits do not depend on how a run is
     /// cut into pieces.
     framed: bool,
+    /// Inputs in place of those of the system.
+    signals: Option<Arc<[Signal]>>,
 }
 
 impl std::fmt::Debug for Compiled {
@@ -191,7 +194,12 @@ impl Compiled {
         let framed = step.kernel().programs.frame.is_some();
         let code = kept.codes.code(step.kernel(), backend, steps, trajectories)?;
         let code = Arc::new(code);
-        Ok(Some(Arc::new(Self { programs, folded, code, framed })))
+        Ok(Some(Arc::new(Self { programs, folded, code, framed, signals: None })))
+    }
+
+    /// These steps with other inputs.
+    pub(crate) fn with_signals(&self, signals: &[Signal]) -> Arc<Self> {
+        Arc::new(Self { signals: Some(signals.into()), ..self.clone() })
     }
 
     /// Replaces the folded coefficients by those of another size or other parameters.
@@ -207,6 +215,30 @@ impl Compiled {
     /// Lets the next step of a state know none before it.
     pub(super) fn forget(&self, state: &mut Numbers) {
         self.programs.step.forget(&mut state.g);
+    }
+
+    /// Marks the work of the torque as not known: the step to this state was made elsewhere.
+    pub(super) fn lose_work(&self, state: &mut Numbers) {
+        if let Some(at) = self.step().work_at() {
+            state.g[at] = f64::NAN;
+        }
+    }
+
+    /// The energy at both ends of a run, of these times, and the work of a torque between them; none where it is not known.
+    pub(crate) fn work(&self, ends: [(f64, &Numbers); 2]) -> Option<[f64; 3]> {
+        let at = self.step().work_at()?;
+        let energy = |(time, state): (f64, &Numbers)| {
+            let watched = self.kernel().watch(&self.coefficients_at(time), &state.g, &state.mu);
+            watched.first().copied()
+        };
+        let [start, end] = ends;
+        let work = [energy(start)?, energy(end)?, end.1.g[at] - start.1.g[at]];
+        work.iter().all(|number| number.is_finite()).then_some(work)
+    }
+
+    /// The numbers of an element without those that steps leave to the next one.
+    pub(crate) fn lasting<'a>(&self, g: &'a [f64]) -> &'a [f64] {
+        &g[..g.len().saturating_sub(self.step().memory())]
     }
 
     /// These steps with another size or other values of the parameters.
@@ -321,11 +353,16 @@ impl Compiled {
         Some(own)
     }
 
+    /// Puts the times of the step from this time among its coefficients.
+    fn set_time(&self, slots: &mut [f64], time: f64) {
+        self.step().set_time_by(self.signals.as_deref(), slots, [self.folded.size, time]);
+    }
+
     /// The coefficients of the step from this time.
     pub(super) fn coefficients_at(&self, time: f64) -> Cow<'_, [f64]> {
         let mut slots = Cow::Borrowed(self.coefficients());
         if self.step().moves() {
-            self.step().set_time(slots.to_mut(), self.folded.size, time);
+            self.set_time(slots.to_mut(), time);
         }
         slots
     }
@@ -355,7 +392,7 @@ impl Compiled {
             let number = first + done;
             if moves {
                 let grid = Grid { start, step: self.folded.size };
-                self.programs.step.set_time(slots.to_mut(), grid.step, grid.time(number));
+                self.set_time(slots.to_mut(), grid.time(number));
             }
             let Numbers { g, mu } = numbers;
             let made = self.code().stepper(self.kernel()).advance(&slots, g, mu, asked);
@@ -424,7 +461,7 @@ impl Compiled {
                 break;
             }
             let grid = Grid { start, step: self.folded.size };
-            step.set_time(&mut slots, grid.step, grid.time(first + number));
+            self.set_time(&mut slots, grid.time(first + number));
             let own = stepper.advance_lanes(&slots, g, mu, 1, live);
             made = from_fn(|lane| made[lane] + own[lane]);
         }

@@ -167,6 +167,9 @@ impl<'a> Motion<'a> {
             advise(error, size, |shorter| step(&mut phase.clone(), shorter).is_ok())
         })?;
         *state = self.space.state(&next);
+        if let Some(compiled) = &self.space.compiled {
+            compiled.lose_work(state);
+        }
         Ok(solves)
     }
 
@@ -387,7 +390,12 @@ impl<'a> Motion<'a> {
 
     /// The parts of the step of this number, which end at breaks: when each begins, and its size.
     pub(crate) fn parts(&self, number: u64) -> Vec<[f64; 2]> {
-        self.breaks.parts([self.grid.time(number), self.grid.step])
+        self.parts_of([self.grid.time(number), self.grid.step])
+    }
+
+    /// The parts of a step of another size from a time.
+    pub(crate) fn parts_of(&self, step: [f64; 2]) -> Vec<[f64; 2]> {
+        self.breaks.parts(step)
     }
 
     /// The programs of parts of this size.

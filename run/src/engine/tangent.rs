@@ -172,7 +172,7 @@ impl Carried<'_> {
     }
 
     /// Sets the changes of the values that a step reads.
-    pub(super) fn reading(&mut self, changes: &DMatrix<f64>) {
+    pub(crate) fn reading(&mut self, changes: &DMatrix<f64>) {
         let first = self.columns.nrows() - self.tangents.reads;
         self.columns.rows_mut(first, changes.nrows()).copy_from(changes);
     }

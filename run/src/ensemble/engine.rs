@@ -13,6 +13,7 @@ use coadjoint_program::{Precision, Trajectories, WIDTH};
 use rayon::prelude::*;
 
 use super::course::Course;
+use super::disturbed::{Disturbance, Disturbed};
 use super::layout::{Attitude, Layout, Shape};
 use super::march::{March, Overall, Way, Ways, stop};
 use crate::backend::Backend;
@@ -151,6 +152,8 @@ pub struct Engine<'a> {
     /// With the parameters as the file has them.
     motion: Motion<'a>,
     compiled: Option<Arc<Compiled>>,
+    /// Samples of inputs that rows have of their own.
+    disturbed: Disturbed,
     card: Option<Mutex<Card>>,
     /// Rows of which the device has refused a step.
     redone: AtomicU64,
@@ -167,14 +170,30 @@ impl<'a> Engine<'a> {
     /// # Errors
     /// Fails if the step makes no sense, or the backend or device that the user named cannot be had.
     pub fn new(system: &'a Derived, grid: Grid, how: How) -> Result<Self, RunError> {
+        Self::disturbed(system, grid, how, (Vec::new(), 0))
+    }
+
+    /// As [`Engine::new`], for this many rows, with samples of inputs that each has of its own.
+    ///
+    /// # Errors
+    /// As [`Engine::new`], and where the samples do not fit.
+    pub fn disturbed(
+        system: &'a Derived,
+        grid: Grid,
+        how: How,
+        (given, rows): (Vec<Disturbance>, usize),
+    ) -> Result<Self, RunError> {
+        let disturbed = Disturbed::new(system.signals(), given, rows)?;
         // Lanes have their coefficients in common.
-        let alike = system.facts().parameters.is_empty();
+        let alike = system.facts().parameters.is_empty() && disturbed.is_empty();
         let (trajectories, work) = if alike && system.alike() {
             (Trajectories::Lanes, how.work)
         } else if how.device.is_some() {
             let what = match alike {
                 true => "--device: steps that call a function are not made on devices",
-                false => "--device: parameters that vary from row to row are not made on devices",
+                false => {
+                    "--device: parameters or inputs that vary from row to row are not made on devices"
+                }
             };
             return Err(RunError::Option(what.to_owned()));
         } else {
@@ -195,6 +214,7 @@ impl<'a> Engine<'a> {
             grid,
             motion,
             compiled,
+            disturbed,
             card,
             redone,
             running,
@@ -279,11 +299,11 @@ impl<'a> Engine<'a> {
             stop(&mut ways[place], Some((0, String::new())));
         }
         let (overall, before) = (Overall::default(), states.clone());
-        if layout.parameters.is_empty() && self.system.alike() {
+        if layout.parameters.is_empty() && self.disturbed.is_empty() && self.system.alike() {
             self.march(&mut ways, &mut states, &overall, course, watch)?;
         } else {
             let all = (&mut ways[..], &mut states, &overall);
-            self.march_varied(layout, all, &rows.values, course, watch);
+            self.march_varied(layout, all, (&rows.values, rows.first), course, watch);
         }
         if watch.stop.load(Ordering::Relaxed) {
             return Err(RunError::Halted { time: self.grid.start, step: 0 });
@@ -537,12 +557,34 @@ impl<'a> Engine<'a> {
         Ok(())
     }
 
-    /// Makes the steps of all states, each with the values of its own of the parameters that vary.
+    /// Makes the steps of the row of this number, from 0, with this momentum at the start, with its own inputs.
+    ///
+    /// # Errors
+    /// The reason for which there are none.
+    fn with_inputs(
+        &self,
+        (row, momentum): (usize, &[f64]),
+        parameters: &[f64],
+        course: &Course,
+        follow: impl FnOnce(&Motion<'_>),
+    ) -> Result<(), String> {
+        let system = self.system;
+        let signals = self.disturbed.of_row(system.signals(), row)?;
+        let compiled = self.compiled.as_ref().map(|own| own.with_signals(&signals));
+        let system = system.with_signals(signals);
+        let said = |error: RunError| error.to_string();
+        system.resolves(self.grid, course.steps, Some(momentum)).map_err(said)?;
+        let motion = system.with_parameters(self.grid, parameters, compiled.as_ref());
+        follow(&motion.map_err(|error| error.to_string())?);
+        Ok(())
+    }
+
+    /// Makes the steps of all states, each with the values of its own of the parameters that vary, and with its own inputs.
     fn march_varied(
         &self,
         layout: &Layout,
         (ways, states, overall): (&mut Ways, &mut States, &Overall),
-        values: &[f64],
+        (values, first): (&[f64], u64),
         course: &Course,
         watch: &Watch<'_>,
     ) {
@@ -550,7 +592,7 @@ impl<'a> Engine<'a> {
         let compiled = self.compiled.as_ref();
         let motion = || self.system.steps(self.grid, compiled).ok();
         let (width, state, length) = (layout.width(), layout.state(), states.length());
-        let advance = |motion: &mut Option<Motion<'_>>, ((ways, block), rows): Piece<'_>| {
+        let advance = |motion: &mut Option<Motion<'_>>, (row, ((ways, block), rows)): Piece<'_>| {
             let Some(motion) = motion else { return };
             let own = || rows.chunks(width).map(|row| &row[state..]);
             let parameters: Vec<Vec<f64>> =
@@ -565,11 +607,20 @@ impl<'a> Engine<'a> {
                 }
                 match folded {
                     Ok(folded) => {
-                        motion.vary(parameters, folded);
-                        let march = March { motion, stop: watch.stop, overall };
-                        let mut state = march.state(block, lane);
-                        march.follow(way, &mut state, course);
-                        into_lane(block, lane, state.parts());
+                        let mut follow = |motion: &Motion<'_>| {
+                            let march = March { motion, stop: watch.stop, overall };
+                            let mut state = march.state(block, lane);
+                            march.follow(way, &mut state, course);
+                            into_lane(block, lane, state.parts());
+                        };
+                        if self.disturbed.is_empty() {
+                            motion.vary(parameters, folded);
+                            follow(motion);
+                        } else {
+                            let row = (row + lane, &rows[lane * width..][..layout.shape.dim]);
+                            let made = self.with_inputs(row, parameters, course, follow);
+                            stop(way, made.err().map(|why| (0, why)));
+                        }
                     }
                     Err(error) => {
                         let values = layout.parameters.iter().zip(own);
@@ -582,13 +633,16 @@ impl<'a> Engine<'a> {
             }
         };
         let (count, mut made) = (ways.len() as u64, 0);
+        let first = first.saturating_sub(1) as usize;
         let blocks = states.blocks_mut().chunks_mut(ROWS / WIDTH * length);
         for ((ways, blocks), values) in
             ways.chunks_mut(ROWS).zip(blocks).zip(values.chunks(ROWS * width))
         {
+            let before = first + made as usize;
             made += ways.len() as u64;
             let pieces = ways.par_chunks_mut(WIDTH).zip(blocks.par_chunks_mut(length));
-            let pieces = pieces.zip(values.par_chunks(WIDTH * width));
+            let pieces = pieces.zip(values.par_chunks(WIDTH * width)).enumerate();
+            let pieces = pieces.map(|(piece, own)| (before + piece * WIDTH, own));
             pieces.for_each_init(motion, advance);
             // As many steps as all rows had made if they had gone together.
             (watch.made)(course.steps * made / count);
@@ -596,8 +650,8 @@ impl<'a> Engine<'a> {
     }
 }
 
-/// Some rows: what is known of each, their states, and their values.
-type Piece<'a> = ((&'a mut Ways, &'a mut [f64]), &'a [f64]);
+/// Some rows: the number of the first one, from 0, what is known of each, their states, and their values.
+type Piece<'a> = (usize, ((&'a mut Ways, &'a mut [f64]), &'a [f64]));
 
 /// Rows with parameters of their own that are followed to their ends before the next.
 const ROWS: usize = 4096;

@@ -35,6 +35,9 @@ pub struct Outcome {
     pub off_group: Option<f64>,
     /// The energy at the start and at the end; none of a learned map.
     pub energy: Option<[f64; 2]>,
+    /// With a torque: the energy at the start and at the end, and the work ∫⟨τ, ω⟩ dt of the torque between them. None where it is not
+    /// known.
+    pub work: Option<[f64; 3]>,
     /// The maxima over all steps, recorded or not.
     pub drift: Drift,
     /// The sizes that drifts are relative to.
@@ -199,7 +202,7 @@ impl<'a> Recorder<'a> {
         let mut wrong = None;
         let sound = states
             .iter()
-            .map(|(time, state)| defined(*time, state).and_then(|()| self.sound(state)));
+            .map(|(time, state)| defined(*time, state).and_then(|()| self.sound(space, state)));
         let count = sound.map_while(|sound| sound.map_err(|what| wrong = Some(what)).ok()).count();
         let invariants = self.watched.invariants;
         // An energy that is conserved does not depend on the time.
@@ -226,11 +229,12 @@ impl<'a> Recorder<'a> {
     }
 
     /// Checks that all numbers of a state are finite.
-    fn sound(&self, state: &Numbers) -> Result<(), String> {
+    fn sound(&self, space: &Space, state: &Numbers) -> Result<(), String> {
         for (name, value) in self.watched.coordinates.iter().zip(&state.mu) {
             finite(&format_args!("the momentum {name}"), *value)?;
         }
-        state.g.iter().try_for_each(|number| finite("an entry of the group element", *number))
+        let g = space.compiled.as_ref().map_or(&state.g[..], |own| own.lasting(&state.g));
+        g.iter().try_for_each(|number| finite("an entry of the group element", *number))
     }
 
     /// The entries of the blocks of a matrix, row by row.
@@ -259,6 +263,7 @@ impl<'a> Recorder<'a> {
             off_group: off_group(blocks, &element),
             element,
             energy: energy.zip(moment.energy).map(|(start, end)| [start, end]),
+            work: None,
             drift,
             unmeasured,
             unknown: self.unknown,

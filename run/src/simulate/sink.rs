@@ -1,7 +1,7 @@
 //! The receiver of a run's records.
 
 use coadjoint_codegen::step::Scales;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::blocks::Block;
 use super::tally::{Moment, Tally};
@@ -83,11 +83,18 @@ pub struct Resume {
     /// μ.
     pub momentum: Vec<f64>,
     /// The numbers of g, as what makes the steps has them, and those that steps by collocation leave to the next one.
+    #[serde(deserialize_with = "numbers")]
     pub element: Vec<f64>,
     /// The number of requested times recorded so far.
     pub times: usize,
     /// The maxima so far.
     pub(crate) tally: Tally,
+}
+
+/// Numbers in a file, in which those that are not known are null.
+fn numbers<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<f64>, D::Error> {
+    let numbers = Vec::<Option<f64>>::deserialize(from)?;
+    Ok(numbers.into_iter().map(|number| number.unwrap_or(f64::NAN)).collect())
 }
 
 /// The receiver of a run's records, asked now and then whether to go on. Methods that it does not need do nothing.

@@ -3,8 +3,8 @@
 //!
 //! The numbers solved for are hẋᵢ of all nodes, then hṗᵢ of all, with a torque its impulse, then the residual of the sweep before and the
 //! sweeps made. A solution is read as x, two measures of how well the nodes resolve the step and the sweeps made, each as a share of its
-//! limit, the rates with the impulse, the momenta at the nodes, and the impulse as the start sees it. Steps leave differences of their
-//! rates to the next one, beside the group element. Steps that are not ordinary ones are refused: the runtime makes them in parts.
+//! limit, the rates with the impulse, the momenta at the nodes, the impulse as the start sees it, and the work h Σ bᵢ ⟨τᵢ, ωᵢ⟩. Steps leave
+//! differences of their rates to the next one, and the sum of the work, beside the group element. Steps that are not ordinary ones are refused: the runtime makes them in parts.
 //!
 //! A velocity η adds to ∂H/∂μ at the nodes, and a torque τ adds (d^R exp_{−xᵢ})ᵀ τᵢ to ṗᵢ. Its impulse K = h Σ bᵢ Ad\*_{exp(xᵢ)} τᵢ, as
 //! the middle of the step sees it, adds Ad\*_{exp(x/2)} K to the momentum at the start, with the x of the sweep that gave K, before the group
@@ -76,11 +76,13 @@ pub(super) fn times(nodes: usize) -> Vec<f64> {
 }
 
 /// Numbers that a step leaves to the next one: the count of steps, as far as they matter, and differences of their
-/// rates. A flow between kicks goes on from none, and leaves none.
+/// rates; then the work of a torque so far. A flow between kicks goes on from none, and leaves none.
 pub(super) fn memory(smooth: &Smooth) -> usize {
     match smooth.kicks {
         Some(_) => 0,
-        None => 1 + KEPT * (2 * smooth.algebra.dim() * smooth.nodes() + impulse(smooth)),
+        None => {
+            1 + KEPT * (2 * smooth.algebra.dim() * smooth.nodes() + impulse(smooth)) + work(smooth)
+        }
     }
 }
 
@@ -88,6 +90,12 @@ pub(super) fn memory(smooth: &Smooth) -> usize {
 fn impulse(smooth: &Smooth) -> usize {
     let torque = smooth.drive.as_ref().and_then(|drive| drive.torque.as_ref());
     torque.map_or(0, |_| smooth.algebra.dim())
+}
+
+/// The numbers of a torque's work: none where there is none.
+pub(super) fn work(smooth: &Smooth) -> usize {
+    let works = smooth.drive.as_ref().is_some_and(|drive| drive.works());
+    usize::from(works && smooth.kicks.is_none())
 }
 
 /// The place of the radius among the coefficients: after the symbols, h, and the coefficients of kicks.
@@ -130,7 +138,7 @@ pub(super) fn kernel(smooth: &Smooth, group: &Product) -> Result<Kernel, StepErr
         dim: step.n,
         element: group.element(),
         unknowns: solved + OTHERS,
-        solution: step.n + MEASURES + solved + step.n * step.nodes() + step.impulse,
+        solution: step.n + MEASURES + solved + step.n * step.nodes() + step.impulse + step.work,
         tolerance: SOLVED,
         near: 0.0,
         corrections: MAX_SWEEPS,
@@ -149,8 +157,9 @@ struct Assembly<'a> {
     structure: Structure,
     /// The drive, and if its programs read the group element.
     drive: Option<(&'a Drive, bool)>,
-    /// The numbers of an impulse.
+    /// The numbers of an impulse, and of its work.
     impulse: usize,
+    work: usize,
 }
 
 /// Vectors at nodes.
@@ -178,6 +187,8 @@ struct Sweep {
     defect: Id,
     /// The impulse of the torque, and as the start sees it; empty without one.
     impulse: [Vec<Id>; 2],
+    /// The work of the torque, where there is one.
+    work: Vec<Id>,
 }
 
 /// hẋᵢ and hṗᵢ at the nodes.
@@ -260,8 +271,8 @@ impl<'a> Assembly<'a> {
         let element = group.element() - memory(smooth);
         let drive = smooth.drive.as_deref();
         let drive = drive.map(|drive| (drive, drive.reads_element()));
-        let (gauss, impulse) = (Gauss::new(smooth.nodes()), impulse(smooth));
-        Self { smooth, group, n, element, gauss, structure, drive, impulse }
+        let (gauss, impulse, work) = (Gauss::new(smooth.nodes()), impulse(smooth), work(smooth));
+        Self { smooth, group, n, element, gauss, structure, drive, impulse, work }
     }
 
     /// The rates, and the impulse.
@@ -381,7 +392,9 @@ impl<'a> Assembly<'a> {
         let mu = inputs(&graph, self.element + memory.len(), self.n);
         let zero = graph.zero();
         let guess = match memory.split_first() {
-            Some((&count, differences)) => self.extrapolated(&graph, count, differences),
+            Some((&count, rest)) => {
+                self.extrapolated(&graph, count, &rest[..rest.len() - self.work])
+            }
             None => vec![zero; self.solved()],
         };
         let (rates, impulse) = guess.split_at(self.rates());
@@ -456,10 +469,10 @@ impl<'a> Assembly<'a> {
             outputs.extend(rows(&acting[..n], &by_element));
         }
         if of_torque {
-            outputs.extend(rows(&acting[n..], &by_momentum));
+            outputs.extend(rows(&acting[n..2 * n], &by_momentum));
         }
         if of_place {
-            outputs.extend(rows(&acting[n..], &by_element));
+            outputs.extend(rows(&acting[n..2 * n], &by_element));
         }
         let program = own.finish(all.len() + entries, &outputs);
         let mut arguments = [mu, &self.time(graph, 1)].concat();
@@ -520,7 +533,8 @@ impl<'a> Assembly<'a> {
         let in_units = |numbers: &[Id]| largest_in_units(&graph, numbers, &self.smooth.units, 1);
         let mut scale = in_units(&mu);
         let sweep = self.sweep(&graph, &rates, (&mu, &impulse), &g);
-        let Sweep { momenta, change, sizes: [of_x, mut of_p], defect, impulse: pushes } = sweep;
+        let Sweep { momenta, change, sizes: [of_x, mut of_p], defect, impulse: pushes, work } =
+            sweep;
         if self.impulse > 0 {
             scale = graph.max(scale, in_units(&impulse));
             of_p = graph.max(of_p, in_units(&plus(&graph, &pushes[0], -1.0, &impulse)));
@@ -555,6 +569,7 @@ impl<'a> Assembly<'a> {
         outputs.extend(x.into_iter().chain(measures).chain(solved));
         outputs.extend(by_coordinate(&momenta));
         outputs.extend_from_slice(&pushes[1]);
+        outputs.extend(work);
         outputs.extend([left, defect]);
         graph.finish(count + OTHERS + n + constants + g.len(), &outputs)
     }
@@ -590,8 +605,17 @@ impl<'a> Assembly<'a> {
                 [middle, start]
             }
         };
+        let work = match self.work {
+            0 => Vec::new(),
+            _ => {
+                let weights = constants(graph, &self.gauss.weights);
+                let works: Rows = each(4 * n + 3).map(|work| vec![work]).collect();
+                mixed(graph, &[graph.zero()], &weights, &works)
+            }
+        };
         Sweep {
             impulse,
+            work,
             momenta: part(0),
             change: Rates { x: part(n), p: part(2 * n) },
             sizes: [0, 1].map(|at| greatest(graph, each(3 * n + at))),
@@ -601,7 +625,7 @@ impl<'a> Assembly<'a> {
 
     /// The weights of a node, its time, its rates, all rates, the momentum in the middle, the element there where a drive reads it ↦ the
     /// momentum at the node, the changes of its rates, their sizes, 0 or, where a number is not finite, none; with a torque h times
-    /// that, as the middle of the step sees it.
+    /// that, as the middle of the step sees it, and h times its power.
     fn sweep_at_node(&self) -> Program {
         let (graph, n, m) = (Graph::new(), self.n, self.nodes());
         let mut inputs = Inputs(&graph, 0);
@@ -614,13 +638,15 @@ impl<'a> Assembly<'a> {
         let momentum = self.group.node_momentum(&graph, &x, &p, degree(m));
         let gradient = graph.call(&self.smooth.gradient, &[&momentum[..], &time].concat());
         let step = self.step(&graph);
-        let (mut velocity, mut torque) = (gradient.clone(), Vec::new());
+        let (mut velocity, mut torque, mut work) = (gradient.clone(), Vec::new(), Vec::new());
         if let Some((drive, _)) = self.drive {
             let g = if g.is_empty() { g } else { self.moved(&graph, &g, &x) };
             let matrix = self.matrix(&graph, &g, drive.entries);
             let acting = self.driven(&graph, drive, [&matrix, &momentum, &gradient, &time]);
             velocity = plus(&graph, &velocity, 1.0, &acting[..n]);
-            torque = acting[n..n + self.impulse].iter().map(|&it| graph.mul(step, it)).collect();
+            let times_step = |list: &[Id]| list.iter().map(|&it| graph.mul(step, it)).collect();
+            torque = times_step(&acting[n..n + self.impulse]);
+            work = times_step(&acting[2 * n..]);
         }
         let omega: Vec<Id> = velocity.iter().map(|&entry| graph.mul(step, entry)).collect();
         let mut x_rates = graph.call(&self.equations(), &[&x[..], &p, &omega].concat());
@@ -639,7 +665,7 @@ impl<'a> Assembly<'a> {
         let sizes = [size(&change.x, -1), size(&change.p, 1)];
         let change = change.numbers();
         let defect = finite(&graph, &change);
-        graph.finish(count, &[&momentum[..], &change, &sizes, &[defect], &pushed].concat())
+        graph.finish(count, &[&momentum[..], &change, &sizes, &[defect], &pushed, &work].concat())
     }
 
     /// The entries of the matrix of an element, as many zeros where it is not read.
@@ -652,7 +678,7 @@ impl<'a> Assembly<'a> {
         self.group.matrix(graph, &g).entries().to_vec()
     }
 
-    /// η and τ by the entries of the matrix, the momentum, ∂H/∂μ and the time.
+    /// η and τ, and the power of τ where it works, by the entries of the matrix, the momentum, ∂H/∂μ and the time.
     fn driven(&self, graph: &Graph, drive: &Drive, state: [&[Id]; 4]) -> Vec<Id> {
         let mut inputs = state.concat();
         inputs.resize(drive.program.inputs(), graph.zero());
@@ -843,7 +869,7 @@ impl<'a> Assembly<'a> {
         let (graph, n) = (Graph::new(), self.n);
         let momenta = n + MEASURES + self.solved();
         let impulse = momenta + n * self.nodes();
-        let solution = inputs(&graph, n, impulse + self.impulse);
+        let solution = inputs(&graph, n, impulse + self.impulse + self.work);
         let last = n + solution.len();
         let [left, distance] = [last, last + 1].map(|i| graph.input(i));
         let tolerance = graph.constant(SOLVED / f64::EPSILON);
@@ -855,24 +881,26 @@ impl<'a> Assembly<'a> {
         let tests = [(left, tolerance), (distance, zero), (extent, one)].into_iter();
         let nodes = by_node(n, &solution[momenta..impulse]);
         let (mu, anywhere) = (inputs(&graph, 0, n), vec![zero; self.group.element()]);
-        let pushed = self.pushed(&graph, &mu, &solution[impulse..]);
+        let pushed = self.pushed(&graph, &mu, &solution[impulse..][..self.impulse]);
         let end = self.group.transport(&graph, &anywhere, &solution[..n], &pushed).mu;
         let reach = self.reach(&graph, &mu, &nodes, &end);
         let tests: Vec<_> = tests.chain(measures).chain([(reach, one)]).collect();
         graph.finish(last + 2, &[all_at_most(&graph, &tests)])
     }
 
-    /// g, μ, the solution ↦ the state moved by the increment, with the differences of the rates for the next step.
+    /// g, μ, the solution ↦ the state moved by the increment, with the differences of the rates for the next step, and the work.
     fn transport(&self) -> Program {
         let (graph, n, rates) = (Graph::new(), self.n, self.solved());
         let g = inputs(&graph, 0, self.group.element());
         let mu = inputs(&graph, g.len(), n);
         let impulse = n + MEASURES + rates + n * self.nodes();
-        let solution = inputs(&graph, g.len() + n, impulse + self.impulse);
-        let mu = self.pushed(&graph, &mu, &solution[impulse..]);
+        let solution = inputs(&graph, g.len() + n, impulse + self.impulse + self.work);
+        let (impulse, work) = solution[impulse..].split_at(self.impulse);
+        let mu = self.pushed(&graph, &mu, impulse);
         let Moved { g: mut outputs, mu } = self.group.transport(&graph, &g, &solution[..n], &mu);
         outputs.truncate(self.element);
-        if let Some((&count, differences)) = g[self.element..].split_first() {
+        if let Some((&count, rest)) = g[self.element..].split_first() {
+            let (differences, before) = rest.split_at(rest.len() - self.work);
             let [one, most] = [1.0, KEPT as f64].map(|value| graph.constant(value));
             outputs.push(graph.min(graph.add(count, one), most));
             let program = differences_after();
@@ -882,6 +910,7 @@ impl<'a> Assembly<'a> {
             };
             let rows = graph.call_each(&program, &(0..rates).map(row).collect::<Vec<_>>());
             outputs.extend((0..KEPT).flat_map(|order| rows.iter().map(move |row| row[order])));
+            outputs.extend(before.iter().zip(work).map(|(&before, &work)| graph.add(before, work)));
         }
         outputs.extend(mu);
         graph.finish(g.len() + n + solution.len(), &outputs)

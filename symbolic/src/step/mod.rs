@@ -63,7 +63,9 @@ pub struct Step {
     splitting: Option<Splitting>,
     /// The times among the coefficients, where a step depends on them.
     moving: Option<Moving>,
+    /// The numbers that steps leave to the next one, and those of a torque's work among them, which are the last.
     memory: usize,
+    work: usize,
 }
 
 /// The times at which the programs of a step read the time and the signals then.
@@ -102,8 +104,8 @@ impl Step {
         let fold = FoldTable::placed(integrator, |at| (at <= radius_at).then_some(at));
         let symbols = integrator.problem.symbols.iter().map(|symbol| symbol.expr.clone()).collect();
         let splitting = integrator.kicks.as_ref().map(|kicks| kicks.splitting);
-        let (moving, memory) = (None, 0);
-        Ok(Self { kernel, group, fold, symbols, radius_at, splitting, moving, memory })
+        let (moving, memory, work) = (None, 0, 0);
+        Ok(Self { kernel, group, fold, symbols, radius_at, splitting, moving, memory, work })
     }
 
     /// The programs of a step of collocation in numbers of this precision, in the exponential chart about its middle. Without
@@ -148,7 +150,8 @@ impl Step {
         }
         let fold = FoldTable::of_symbols(smooth.symbols.len(), kicks, Some);
         let splitting = kicks.map(|kicks| kicks.splitting);
-        Ok(Self { kernel, group, fold, symbols, radius_at, splitting, moving, memory })
+        let work = collocation::work(smooth);
+        Ok(Self { kernel, group, fold, symbols, radius_at, splitting, moving, memory, work })
     }
 
     /// The programs.
@@ -194,7 +197,18 @@ impl Step {
     /// Puts the times at which programs ask for it, and the values of the signals there, among the coefficients of a step of
     /// this size that begins at this time.
     pub fn set_time(&self, slots: &mut [f64], step: f64, time: f64) {
+        self.set_time_by(None, slots, [step, time]);
+    }
+
+    /// As [`Step::set_time`], with other signals in place of the system's where there are any.
+    pub fn set_time_by(
+        &self,
+        others: Option<&[Signal]>,
+        slots: &mut [f64],
+        [step, time]: [f64; 2],
+    ) {
         let Some(Moving { first, times, signals }) = &self.moving else { return };
+        let signals = others.unwrap_or(signals);
         // Of the places those that the programs read.
         let put = |slots: &mut [f64], time: f64| {
             let values = std::iter::once(time).chain(signals.iter().map(|signal| signal.at(time)));
@@ -218,10 +232,15 @@ impl Step {
         self.memory
     }
 
-    /// Sets these numbers to 0, so that the next step knows none before it.
+    /// Sets these numbers to 0, but for the work, so that the next step knows none before it.
     pub fn forget(&self, g: &mut [f64]) {
-        let own = g.len().saturating_sub(self.memory);
-        g[own..].fill(0.0);
+        let (own, end) = (g.len().saturating_sub(self.memory), g.len().saturating_sub(self.work));
+        g[own..end].fill(0.0);
+    }
+
+    /// The place among an element's numbers of the work ∫⟨τ, ω⟩ dt of a torque, where one acts, since it was 0.
+    pub fn work_at(&self) -> Option<usize> {
+        (self.work > 0).then(|| self.kernel.element - 1)
     }
 
     /// The values of the same expressions for rows of parameters side by side.

@@ -72,6 +72,15 @@ impl Origin {
         Some(Self::from(Smooth { drive, ..(**smooth).clone() }))
     }
 
+    /// This system with these inputs in place of its own; one by a series has none.
+    pub fn with_signals(&self, signals: Vec<Signal>) -> Self {
+        let mut own = self.clone();
+        if let Self::Collocation(smooth) = &mut own {
+            smooth.signals = signals;
+        }
+        own
+    }
+
     /// The programs of a step in numbers of this precision.
     ///
     /// # Errors

@@ -115,6 +115,12 @@ fn opening(
         Language::C => " for C99 and C++11",
         Language::Cpp => " for C++11",
     };
+    let work = match step.work_at() {
+        Some(_) => {
+            " The last one is the work of the torque since it was 0, to the order of the step."
+        }
+        None => "",
+    };
     let unit = options.time.as_ref().map(|unit| format!(" in {}", c_comment(unit)));
     let mut values = header::system(facts, origin.kicks(), &Method::of(origin), c_comment);
     values.extend([
@@ -127,6 +133,7 @@ fn opening(
         ("NOW", when(kernel.clock().is_some(), ", time")),
         ("UNIT", unit.unwrap_or_default()),
         ("MEMORY", step.memory().to_string()),
+        ("WORK", work.to_owned()),
         ("NEITHER", (origin.series().is_none() && step.memory() == 0).to_string()),
         ("COSTS", header::costs(kernel)),
         ("COEFFICIENTS", numbers.to_string()),
