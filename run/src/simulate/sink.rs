@@ -166,4 +166,14 @@ mod tests {
             Begun { coordinates: &coordinates[1..2], blocks: &[], known, energy: false, ..whole };
         assert_eq!(part.columns(), names(&["time", "energy", "casimir_drift"]));
     }
+
+    #[test]
+    fn numbers_that_are_not_known_go_through_files() {
+        let (element, tally) = (vec![0.5, f64::NAN], Tally::default());
+        let state = Resume { step: 7, momentum: vec![1.0], element, times: 0, tally };
+        let text = serde_json::to_string(&state).unwrap_or_default();
+        let back: Option<Resume> = serde_json::from_str(&text).ok();
+        let element = back.map_or_else(Vec::new, |back| back.element);
+        assert!(matches!(element[..], [first, last] if first == 0.5 && last.is_nan()), "{text}");
+    }
 }
