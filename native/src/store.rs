@@ -53,7 +53,7 @@ impl Store {
         Self::new(folder, MOST)
     }
 
-    /// A store in this folder of at most so many bytes; `None` as for [`Store::of_user`].
+    /// A store in this folder of at most this many bytes; `None` as for [`Store::of_user`].
     pub fn new(folder: PathBuf, most: u64) -> Option<Self> {
         processor()?;
         (folder.is_absolute() && own_folder(&folder)?).then_some(Self { folder, most })

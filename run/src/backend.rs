@@ -251,7 +251,7 @@ impl Drop for Code {
 #[derive(Debug)]
 pub(crate) struct Running {
     code: Arc<Code>,
-    /// What has made steps, as bits: the interpreter, the first machine code, the better one.
+    /// The makers of steps so far, as bits: the interpreter, the first machine code, the better one.
     used: AtomicU8,
 }
 
