@@ -107,14 +107,14 @@ struct Worker {
     thread: JoinHandle<()>,
     /// Ends it.
     stop: Arc<AtomicBool>,
-    /// True if it runs a compiler, which must not be left behind; Cranelift ends by itself, after half a second at most.
-    by_compiler: bool,
+    /// True while it runs a compiler, which must not be left behind; Cranelift ends by itself, after half a second at most.
+    compiling: Arc<AtomicBool>,
 }
 
 impl Worker {
     fn end(self) {
-        self.stop.store(true, Ordering::Relaxed);
-        if self.by_compiler {
+        self.stop.store(true, Ordering::SeqCst);
+        if self.compiling.load(Ordering::SeqCst) {
             // One that panicked has made nothing.
             let _ = self.thread.join();
         }
@@ -128,6 +128,8 @@ pub(crate) struct Code {
     coming: Arc<Coming>,
     /// The compiler that ends with the run that began it, and the one that goes on for later runs.
     workers: [Mutex<Option<Worker>>; 2],
+    /// True once better machine code was asked for.
+    improved: AtomicBool,
     trajectories: Trajectories,
 }
 
@@ -146,7 +148,8 @@ impl Code {
         [steps, before]: [f64; 2],
         trajectories: Trajectories,
     ) -> Result<Self, RunError> {
-        let code = Self { coming: Arc::default(), workers: Default::default(), trajectories };
+        let (coming, workers, improved) = Default::default();
+        let code = Self { coming, workers, improved, trajectories };
         match backend {
             Backend::Interpreter => {}
             Backend::Auto => {
@@ -175,7 +178,10 @@ impl Code {
         let (coming, kernel) = (self.coming.clone(), kernel.clone());
         let (trajectories, stop) = (self.trajectories, Arc::<AtomicBool>::default());
         let (best, stopped) = (plan.first().copied(), stop.clone());
-        let by_compiler = plan.contains(&Backend::C);
+        // Later runs need no better code, and do not ask why there is none.
+        let needed = coming.best().is_none();
+        let compiling = Arc::<AtomicBool>::default();
+        let at_work = compiling.clone();
         coming.over.store(false, Ordering::Relaxed);
         let work = move || {
             let kept = Backend::kept(&kernel, trajectories);
@@ -185,7 +191,8 @@ impl Code {
                 order.reverse();
             }
             for backend in order {
-                if stopped.load(Ordering::Relaxed) {
+                at_work.store(backend == Backend::C, Ordering::SeqCst);
+                if stopped.load(Ordering::SeqCst) {
                     break;
                 }
                 match backend.make(&kernel, trajectories, &stopped) {
@@ -195,11 +202,12 @@ impl Code {
                             break;
                         }
                     }
-                    Err(_) if stopped.load(Ordering::Relaxed) => break,
-                    Err(error) => {
+                    Err(_) if stopped.load(Ordering::SeqCst) => break,
+                    Err(error) if needed => {
                         let mut notes = coming.notes.lock().unwrap_or_else(PoisonError::into_inner);
                         notes.push(format!("{error}; the run goes on without it"));
                     }
+                    Err(_) => {}
                 }
             }
             coming.over.store(true, Ordering::Relaxed);
@@ -207,7 +215,7 @@ impl Code {
         match std::thread::Builder::new().spawn(work) {
             Ok(thread) => {
                 let own = &self.workers[usize::from(lasting || best != Some(Backend::C))];
-                let worker = Worker { thread, stop, by_compiler };
+                let worker = Worker { thread, stop, compiling };
                 *own.lock().unwrap_or_else(PoisonError::into_inner) = Some(worker);
             }
             Err(_) => self.coming.over.store(true, Ordering::Relaxed),
@@ -220,7 +228,8 @@ impl Code {
         let single = self.coming.made[1].get().is_none();
         let known = self.coming.best().map(|(_, made)| made.backend);
         let known = known.filter(|known| over && single && *known != Backend::C);
-        if known.is_some_and(|by| worth_a_compiler(kernel, steps, self.trajectories, by)) {
+        let worth = known.is_some_and(|by| worth_a_compiler(kernel, steps, self.trajectories, by));
+        if worth && !self.improved.swap(true, Ordering::Relaxed) {
             self.start(vec![Backend::C], kernel, true);
         }
     }
