@@ -111,29 +111,19 @@ fn opening(
 ) -> String {
     let (facts, kernel) = (origin.facts(), step.kernel());
     let numbers = fold.len() * kernel.flows().map_or(1, |flows| flows as usize + 1);
-    let language = match options.language {
-        Language::C => " for C99 and C++11",
-        Language::Cpp => " for C++11",
-    };
-    let work = match step.work_at() {
-        Some(_) => {
-            " The last one is the work of the torque since it was 0, to the order of the step."
-        }
-        None => "",
-    };
     let unit = options.time.as_ref().map(|unit| format!(" in {}", c_comment(unit)));
     let mut values = header::system(facts, origin.kicks(), &Method::of(origin), c_comment);
     values.extend([
         ("C", "1".to_owned()),
         ("FILE", names.file()),
-        ("LANGUAGE", language.to_owned()),
+        ("C99", when(options.language == Language::C, "C99 and ")),
         ("LOWER", names.lower.clone()),
         ("UPPER", names.upper.clone()),
         ("PARAMETERS", when(!facts.parameters.is_empty(), ", &parameters")),
         ("NOW", when(kernel.clock().is_some(), ", time")),
         ("UNIT", unit.unwrap_or_default()),
         ("MEMORY", step.memory().to_string()),
-        ("WORK", work.to_owned()),
+        ("WORKS", step.work_at().is_some().to_string()),
         ("NEITHER", (origin.series().is_none() && step.memory() == 0).to_string()),
         ("COSTS", header::costs(kernel)),
         ("COEFFICIENTS", numbers.to_string()),
