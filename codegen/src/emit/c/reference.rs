@@ -116,7 +116,7 @@ fn opening(
     values.extend([
         ("C", "1".to_owned()),
         ("FILE", names.file()),
-        ("C99", when(options.language == Language::C, "C99 and ")),
+        ("STANDARD", when(options.language == Language::C, "C99 and ")),
         ("LOWER", names.lower.clone()),
         ("UPPER", names.upper.clone()),
         ("PARAMETERS", when(!facts.parameters.is_empty(), ", &parameters")),
