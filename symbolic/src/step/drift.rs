@@ -101,8 +101,8 @@ impl Start {
         }
     }
 
-    /// The drift of a state, as far as it can be [measured](Starts::measured). `beside` is what is conserved of the state whose
-    /// numbers are [nudged](nudge).
+    /// The drift of a state, as far as it can be measured: where rounding of a state alone may move a conserved quantity by more
+    /// than 1e-11 of its scale, there is none. `beside` is what is conserved of the state whose numbers are [nudged](nudge).
     pub fn measured(&self, now: &[f64], beside: &[f64]) -> Drift {
         Drift::of_numbers(self.alone().measured(alongside(now), alongside(beside)).map(|[own]| own))
     }
@@ -154,9 +154,7 @@ impl<const W: usize> Starts<'_, W> {
         ]
     }
 
-    /// The drifts as far as they can be measured, else NaN: where rounding of a state alone may move a conserved quantity by more
-    /// than 1e-11 of its scale, as it does after long motions in groups that are not compact, there is none. `beside` is what is
-    /// conserved of the states whose numbers are [nudged](nudge).
+    /// The drifts as [`Start::measured`] has them, else NaN. Rounding hides drifts after long motions in groups that are not compact.
     pub(super) fn measured(&self, now: &[[f64; W]], beside: &[[f64; W]]) -> [[f64; W]; 3] {
         let unknown = [f64::NAN; W];
         let mut drifts = self.between(self.conserved, now).map(|own| own.unwrap_or(unknown));
