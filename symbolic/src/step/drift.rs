@@ -92,81 +92,39 @@ impl Start {
 
     /// The drift of a state of which this is conserved.
     pub fn drift(&self, now: &[f64]) -> Drift {
-        let alone = self.alone();
-        let [spatial_momentum, casimirs, energy] = alone.between(alone.conserved, alongside(now));
+        self.between(&self.conserved, now)
+    }
+
+    /// The drift from one to another, on the scales of the start.
+    fn between(&self, then: &[f64], now: &[f64]) -> Drift {
+        let Self { momenta, scales, .. } = self;
+        let change = |at: usize, scale: f64| relative(now[at] - then[at], scale);
+        let casimirs = scales.casimirs.iter().enumerate();
+        let casimirs = casimirs.map(|(at, &scale)| change(momenta + at, scale));
+        let energy = momenta + scales.casimirs.len();
         Drift {
-            spatial_momentum: spatial_momentum.map(|[drift]| drift),
-            casimirs: casimirs.map(|[drift]| drift),
-            energy: energy.map(|[drift]| drift),
+            spatial_momentum: (0..*momenta)
+                .map(|at| change(at, scales.spatial_momentum))
+                .reduce(maximum),
+            casimirs: casimirs.reduce(maximum),
+            energy: (energy < then.len()).then(|| change(energy, scales.energy)),
         }
     }
 
-    /// The drift of a state, as far as it can be measured: where rounding of a state alone may move a conserved quantity by more
-    /// than 1e-11 of its scale, there is none. `beside` is what is conserved of the state whose numbers are [nudged](nudge).
+    /// The drift of a state, as far as it can be measured: where rounding of a state alone may move a conserved quantity by
+    /// more than 1e-11 of its scale, as it does after long motions in groups that are not compact, there is none. `beside`
+    /// is what is conserved of the state whose numbers are [nudged](nudge).
     pub fn measured(&self, now: &[f64], beside: &[f64]) -> Drift {
-        Drift::of_numbers(self.alone().measured(alongside(now), alongside(beside)).map(|[own]| own))
-    }
-
-    fn alone(&self) -> Starts<'_, 1> {
-        Starts {
-            conserved: alongside(&self.conserved),
-            momenta: self.momenta,
-            spatial_momentum: [self.scales.spatial_momentum],
-            casimirs: alongside(&self.scales.casimirs),
-            energy: [self.scales.energy],
-        }
-    }
-}
-
-/// Numbers of one state, as those of states side by side.
-fn alongside(numbers: &[f64]) -> &[[f64; 1]] {
-    numbers.as_chunks().0
-}
-
-/// The starts of W runs side by side.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Starts<'a, const W: usize> {
-    /// The conserved quantities: momenta, Casimirs, the energy if there is one.
-    pub conserved: &'a [[f64; W]],
-    /// The number of momenta among them.
-    pub momenta: usize,
-    /// The scales of the momenta.
-    pub spatial_momentum: [f64; W],
-    /// The scales of each Casimir.
-    pub casimirs: &'a [[f64; W]],
-    /// The scales of the energy.
-    pub energy: [f64; W],
-}
-
-impl<const W: usize> Starts<'_, W> {
-    /// The drifts of the spatial momentum, the Casimirs and the energy from one to another, on the scales of the start.
-    fn between(&self, then: &[[f64; W]], now: &[[f64; W]]) -> [Option<[f64; W]>; 3] {
-        let energy = self.momenta + self.casimirs.len();
-        let of = |first: usize, count: usize, scale: &dyn Fn(usize) -> [f64; W]| {
-            let pairs = then.iter().zip(now).skip(first).take(count).enumerate();
-            let changes = pairs.map(|(at, (then, now))| relative(then, now, scale(at)));
-            changes.reduce(worst)
-        };
-        [
-            of(0, self.momenta, &|_| self.spatial_momentum),
-            of(self.momenta, self.casimirs.len(), &|at| self.casimirs[at]),
-            of(energy, 1, &|_| self.energy),
-        ]
-    }
-
-    /// The drifts as [`Start::measured`] has them, else NaN. Rounding hides drifts after long motions in groups that are not compact.
-    pub(super) fn measured(&self, now: &[[f64; W]], beside: &[[f64; W]]) -> [[f64; W]; 3] {
-        let unknown = [f64::NAN; W];
-        let mut drifts = self.between(self.conserved, now).map(|own| own.unwrap_or(unknown));
-        let moved = self.between(beside, now).map(|own| own.unwrap_or(unknown));
-        for (drift, moved) in drifts.iter_mut().zip(moved) {
-            for (drift, moved) in drift.iter_mut().zip(moved) {
-                let rounding = moved * (f64::EPSILON / NUDGE);
-                let measured = drift.is_finite() && rounding <= MEASURABLE;
-                *drift = if measured { *drift } else { f64::NAN };
+        let moved = self.between(beside, now).numbers();
+        let mut drift = self.drift(now).numbers();
+        for (drift, moved) in drift.iter_mut().zip(moved) {
+            let moved = moved * (f64::EPSILON / NUDGE);
+            // NaN is not measured either.
+            if !drift.is_finite() || moved.is_nan() || moved > MEASURABLE {
+                *drift = f64::NAN;
             }
         }
-        drifts
+        Drift::of_numbers(drift)
     }
 }
 
@@ -193,27 +151,13 @@ pub(super) fn nudged(place: usize) -> f64 {
     if up { 1.0 + NUDGE } else { 1.0 - NUDGE }
 }
 
-/// |now − then| / scale; |now − then| where the scale is 0.
-fn relative<const W: usize>(then: &[f64; W], now: &[f64; W], scale: [f64; W]) -> [f64; W] {
-    let mut change = [0.0; W];
-    for lane in 0..W {
-        let (difference, scale) = ((now[lane] - then[lane]).abs(), scale[lane]);
-        change[lane] = if scale == 0.0 { difference } else { difference / scale };
-    }
-    change
-}
-
-/// The larger of each two numbers that are not negative; NaN where one of them is.
-pub(super) fn worst<const W: usize>(mut a: [f64; W], b: [f64; W]) -> [f64; W] {
-    for lane in 0..W {
-        a[lane] = maximum(a[lane], b[lane]);
-    }
-    a
+fn relative(difference: f64, scale: f64) -> f64 {
+    if scale == 0.0 { difference.abs() } else { (difference / scale).abs() }
 }
 
 /// The larger of two numbers; NaN where one of them is, unlike `f64::max`.
 fn maximum(a: f64, b: f64) -> f64 {
-    if b > a || b.is_nan() { b } else { a }
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use coadjoint_program::states::abreast;
 use coadjoint_program::{Evaluation, Graph, Id, Program, WIDTH};
 use nalgebra::DMatrix;
 
-use super::drift::{self, Drift, Starts};
+use super::drift::{self, Drift, Scales, Start};
 use super::{Invariants, Step};
 use crate::step::solving::inputs;
 
@@ -144,6 +144,8 @@ impl DriftPrograms {
             nudged: vec![0.0; (self.element + self.dim) * WIDTH],
             beside: vec![0.0; numbers * WIDTH],
             found: Default::default(),
+            lane: Default::default(),
+            from: Start { momenta: self.momenta, ..Start::default() },
         }
     }
 }
@@ -160,6 +162,9 @@ pub struct DriftGauge<'a> {
     beside: Vec<f64>,
     /// The results of programs: at the start, after, and nudged.
     found: [Vec<[f64; WIDTH]>; 3],
+    /// The conserved quantities after and nudged, in one lane, and the start there.
+    lane: [Vec<f64>; 2],
+    from: Start,
 }
 
 impl DriftGauge<'_> {
@@ -169,8 +174,8 @@ impl DriftGauge<'_> {
         &mut self,
         [before, after]: [&[f64]; 2],
         spatial: impl Fn(&[f64], &mut [f64]),
-    ) -> [Drift; WIDTH] {
-        let Self { drifts, values, start, nudged, beside, found } = self;
+    ) -> impl Iterator<Item = Drift> {
+        let Self { drifts, values, start, nudged, beside, found, lane, from } = self;
         let (m, n) = (drifts.element, drifts.dim);
         let numbers = nudged.chunks_exact_mut(WIDTH).zip(after.chunks_exact(WIDTH));
         for (i, (to, from)) in numbers.enumerate() {
@@ -203,17 +208,21 @@ impl DriftGauge<'_> {
         evaluate(values, after, 1);
         evaluate(values, nudged, 2);
         let [start, after, nudged] = found;
-        let (conserved, scales) = start.split_at(after.len());
-        let (spatial, casimirs) = scales.split_at(n);
-        let sizes = spatial.iter().map(|own| own.map(f64::abs));
-        let starts = Starts {
-            conserved,
-            momenta: drifts.momenta,
-            spatial_momentum: sizes.fold([0.0; WIDTH], drift::worst),
-            casimirs,
-            energy: [0.0; WIDTH],
-        };
-        let measured = starts.measured(after, nudged);
-        std::array::from_fn(|lane| Drift::of_numbers(measured.map(|own| own[lane])))
+        let [now, moved] = lane;
+        let count = after.len();
+        (0..WIDTH).map(move |lane| {
+            let take = |list: &mut Vec<f64>, of: &[[f64; WIDTH]]| {
+                list.clear();
+                list.extend(of.iter().map(|own| own[lane]));
+            };
+            take(now, after);
+            take(moved, nudged);
+            take(&mut from.conserved, &start[..count]);
+            let mut sizes = std::mem::take(&mut from.scales.casimirs);
+            take(&mut sizes, &start[count + n..]);
+            let spatial = start[count..count + n].iter().map(|own| own[lane]);
+            from.scales = Scales::new(spatial, sizes, [0.0; 2]);
+            from.measured(now, moved)
+        })
     }
 }
