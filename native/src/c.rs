@@ -41,14 +41,15 @@ impl Native {
         if let Some(kept) = Self::find(kernel, options, &text, start) {
             return Ok(kept);
         }
-        let store = options.store.as_ref();
-        let room = store.and_then(Store::room);
-        let is_room = room.is_some();
-        let folder = room.map_or_else(private_folder, Ok)?;
+        let room = options.store.as_ref().and_then(|store| Some((store, store.room()?)));
+        let (store, folder) = match room {
+            Some((store, folder)) => (Some(store), folder),
+            None => (None, private_folder()?),
+        };
         let compiler = Compiler::find(options, folder.path())?;
         let library = compiler.compile(&text, folder.path())?;
         let entry = load(kernel, options.trajectories, &library)?;
-        match (store.filter(|_| is_room), compiler.key(&text)) {
+        match (store, compiler.key(&text)) {
             // A loaded library can be moved, except on Windows, where there is no store.
             (Some(store), Some(key)) => store.keep(folder, LIBRARY, &key),
             _ if cfg!(windows) => drop(folder.keep()),

@@ -225,9 +225,8 @@ impl Code {
     /// Has better machine code made for later steps, where all `steps` of runs so far and of this one are worth it.
     pub(crate) fn improve(&self, kernel: &Kernel, steps: f64) {
         let over = self.coming.over.load(Ordering::Relaxed);
-        let single = self.coming.made[1].get().is_none();
         let known = self.coming.best().map(|(_, made)| made.backend);
-        let known = known.filter(|known| over && single && *known != Backend::C);
+        let known = known.filter(|known| over && *known != Backend::C);
         let worth = known.is_some_and(|by| worth_a_compiler(kernel, steps, self.trajectories, by));
         if worth && !self.improved.swap(true, Ordering::Relaxed) {
             self.start(vec![Backend::C], kernel, true);
@@ -343,8 +342,9 @@ impl Backend {
 
     /// Machine code by the C compiler, where it is kept on disk.
     fn kept(kernel: &Kernel, trajectories: Trajectories) -> Option<Made> {
-        let small = operations(kernel, 1) <= MOST_FOR_COMPILER;
-        small.then(|| Native::kept(kernel, &options(trajectories)))?.map(Made::by_c)
+        is_for_compiler(kernel)
+            .then(|| Native::kept(kernel, &options(trajectories)))?
+            .map(Made::by_c)
     }
 }
 
@@ -367,17 +367,18 @@ impl Cost {
         let work = steps * operations(kernel, (kernel.corrections / SPARE).max(1));
         work * self.pace[usize::from(trajectories == Trajectories::Lanes)] * 1e-9
     }
+}
 
-    /// False for a C compiler where programs are too large for it.
-    fn takes(&self, kernel: &Kernel) -> bool {
-        self.backend != Backend::C || operations(kernel, 1) <= MOST_FOR_COMPILER
-    }
+/// False where programs are too large for a C compiler that is not named.
+fn is_for_compiler(kernel: &Kernel) -> bool {
+    operations(kernel, 1) <= MOST_FOR_COMPILER
 }
 
 /// The backends that take less time for this number of steps than the interpreter, the best one first.
 fn plan(kernel: &Kernel, steps: f64, trajectories: Trajectories) -> Vec<Backend> {
     let time = |cost: &Cost| cost.time(kernel, steps, trajectories);
-    let worth = |cost: &&Cost| cost.takes(kernel) && time(cost) < time(&INTERPRETER);
+    let fits = |cost: &Cost| cost.backend != Backend::C || is_for_compiler(kernel);
+    let worth = |cost: &&Cost| fits(cost) && time(cost) < time(&INTERPRETER);
     let mut plan: Vec<&Cost> = COMPILERS.iter().filter(worth).collect();
     plan.sort_by(|a, b| time(a).total_cmp(&time(b)));
     plan.into_iter().map(|cost| cost.backend).collect()
@@ -388,7 +389,7 @@ fn worth_a_compiler(kernel: &Kernel, steps: f64, trajectories: Trajectories, by:
     let of = |backend: Backend| COMPILERS.iter().find(|cost| cost.backend == backend);
     of(by).zip(of(Backend::C)).is_some_and(|(now, then)| {
         let now = now.steps(kernel, steps, trajectories);
-        then.takes(kernel) && then.time(kernel, steps, trajectories) < now
+        is_for_compiler(kernel) && then.time(kernel, steps, trajectories) < now
     })
 }
 
