@@ -1,12 +1,15 @@
 //! Reading the system file.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use coadjoint_codegen::diagnostic::read_text;
 use coadjoint_codegen::system::{Options, Parameters};
 use coadjoint_codegen::tolerance::Choice;
 use coadjoint_learn::GroupChoice;
-use coadjoint_run::{Accuracy, Derived, System, meet_tolerance as meet, read_group, read_varying};
+use coadjoint_run::{
+    Accuracy, Derivations, Derived, System, meet_tolerance as meet, read_group, read_varying,
+};
 
 use crate::error::{CliError, unread};
 use crate::source::Source;
@@ -52,8 +55,8 @@ pub(crate) fn meet_tolerance(
     path: &Path,
     system: &mut System,
     asked: &Accuracy,
-) -> Result<Option<(Choice, Derived)>, CliError> {
-    let met = meet(path, system, asked)?;
+) -> Result<Option<(Choice, Arc<Derived>)>, CliError> {
+    let met = meet(path, system, asked, &Derivations::default())?;
     met.iter().for_each(|(choice, _)| errln!("{choice}"));
     Ok(met)
 }

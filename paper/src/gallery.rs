@@ -9,7 +9,7 @@ use coadjoint_draw::curves::range;
 use coadjoint_draw::run::{Channel, Picture, Recording, drift_panels, motion_panels};
 use coadjoint_draw::{Panel, escaped};
 use coadjoint_run::simulate::{self, Drift, Moment, Schedule, Setup, Sink};
-use coadjoint_run::{Accuracy, Derived, meet_tolerance, read_varying};
+use coadjoint_run::{Accuracy, Derivations, Derived, meet_tolerance, read_varying};
 
 use crate::outcome::{Fallible, brief};
 
@@ -35,7 +35,7 @@ pub fn picture(file: &Path) -> Fallible<Picture> {
     let text = std::fs::read_to_string(file);
     let text = text.map_err(|e| format!("cannot read {}: {e}", file.display()))?;
     let mut system = read_varying(&file.display().to_string(), &text, options, &[])?;
-    meet_tolerance(file, &mut system, &Accuracy::default())?;
+    meet_tolerance(file, &mut system, &Accuracy::default(), &Derivations::default())?;
     let schedule = Schedule::new(file, &Accuracy::default(), &system.run)?;
     let momentum = system.run.momentum.clone();
     let missing = || format!("{}: [initial] momentum is missing", file.display());

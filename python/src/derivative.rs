@@ -1,7 +1,7 @@
 //! The derivatives of runs.
 
 use std::collections::HashMap;
-use std::sync::{Arc, PoisonError};
+use std::sync::Arc;
 
 use coadjoint_codegen::problem::FrameChoice;
 use coadjoint_codegen::signal::Signal;
@@ -43,20 +43,9 @@ fn derived(
     comoving: bool,
     parameters: Vec<String>,
 ) -> Result<Arc<Derived>, RunError> {
-    // A thread that panicked has left a whole system, if any.
-    let mut last = core.differentiated.lock().unwrap_or_else(PoisonError::into_inner);
     let frame = if comoving { FrameChoice::Comoving } else { FrameChoice::Fixed };
     let options = Options { truncation, frame: Some(frame), ..Options::default() };
-    let system = core.again(options, &[])?;
-    let frame = if comoving { "comoving" } else { "fixed" };
-    let purpose = (system.problem.facts().truncation, frame, Some(parameters.clone()));
-    if let Some((_, known)) = last.as_ref().filter(|(known, _)| *known == purpose) {
-        return Ok(known.clone());
-    }
-    let system = core.again(options, &parameters)?;
-    let made = Arc::new(Derived::of_file(core.path(), system)?);
-    *last = Some((purpose, made.clone()));
-    Ok(made)
+    core.derived.derive(core.path(), core.again(options, &parameters)?, false)
 }
 
 /// Does something with the derivatives of a run.

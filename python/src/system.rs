@@ -14,11 +14,11 @@ use coadjoint_codegen::system::{Options, Run};
 use coadjoint_codegen::tolerance::Choice;
 use coadjoint_learn::table;
 use coadjoint_run::ensemble::{
-    self, Attitude, Course, Disturbance, Engine, Found, How, Known, Layout, Shape, Watch,
+    Attitude, Course, Disturbance, Engine, Found, How, Known, Layout, Shape, Watch,
 };
 use coadjoint_run::simulate::{Event, Schedule, Setup, Single, Times, run};
 use coadjoint_run::{
-    Accuracy, Backend, Derived, Grid, Instant, RunError, System, check, emit, inputs_hash,
+    Accuracy, Backend, Derivations, Derived, Grid, Instant, RunError, System, check, emit, inputs_hash,
     meet_tolerance, polynomial, read_given, series, velocities, verify,
 };
 use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
@@ -52,16 +52,11 @@ pub struct Core {
     given: Functions,
     /// The failures of functions of Python.
     pub(crate) failures: Arc<Failures>,
-    /// The integrators derived so far.
-    derived: Cache,
+    /// The systems derived so far.
+    pub(crate) derived: Arc<Derivations>,
     /// The latest choices for tolerances, for calls that ask for the same.
     chosen: Arc<Mutex<VecDeque<Chosen>>>,
-    /// The system derived last for derivatives, which are often asked for one after the other.
-    pub(crate) differentiated: Arc<Mutex<Option<Differentiated>>>,
 }
-
-/// A system derived for a purpose.
-type Differentiated = (Purpose, Arc<Derived>);
 
 /// The parameters of an ensemble that vary, and the state along whose motion a tolerance is met where the text has none.
 type Ensemble = (Vec<String>, Option<Vec<f64>>);
@@ -75,31 +70,6 @@ type Chosen = (Request, System, Option<Choice>);
 /// Choices that are kept.
 const CHOICES: usize = 16;
 
-/// The purpose of a derivation: a truncation, the frame of a series or collocation, and, for ensembles, the parameters that vary.
-pub(crate) type Purpose = (usize, &'static str, Option<Vec<String>>);
-
-/// Systems that have been derived.
-type Cache = Arc<Mutex<Vec<(Purpose, Arc<Derived>)>>>;
-
-/// The purpose of a system with its truncation and frame.
-fn purpose(system: &System, ensemble: Option<Vec<String>>) -> Purpose {
-    let frame = system.problem.polynomial().map_or("collocation", Problem::frame_name);
-    (system.problem.facts().truncation, frame, ensemble)
-}
-
-fn known(list: &[(Purpose, Arc<Derived>)], key: &Purpose) -> Option<Arc<Derived>> {
-    list.iter().find(|(other, _)| other == key).map(|(_, derived)| derived.clone())
-}
-
-/// Keeps a system, unless there is one for this purpose; that which is kept.
-fn keep(cache: &Cache, key: Purpose, made: Arc<Derived>) -> Arc<Derived> {
-    let mut list = cache.lock().unwrap_or_else(PoisonError::into_inner);
-    known(&list, &key).unwrap_or_else(|| {
-        list.push((key, made.clone()));
-        made
-    })
-}
-
 impl Core {
     /// A copy for another thread. Earlier failures of functions are forgotten.
     pub(crate) fn here(&self) -> Self {
@@ -110,8 +80,8 @@ impl Core {
     /// A system that is known as text elsewhere.
     pub(crate) fn of(name: String, text: Arc<str>, system: System) -> Self {
         let given = Functions { inputs: system.signals().to_vec(), ..Functions::default() };
-        let (failures, derived, chosen, differentiated) = Default::default();
-        Self { name, text, system, given, failures, derived, chosen, differentiated }
+        let (failures, derived, chosen) = Default::default();
+        Self { name, text, system, given, failures, derived, chosen }
     }
 
     /// Raises the exception of a function of Python, if there was one.
@@ -129,23 +99,17 @@ impl Core {
         raised_by(py, error, &self.failures)
     }
 
-    /// A system of this text with its method, which is shared by all that is done with it.
+    /// A system of this text with its method, for runs or for ensembles, which is shared by all that is done with it.
     fn derive(
         &self,
         system: System,
-        ensemble: Option<Vec<String>>,
+        ensemble: bool,
         control: &Control,
     ) -> Result<Arc<Derived>, RunError> {
-        let key = purpose(&system, ensemble);
-        let found = known(&self.derived.lock().unwrap_or_else(PoisonError::into_inner), &key);
-        if let Some(found) = found {
-            return Ok(found);
-        }
-        let system = if key.2.is_some() { ensemble::in_lanes(system)? } else { system };
         control.deriving.store(true, Ordering::Relaxed);
-        let made = Derived::of_file(self.path(), system).map(Arc::new);
+        let made = self.derived.derive(self.path(), system, ensemble);
         control.deriving.store(false, Ordering::Relaxed);
-        Ok(keep(&self.derived, key, made?))
+        made
     }
 
     /// The system with the truncation and the step that these settings ask for; a sentence about a choice.
@@ -169,13 +133,8 @@ impl Core {
         if let Some(truncation) = accuracy.truncation {
             system.problem.set_truncation(truncation);
         }
-        let met = meet_tolerance(self.path(), &mut system, accuracy)?;
-        let choice = met.map(|(choice, derived)| {
-            if ensemble.is_none() {
-                keep(&self.derived, purpose(&system, None), Arc::new(derived));
-            }
-            choice
-        });
+        let met = meet_tolerance(self.path(), &mut system, accuracy, &self.derived)?;
+        let choice = met.map(|(choice, _)| choice);
         let mut chosen = chosen();
         chosen.truncate(CHOICES - 1);
         chosen.push_front((request, system.clone(), choice.clone()));
@@ -375,7 +334,7 @@ impl Core {
                 )));
             }
             let truncation = system.problem.facts().truncation;
-            let derived = here.derive(system, None, control)?;
+            let derived = here.derive(system, false, control)?;
             control.total.store(schedule.steps, Ordering::Relaxed);
             let mut keeper = Keeper { table: Trace::default(), control };
             let outcome = run(&derived, &setup, &mut keeper)?;
@@ -459,7 +418,7 @@ impl Core {
             let truncation = system.problem.facts().truncation;
             let frame = system.problem.polynomial().map_or("collocation", Problem::frame_name);
             let momentum = system.run.momentum.clone();
-            let derived = here.derive(system, Some(varied), control)?;
+            let derived = here.derive(system, true, control)?;
             let lanes = (count as f64 / coadjoint_program::WIDTH as f64).max(1.0);
             let how = How { backend, work: schedule.steps as f64 * lanes, device: None };
             derived.reaches(&schedule)?;
@@ -621,13 +580,13 @@ impl Core {
         let here = self.here();
         let dimension = self.system.problem.facts().algebra.dim();
         let made = work(py, None, move |control| {
-            let varied = Some(varied).filter(|varied| !varied.is_empty());
-            let ensemble = varied.clone().map(|varied| (varied, None));
+            let several = !varied.is_empty();
+            let ensemble = several.then_some((varied, None));
             let (system, _) = here.accurate(&Accuracy { step, ..Accuracy::default() }, ensemble)?;
             let step = step
                 .or(system.run.step)
                 .ok_or_else(|| RunError::Option("--step is missing: give --step 0.1".to_owned()))?;
-            let derived = here.derive(system, varied, control)?;
+            let derived = here.derive(system, several, control)?;
             // It is the default, and there is no such code for collocation.
             let by_default = backend == Backend::Jit && derived.series().is_none();
             let backend = if by_default { Backend::Auto } else { backend };
@@ -684,7 +643,7 @@ impl Core {
             let asked = Accuracy { step, t0, ..Accuracy::default() };
             let (system, _) = here.accurate(&asked, None)?;
             let trial = check::Trial::new(&asked, &system.run, points, seed)?;
-            let derived = here.derive(system, None, control)?;
+            let derived = here.derive(system, false, control)?;
             let (laws, steep) = check::check(&derived, &trial)?;
             let law = |law: check::Law| {
                 let holds = match law.verdict {

@@ -7,23 +7,28 @@ use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::in_other_frame;
 use coadjoint_codegen::problem::Problem;
 use coadjoint_codegen::smooth::Hamiltonian;
-use coadjoint_codegen::tolerance::{self, Choice, Region, Target};
+use coadjoint_codegen::tolerance::{Choice, Region, Target, ToleranceError};
 use coadjoint_program::Trajectories;
 
 use crate::asked::Accuracy;
 use crate::backend::Backend;
+use crate::derivations::Derivations;
 use crate::engine::{Compiled, Numbers, identity};
 use crate::error::RunError;
 use crate::grid::Grid;
 use crate::load::{Derived, System};
 use crate::simulate::{Maker, error_of};
 
-/// The limit of a series while a truncation is chosen.
-const AFFORDABLE: TermLimit = TermLimit { terms: 20_000, products: 2_000_000 };
+/// The limit of a series while a frame is chosen.
+const GLANCE: TermLimit = TermLimit { terms: 2_000, products: 50_000 };
+/// The products of coefficients of a series while a truncation is chosen, at least and at most, and the operations of a run for each
+/// one: choosing takes about a tenth of the run, or some ten milliseconds.
+const PRODUCTS: [f64; 2] = [5e5, 2e6];
+const OPERATIONS: f64 = 2e3;
 
 /// Picks truncation, step and, where the system leaves the choice, frame where a tolerance is asked for, by the settings
 /// or in the text, and puts them into the system; what was picked. Parameters that are kept have the values of the text for
-/// that, in a frame that there is for all values.
+/// that, in a frame that there is for all values. What was `kept` of the same text is used again.
 ///
 /// # Errors
 /// Fails if nothing can be picked.
@@ -31,7 +36,8 @@ pub fn meet_tolerance(
     path: &Path,
     system: &mut System,
     asked: &Accuracy,
-) -> Result<Option<(Choice, Derived)>, RunError> {
+    kept: &Derivations,
+) -> Result<Option<(Choice, Arc<Derived>)>, RunError> {
     let System { problem, potential, run, .. } = &mut *system;
     if let Hamiltonian::Polynomial(problem, _) = problem
         && let Some(other) =
@@ -58,7 +64,7 @@ pub fn meet_tolerance(
     };
     let mut choice = None;
     if let Hamiltonian::Polynomial(own, open) = problem {
-        match by_series(own, &target) {
+        match by_series(own, &target, kept) {
             Ok((chosen, found)) => {
                 **own = chosen;
                 choice = Some(found);
@@ -67,8 +73,8 @@ pub fn meet_tolerance(
             Err(error) => return Err(RunError::of(path)(error)),
         }
         let open = open.clone();
-        let kept = choice.is_some() && problem.clone().settled().0.polynomial().is_some();
-        if let Some(open) = open.filter(|_| !kept) {
+        let stays = choice.is_some() && problem.clone().settled().0.polynomial().is_some();
+        if let Some(open) = open.filter(|_| !stays) {
             *problem = Hamiltonian::from(*open);
             choice = None;
         }
@@ -78,7 +84,7 @@ pub fn meet_tolerance(
         None => nodes(&target, system.problem.facts().algebra.dim()).map_err(RunError::of(path))?,
     };
     system.problem.set_truncation(choice.truncation);
-    let derived = Derived::of_file(path, system.clone())?;
+    let derived = kept.derive(path, system.clone(), false)?;
     let choice = verified(&derived, asked.start(&system.run), &target, choice)?;
     system.run.step = Some(choice.step);
     Ok(Some((choice, derived)))
@@ -88,16 +94,30 @@ pub fn meet_tolerance(
 fn by_series(
     problem: &Problem,
     target: &Target,
-) -> Result<(Problem, Choice), tolerance::ToleranceError> {
-    let choose = |problem: Problem| {
-        let choice = tolerance::choose(&problem.with_defaults(), target, AFFORDABLE);
-        choice.map(|choice| (Problem { truncation: choice.truncation, ..problem }, choice))
+    kept: &Derivations,
+) -> Result<(Problem, Choice), ToleranceError> {
+    // A tolerance that makes no sense is refused whatever was kept.
+    target.check(problem.algebra.dim())?;
+    let choose = |problem: &Problem, limit| {
+        let choice = kept.prospects(problem, target, limit)?.choose(target.tolerance)?;
+        Ok((Problem { truncation: choice.truncation, ..problem.clone() }, choice))
     };
-    match (choose(problem.clone()), in_other_frame(problem).map(choose)) {
-        (Ok(one), Some(Ok(other))) if one.1.operations <= other.1.operations => Ok(one),
-        (_, Some(Ok(other))) => Ok(other),
-        (one, _) => one,
-    }
+    let other = in_other_frame(problem);
+    // Low orders tell which frame is cheaper, and about how long the run takes.
+    let cost = |problem: &Problem| {
+        choose(problem, GLANCE).map_or(f64::INFINITY, |(_, choice)| choice.operations)
+    };
+    let mut frames: Vec<(f64, &Problem)> =
+        [problem].into_iter().chain(&other).map(|own| (cost(own), own)).collect();
+    frames.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let products = frames[0].0 * target.duration / OPERATIONS;
+    let products = products.clamp(PRODUCTS[0], PRODUCTS[1]) as u64;
+    let limit = TermLimit { terms: 20_000, products };
+    let (_, first) = frames[0];
+    choose(first, limit).or_else(|error| {
+        let others = &mut frames[1..].iter();
+        others.find_map(|(_, other)| choose(other, limit).ok()).ok_or(error)
+    })
 }
 
 /// The most steps of a run that is tried: a minute for a small system.
@@ -115,11 +135,13 @@ const STEEPEST: f64 = 2e4;
 const SEEN: f64 = 512.0;
 /// The starts in a region, at which errors are estimated.
 const STARTS: usize = 6;
-/// Steps of the runs that are tried, about, for which it pays to compile.
+/// Runs that are tried, about, in terms of the first one.
+const TRIED: f64 = 4.0;
+/// Steps of the runs that are tried, about, where nothing is known of the step.
 const MANY: f64 = 1e6;
 
 /// The nodes of collocation for a tolerance, and the longest step: no series says how large its errors are.
-fn nodes(target: &Target, dim: usize) -> Result<Choice, tolerance::ToleranceError> {
+fn nodes(target: &Target, dim: usize) -> Result<Choice, ToleranceError> {
     target.check(dim)?;
     let fit = || (1.0 - 0.5 * target.tolerance.log10()).round() as usize;
     let nodes = target.truncation.map_or_else(fit, |truncation| truncation.div_ceil(2));
@@ -146,7 +168,8 @@ fn verified(
     target: &Target,
     choice: Choice,
 ) -> Result<Choice, RunError> {
-    let trial = Pilot::new(derived, t0, target);
+    let steps = choice.next_term.map_or(MANY, |_| TRIED * target.duration / choice.step);
+    let trial = Pilot::new(derived, t0, target, steps);
     let found = trial.step(&choice, target.tolerance);
     let (step, error) = found.ok_or_else(|| unmet(&derived.file, target))?;
     let shorter = step / choice.step;
@@ -177,14 +200,14 @@ struct Pilot<'a> {
 }
 
 impl<'a> Pilot<'a> {
-    /// From the start of the target, and from points of its region.
-    fn new(derived: &'a Derived, t0: f64, target: &Target) -> Self {
+    /// From the start of the target, and from points of its region; about `steps` steps are going to be made.
+    fn new(derived: &'a Derived, t0: f64, target: &Target, steps: f64) -> Self {
         let dim = derived.facts().algebra.dim();
         let inside = target.region.as_ref().map(|region| region.points(dim, STARTS));
         let starts = target.start.iter().cloned().chain(inside.into_iter().flatten()).collect();
         let duration = target.duration;
         // A step that makes no sense is none that is picked.
-        let compiled = derived.compiled(duration, Backend::Auto, MANY, Trajectories::One);
+        let compiled = derived.compiled(duration, Backend::Auto, steps, Trajectories::One);
         let (compiled, parameters) = (compiled.ok().flatten(), derived.facts().defaults());
         Self { derived, compiled, parameters, starts, t0, duration }
     }

@@ -38,12 +38,12 @@ struct Cost {
 }
 
 const INTERPRETER: Cost =
-    Cost { backend: Backend::Interpreter, ready: [0.0, 0.0], pace: [2.0, 7.5] };
+    Cost { backend: Backend::Interpreter, ready: [0.0, 0.0], pace: [7.0, 7.5] };
 
 /// Backends that compile.
 const COMPILERS: &[Cost] = &[
     #[cfg(feature = "jit")]
-    Cost { backend: Backend::Jit, ready: [4e-3, 8e-6], pace: [0.34, 1.6] },
+    Cost { backend: Backend::Jit, ready: [1.5e-3, 5e-6], pace: [0.34, 1.6] },
     Cost { backend: Backend::C, ready: [0.25, 2.2e-4], pace: [0.2, 0.6] },
 ];
 

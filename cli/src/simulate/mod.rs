@@ -11,6 +11,7 @@ mod settings;
 mod target;
 
 use std::path::Path;
+use std::sync::Arc;
 
 use coadjoint_codegen::system::{Parameters, Run, Units};
 use coadjoint_learn::ModelFile;
@@ -119,7 +120,7 @@ fn runs(
         }
         let system = match met {
             Some((_, derived)) => derived,
-            None => derived(path, system)?,
+            None => Arc::new(derived(path, system)?),
         };
         let header = Header::new(&settings, &system);
         let coordinates = system.facts().coordinates;

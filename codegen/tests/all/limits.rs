@@ -4,7 +4,7 @@
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::lie::{LieAlgebra, LieAlgebraError};
 use coadjoint_codegen::number::integer;
-use coadjoint_codegen::tolerance::{Bound, Region, Target, ToleranceError, choose};
+use coadjoint_codegen::tolerance::{Bound, Prospects, Region, Target, ToleranceError};
 
 use crate::given::{read, said};
 
@@ -55,7 +55,7 @@ fn an_absurd_step_is_refused_with_the_bound_behind_it() {
             region: region.map(Region::Ball),
             truncation: Some(5),
         };
-        choose(&system.problem, &target, limit)
+        Prospects::new(&system.problem, &target, limit)?.choose(target.tolerance)
     };
     for region in [None, Some(2.0)] {
         // Within the time in which the motion stays bounded there is a step.

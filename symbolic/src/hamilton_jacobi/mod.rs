@@ -57,56 +57,95 @@ pub fn derive(
     truncation: usize,
     limit: TermLimit,
 ) -> Result<GeneratingSeries, DeriveError> {
-    derive_orders(algebra, chart, hamiltonian, truncation, limit, (true, Arithmetic::Exact))
+    let mut derivation = Derivation::new(algebra, chart, hamiltonian, limit, Arithmetic::Exact)?;
+    (1..=truncation).try_for_each(|k| derivation.extend(k, true))?;
+    Ok(derivation.series())
 }
 
-/// As [`derive`], with coefficients that are rounded to floating point where they do not fit into machine integers: for estimates.
+/// As [`derive`], with coefficients that are rounded to floating point where they do not fit into machine integers, for estimates;
+/// up to an odd order from `least` to `truncation`, the last one within the limit.
 ///
 /// # Errors
-/// As [`derive`].
+/// As [`derive`], where the order `least` exceeds a limit.
 pub(crate) fn estimate(
     algebra: &LieAlgebra,
     chart: Chart,
     hamiltonian: &Polynomial,
-    truncation: usize,
+    [least, truncation]: [usize; 2],
     limit: TermLimit,
 ) -> Result<GeneratingSeries, DeriveError> {
-    derive_orders(algebra, chart, hamiltonian, truncation, limit, (true, Arithmetic::Rounded))
+    let mut derivation = Derivation::new(algebra, chart, hamiltonian, limit, Arithmetic::Rounded)?;
+    for k in 1..=truncation {
+        match derivation.extend(k, true) {
+            Err(error) if error.is_of_size() && k > least => {
+                // The last odd order before this one.
+                derivation.orders.truncate(((k - 2) | 1) + 1);
+                break;
+            }
+            made => made?,
+        }
+    }
+    Ok(derivation.series())
 }
 
-fn derive_orders(
-    algebra: &LieAlgebra,
+/// A series under way.
+struct Derivation<'a> {
+    dimension: usize,
     chart: Chart,
-    hamiltonian: &Polynomial,
-    truncation: usize,
-    limit: TermLimit,
-    (odd_only, arithmetic): (bool, Arithmetic),
-) -> Result<GeneratingSeries, DeriveError> {
-    let dimension = algebra.dim();
-    let variables = hamiltonian.variables();
-    if variables < dimension {
-        return Err(DeriveError::Variables { variables, dimension });
-    }
-    let mut work = Work::new(variables, limit, arithmetic);
-    let mut body_momentum = Inverse::new(algebra, chart, Side::Dual)?;
-    let mut energy = Composition::new(dimension, std::slice::from_ref(hamiltonian))?;
-    let zero = Polynomial::zero(variables);
-    let p = identity(dimension, variables);
-    let mut x = vec![vec![zero.clone()]; dimension];
-    let mut momentum = vec![Vec::new(); dimension];
-    let mut orders = vec![zero.clone()];
-    for k in 1..=truncation {
-        work.order = k;
-        let next = body_momentum.extend(&mut work, (&x, &p), k - 1)?;
-        momentum.iter_mut().zip(next).for_each(|(series, next)| series.push(next));
-        energy.extend(&mut work, &momentum, k - 1)?;
-        if k % 2 == 0 && odd_only {
-            orders.push(zero.clone());
-        } else {
-            orders.push(energy.coefficient(0, k - 1).scale(&reciprocal(k)));
+    work: Work,
+    body_momentum: Inverse<'a>,
+    energy: Composition,
+    /// p, ∂S/∂p and the body momentum, `[coordinate][order]`.
+    p: Vec<Vec<Polynomial>>,
+    x: Vec<Vec<Polynomial>>,
+    momentum: Vec<Vec<Polynomial>>,
+    orders: Vec<Polynomial>,
+}
+
+impl<'a> Derivation<'a> {
+    fn new(
+        algebra: &'a LieAlgebra,
+        chart: Chart,
+        hamiltonian: &Polynomial,
+        limit: TermLimit,
+        arithmetic: Arithmetic,
+    ) -> Result<Self, DeriveError> {
+        let (dimension, variables) = (algebra.dim(), hamiltonian.variables());
+        if variables < dimension {
+            return Err(DeriveError::Variables { variables, dimension });
         }
-        let next = orders[k].gradient(dimension);
-        x.iter_mut().zip(next).for_each(|(series, next)| series.push(next));
+        let zero = Polynomial::zero(variables);
+        Ok(Self {
+            dimension,
+            chart,
+            work: Work::new(variables, limit, arithmetic),
+            body_momentum: Inverse::new(algebra, chart, Side::Dual)?,
+            energy: Composition::new(dimension, std::slice::from_ref(hamiltonian))?,
+            p: identity(dimension, variables),
+            x: vec![vec![zero.clone()]; dimension],
+            momentum: vec![Vec::new(); dimension],
+            orders: vec![zero],
+        })
     }
-    Ok(GeneratingSeries { dimension, chart, orders })
+
+    /// Derives S_k after all lower orders.
+    fn extend(&mut self, k: usize, odd_only: bool) -> Result<(), DeriveError> {
+        let Self { work, body_momentum, energy, x, p, momentum, orders, .. } = self;
+        work.order = k;
+        let next = body_momentum.extend(work, (&*x, &*p), k - 1)?;
+        momentum.iter_mut().zip(next).for_each(|(series, next)| series.push(next));
+        energy.extend(work, &*momentum, k - 1)?;
+        orders.push(match k % 2 == 0 && odd_only {
+            true => orders[0].clone(),
+            false => energy.coefficient(0, k - 1).scale(&reciprocal(k)),
+        });
+        let next = orders[k].gradient(self.dimension);
+        x.iter_mut().zip(next).for_each(|(series, next)| series.push(next));
+        Ok(())
+    }
+
+    fn series(self) -> GeneratingSeries {
+        let Self { dimension, chart, orders, .. } = self;
+        GeneratingSeries { dimension, chart, orders }
+    }
 }

@@ -1,12 +1,13 @@
 //! The data by which coefficients are folded.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 
 use coadjoint_program::fold::{Fold, FoldError, LastTerm, Values, gradient_bound};
 
 use super::coefficients::Coefficients;
 use super::lower::in_units;
 use super::{Integrator, Kick, Kicks};
+use crate::poly::Products;
 
 /// A [`Fold`] that owns its lists.
 #[derive(Clone, Debug, Default)]
@@ -126,7 +127,7 @@ impl FoldTable {
             }
             table.bases.push(number(table.parts.len()));
         }
-        table.products = products.made;
+        table.products = products.into_made();
         table.slots = slots
             .into_iter()
             .map(|(base, scale, place)| (renumber(base), scale, number(place)))
@@ -235,52 +236,4 @@ fn last_terms(integrator: &Integrator, place: impl Fn(usize) -> Option<usize>) -
         OfSeries { base, order: number(order), place: place(at), counts: counts.collect() }
     });
     orders.collect()
-}
-
-/// Products Π symbolᵢ^powerᵢ in an order in which they can be made, each of an earlier one by one multiplication.
-#[derive(Clone, Debug, Default)]
-struct Products {
-    made: Vec<(u32, u32)>,
-    numbers: HashMap<Vec<u32>, u32>,
-}
-
-impl Products {
-    /// Adds the product and those it is made of, and returns its number; that of 1 is zero.
-    fn add(&mut self, powers: &[u32]) -> u32 {
-        let Some(last) = powers.iter().rposition(|&power| power > 0) else { return 0 };
-        if let Some(&number) = self.numbers.get(powers) {
-            return number;
-        }
-        let mut shorter = powers.to_vec();
-        shorter[last] -= 1;
-        let of = self.add(&shorter);
-        self.made.push((of, number(last)));
-        let number = number(self.made.len());
-        self.numbers.insert(powers.to_vec(), number);
-        number
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_product_is_an_earlier_one_times_a_symbol() {
-        let mut products = Products::default();
-        let wanted = [vec![2, 0, 1], vec![0, 0, 0], vec![0, 3, 1], vec![2, 0, 1]];
-        let numbers = wanted.clone().map(|powers| products.add(&powers));
-        let mut powers = vec![vec![0; 3]];
-        for &(of, symbol) in &products.made {
-            let mut next: Vec<u32> = powers[of as usize].clone();
-            next[symbol as usize] += 1;
-            assert!(!powers.contains(&next), "{next:?} is made twice");
-            powers.push(next);
-        }
-        for (number, wanted) in numbers.into_iter().zip(&wanted) {
-            assert_eq!(&powers[number as usize], wanted);
-        }
-        // x, x², x²z, y, y², y³, y³z, and no more.
-        assert_eq!(products.made.len(), 7);
-    }
 }

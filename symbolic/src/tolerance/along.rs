@@ -12,7 +12,7 @@
 //! frequencies' change counted, and as fast as neighbours part on others.
 
 use crate::lie::LieAlgebra;
-use crate::poly::{Numeric, Polynomial};
+use crate::poly::{Numeric, Polynomial, Products};
 
 /// The most steps of the equations; a longer run is taken to go on in proportion.
 const MOST_STEPS: usize = 20_000;
@@ -42,6 +42,8 @@ pub(super) struct Flow<'a> {
     pub(super) brackets: &'a Brackets,
     /// ∂H.
     pub(super) energy: &'a Gradient,
+    /// The gradient of each coordinate of ∂H.
+    pub(super) curvature: &'a [Gradient],
     /// ∂S_j.
     pub(super) terms: &'a [Gradient],
 }
@@ -51,51 +53,54 @@ impl Flow<'_> {
     pub(super) fn follow(&self, start: &[f64], duration: f64) -> Along {
         let (n, count) = (start.len(), self.terms.len());
         let size = largest(start).max(f64::MIN_POSITIVE);
-        // ν, then η.
-        let mut errors = vec![vec![0.0; 2 * n]; count];
+        // Of each term ν, then η.
+        let mut errors = vec![0.0; 2 * n * count];
         let mut mu = start.to_vec();
         let mut along =
             Along { rates: vec![0.0; count], errors: vec![0.0; count], radius: 0.0, turning: 0.0 };
-        let mut forcing: Vec<Vec<f64>> = self.terms.iter().map(|term| term.at(&mu)).collect();
-        self.look(&mut along, &mu, &forcing);
-        let (mut time, mut steps) = (0.0, 0);
-        let mut step = self.step(&mu);
+        let forcing = |mu: &[f64]| self.terms.iter().flat_map(|term| term.at(mu)).collect();
+        let mut before: Vec<f64> = forcing(&mu);
+        let (mut time, mut steps, mut step) = (0.0, 0, 0.0);
         while time < duration && steps < MOST_STEPS {
+            let mut points = Vec::with_capacity(4);
+            let here = self.point(&mu);
+            self.look(&mut along, &mu, (&here, &before));
             // The rates change slowly compared with the step.
             if steps % 16 == 0 {
-                step = self.step(&mu);
+                step = here.step();
             }
             let h = f64::min(step, duration - time);
-            let mut points = Vec::with_capacity(4);
-            let next = runge_kutta(&mu, h, |_, mu| {
-                points.push(mu.to_vec());
-                self.slope(mu)
+            points.push(here);
+            let next = runge_kutta(&mu, h, |stage, mu, slope| {
+                if stage > 0 {
+                    points.push(self.point(mu));
+                }
+                slope.copy_from_slice(&self.brackets.ad_star(&points[stage].velocity, mu));
             });
-            let after: Vec<Vec<f64>> = self.terms.iter().map(|term| term.at(&next)).collect();
-            for ((error, before), after) in errors.iter_mut().zip(&forcing).zip(&after) {
-                let middle: Vec<f64> =
-                    before.iter().zip(after).map(|(a, b)| 0.5 * (a + b)).collect();
-                let e = [before, &middle, &middle, after];
-                *error = runge_kutta(error, h, |stage, error| {
-                    self.error_slope(error, &points[stage], e[stage])
-                });
-            }
-            if next.iter().chain(after.iter().flatten()).any(|value| !value.is_finite()) {
+            let after: Vec<f64> = forcing(&next);
+            let middle: Vec<f64> = before.iter().zip(&after).map(|(a, b)| 0.5 * (a + b)).collect();
+            let e = [&before, &middle, &middle, &after];
+            errors = runge_kutta(&errors, h, |stage, errors, slopes| {
+                let terms = errors.chunks(2 * n).zip(slopes.chunks_mut(2 * n));
+                for ((error, slope), e) in terms.zip(e[stage].chunks(n)) {
+                    points[stage].error_slope(error, e, slope);
+                }
+            });
+            if next.iter().chain(&after).any(|value| !value.is_finite()) {
                 // The motion leaves every bound: no step is small enough.
                 along.errors.fill(f64::INFINITY);
                 return along;
             }
-            mu = next;
-            forcing = after;
+            (mu, before) = (next, after);
             time += h;
             steps += 1;
-            self.look(&mut along, &mu, &forcing);
-            for (largest_so_far, error) in along.errors.iter_mut().zip(&errors) {
+            for (largest_so_far, error) in along.errors.iter_mut().zip(errors.chunks(2 * n)) {
                 let now = (largest(&error[..n]) / size).max(largest(&error[n..]));
                 let finite = error.iter().all(|value| value.is_finite());
                 *largest_so_far = largest_so_far.max(if finite { now } else { f64::INFINITY });
             }
         }
+        self.look(&mut along, &mu, (&self.point(&mu), &before));
         // Beyond what was followed: in proportion to time.
         for error in &mut along.errors {
             *error *= (duration / time).max(1.0);
@@ -103,74 +108,83 @@ impl Flow<'_> {
         along
     }
 
-    fn look(&self, along: &mut Along, mu: &[f64], forcing: &[Vec<f64>]) {
-        for (largest_so_far, e) in along.rates.iter_mut().zip(forcing) {
+    fn look(&self, along: &mut Along, mu: &[f64], (here, forcing): (&Point, &[f64])) {
+        for (largest_so_far, e) in along.rates.iter_mut().zip(forcing.chunks(mu.len())) {
             *largest_so_far = largest_so_far.max(rate(self.brackets, e, mu));
         }
         let norm = mu.iter().map(|x| x * x).sum::<f64>().sqrt();
         along.radius = along.radius.max(norm);
-        let turning = self.brackets.turning_rate(&self.energy.at(mu));
-        along.turning = along.turning.max(turning);
+        along.turning = along.turning.max(here.turning());
     }
 
-    /// A step in which nothing turns by more than a seventh.
-    fn step(&self, mu: &[f64]) -> f64 {
-        let n = mu.len();
-        let mut jacobian = vec![0.0; n * n];
-        let scale = 1e-6 * largest(mu).max(1e-3);
-        for j in 0..n {
-            let moved = |by: f64| {
-                let mut moved = mu.to_vec();
-                moved[j] += by;
-                self.slope(&moved)
-            };
-            let (up, down) = (moved(scale), moved(-scale));
-            for i in 0..n {
-                jacobian[i * n + j] = (up[i] - down[i]) / (2.0 * scale);
-            }
-        }
-        let turning = self.brackets.turning_rate(&self.energy.at(mu));
-        0.15 / spectral_radius(n, jacobian).max(turning).max(1e-9)
-    }
-
-    /// μ̇.
-    fn slope(&self, mu: &[f64]) -> Vec<f64> {
-        self.brackets.ad_star(&self.energy.at(mu), mu)
-    }
-
-    /// (ν̇, η̇) of an error (ν, η).
-    fn error_slope(&self, error: &[f64], mu: &[f64], e: &[f64]) -> Vec<f64> {
-        let (nu, eta) = error.split_at(mu.len());
-        let xi = self.energy.at(mu);
-        // H″ν + e, by a difference in the direction of ν: exact for quadratic H up to rounding.
-        let size = largest(nu);
-        let mut change = e.to_vec();
-        if size > 0.0 {
-            let by = 1e-5 * largest(mu).max(1e-3) / size;
-            let moved = |by: f64| {
-                let moved: Vec<f64> = mu.iter().zip(nu).map(|(m, v)| m + by * v).collect();
-                self.energy.at(&moved)
-            };
-            let (up, down) = (moved(by), moved(-by));
-            for (i, value) in change.iter_mut().enumerate() {
-                *value += (up[i] - down[i]) / (2.0 * by);
-            }
-        }
-        let turned = self.brackets.bracket(&xi, eta);
-        let pushed = self.brackets.ad_star(&change, mu);
-        let carried = self.brackets.ad_star(&xi, nu);
-        let nu = pushed.iter().zip(&carried).map(|(a, b)| a + b);
-        nu.chain(change.iter().zip(&turned).map(|(c, t)| c - t)).collect()
+    fn point(&self, mu: &[f64]) -> Point {
+        let velocity = self.energy.at(mu);
+        let curvature = self.curvature.iter().flat_map(|row| row.at(mu)).collect();
+        let [pushed, carried] = self.brackets.matrices(&velocity, mu);
+        Point { velocity, curvature, pushed, carried }
     }
 }
 
-/// A step of the classical method of Runge and Kutta; `slope` is given the number of the stage and its point.
-fn runge_kutta(from: &[f64], h: f64, mut slope: impl FnMut(usize, &[f64]) -> Vec<f64>) -> Vec<f64> {
+/// A momentum μ of the run, with square matrices row by row.
+struct Point {
+    /// ξ = ∂H
+    velocity: Vec<f64>,
+    /// H″
+    curvature: Vec<f64>,
+    /// v ↦ ad\*_v μ
+    pushed: Vec<f64>,
+    /// ν ↦ ad\*_ξ ν, the transpose of η ↦ [ξ, η].
+    carried: Vec<f64>,
+}
+
+impl Point {
+    /// A step in which nothing turns by more than a seventh.
+    fn step(&self) -> f64 {
+        let n = self.velocity.len();
+        let mut jacobian = self.carried.clone();
+        for (row, pushed) in jacobian.chunks_mut(n).zip(self.pushed.chunks(n)) {
+            for (entry, column) in row.iter_mut().zip(self.curvature.chunks(n)) {
+                *entry += dot(pushed, column);
+            }
+        }
+        0.15 / spectral_radius(n, jacobian).max(self.turning()).max(1e-9)
+    }
+
+    /// The rate at which the motion turns the algebra.
+    fn turning(&self) -> f64 {
+        spectral_radius(self.velocity.len(), self.carried.clone())
+    }
+
+    /// (ν̇, η̇) of an error (ν, η).
+    fn error_slope(&self, error: &[f64], e: &[f64], slope: &mut [f64]) {
+        let n = self.velocity.len();
+        let (nu, eta) = error.split_at(n);
+        let (nu_slope, eta_slope) = slope.split_at_mut(n);
+        for ((change, row), e) in eta_slope.iter_mut().zip(self.curvature.chunks(n)).zip(e) {
+            *change = dot(row, nu) + e;
+        }
+        let rows = self.pushed.chunks(n).zip(self.carried.chunks(n));
+        for (slope, (pushed, carried)) in nu_slope.iter_mut().zip(rows) {
+            *slope = dot(pushed, eta_slope) + dot(carried, nu);
+        }
+        for (carried, eta) in self.carried.chunks(n).zip(eta) {
+            eta_slope.iter_mut().zip(carried).for_each(|(slope, entry)| *slope -= entry * eta);
+        }
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// A step of the classical method of Runge and Kutta; `slope` is given the number of the stage, its point, and a place for the slope.
+fn runge_kutta(from: &[f64], h: f64, mut slope: impl FnMut(usize, &[f64], &mut [f64])) -> Vec<f64> {
     let mut slopes = [(); 4].map(|()| vec![0.0; from.len()]);
+    let mut point = from.to_vec();
     for (stage, by) in [0.0, 0.5 * h, 0.5 * h, h].into_iter().enumerate() {
         let last = &slopes[stage.saturating_sub(1)];
-        let point: Vec<f64> = from.iter().zip(last).map(|(x, s)| x + by * s).collect();
-        slopes[stage] = slope(stage, &point);
+        point.iter_mut().zip(from).zip(last).for_each(|((at, x), s)| *at = x + by * s);
+        slope(stage, &point, &mut slopes[stage]);
     }
     let [a, b, c, d] = &slopes;
     (0..from.len()).map(|i| from[i] + h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i])).collect()
@@ -178,16 +192,42 @@ fn runge_kutta(from: &[f64], h: f64, mut slope: impl FnMut(usize, &[f64]) -> Vec
 
 /// ∂F/∂μ of a polynomial F, with values put in for the symbols.
 #[derive(Clone, Debug)]
-pub(super) struct Gradient(Vec<Numeric>);
+pub(super) struct Gradient {
+    dim: usize,
+    /// (earlier product, variable) of each product but that of 1.
+    products: Vec<(u32, u32)>,
+    /// The coefficient of each product.
+    coefficients: Vec<f64>,
+}
 
 impl Gradient {
     pub(super) fn new(polynomial: &Polynomial, dim: usize, symbols: &[f64]) -> Self {
-        Self(Numeric::new(polynomial, dim, symbols).gradient(dim))
+        let (mut products, mut terms) = (Products::default(), Vec::new());
+        for (value, factors) in Numeric::new(polynomial, dim, symbols).terms() {
+            let mut powers = vec![0; dim];
+            factors.iter().for_each(|&(i, power)| powers[i] = power.unsigned_abs());
+            terms.push((value, products.add(&powers)));
+        }
+        let products = products.into_made();
+        let mut coefficients = vec![0.0; products.len() + 1];
+        terms.into_iter().for_each(|(value, product)| coefficients[product as usize] += value);
+        Self { dim, products, coefficients }
     }
 
-    /// The gradient at μ.
+    /// The gradient at μ, by the derivatives of F in its products, from the last one back to the first.
     pub(super) fn at(&self, mu: &[f64]) -> Vec<f64> {
-        self.0.iter().map(|derivative| derivative.value(mu)).collect()
+        let mut values = Vec::with_capacity(self.coefficients.len());
+        values.push(1.0);
+        for &(of, variable) in &self.products {
+            values.push(values[of as usize] * mu[variable as usize]);
+        }
+        let (mut slopes, mut gradient) = (self.coefficients.clone(), vec![0.0; self.dim]);
+        for (number, &(of, variable)) in self.products.iter().enumerate().rev() {
+            let slope = slopes[number + 1];
+            gradient[variable as usize] += slope * values[of as usize];
+            slopes[of as usize] += slope * mu[variable as usize];
+        }
+        gradient
     }
 }
 
@@ -204,15 +244,6 @@ impl Brackets {
         Self { dim: algebra.dim(), structure: algebra.constants() }
     }
 
-    /// [x, y].
-    pub(super) fn bracket(&self, x: &[f64], y: &[f64]) -> Vec<f64> {
-        let mut result = vec![0.0; self.dim];
-        for &(i, j, k, c) in &self.structure {
-            result[k] += c * x[i] * y[j];
-        }
-        result
-    }
-
     /// ad\*_x μ.
     pub(super) fn ad_star(&self, x: &[f64], mu: &[f64]) -> Vec<f64> {
         let mut result = vec![0.0; self.dim];
@@ -222,13 +253,20 @@ impl Brackets {
         result
     }
 
+    /// The matrices of v ↦ ad\*_v μ and of ν ↦ ad\*_x ν, row by row.
+    fn matrices(&self, x: &[f64], mu: &[f64]) -> [Vec<f64>; 2] {
+        let [mut pushed, mut carried] = [(); 2].map(|()| vec![0.0; self.dim * self.dim]);
+        for &(i, j, k, c) in &self.structure {
+            pushed[j * self.dim + i] += c * mu[k];
+            carried[j * self.dim + k] += c * x[i];
+        }
+        [pushed, carried]
+    }
+
     /// The spectral radius of ad_x, by ‖A^(2^m)‖^(2^−m): the rate at which x turns the algebra.
     pub(super) fn turning_rate(&self, x: &[f64]) -> f64 {
-        let mut matrix = vec![0.0; self.dim * self.dim];
-        for &(i, j, k, c) in &self.structure {
-            matrix[k * self.dim + j] += c * x[i];
-        }
-        spectral_radius(self.dim, matrix)
+        let [_, carried] = self.matrices(x, x);
+        spectral_radius(self.dim, carried)
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! The error of the method of truncation K is, to leading order, what the missing terms S_{K+2},
 //! S_{K+4}, … of the exact series do. They are derived, so their size is known exactly where
-//! momenta stay, and with the state at the start known also how it accumulates. [`choose`] takes
+//! momenta stay, and with the state at the start known also how it accumulates. [`Prospects`] takes
 //! the K and h that need fewest operations per unit time.
 
 mod along;
@@ -218,76 +218,118 @@ impl ToleranceError {
     }
 }
 
-/// Picks K and h.
-///
-/// Symbols of the problem must not need parameters (a system file's are substituted).
-///
-/// # Errors
-/// [`ToleranceError`] for a target that makes no sense, or where not even S₅ can be derived.
-pub fn choose(
-    problem: &Problem,
-    target: &Target,
-    limit: TermLimit,
-) -> Result<Choice, ToleranceError> {
-    let dim = problem.algebra.dim();
-    target.check(dim)?;
-    let mut symbols = Vec::new();
-    for symbol in &problem.symbols {
-        let value = symbol.expr.evaluate(&[]);
-        if !value.is_finite() {
-            return Err(ToleranceError::Symbol(symbol.text.clone()));
+/// The truncations of a problem, with the errors that their steps make along a run or over a region: K and h follow from
+/// them for any tolerance.
+#[derive(Clone, Debug)]
+pub struct Prospects {
+    duration: f64,
+    comoving: bool,
+    along_run: bool,
+    /// The orders of the terms, all odd: the others vanish.
+    orders: Vec<usize>,
+    sizes: Sizes,
+    /// Truncations, with the operations of a step.
+    truncations: Vec<(usize, usize)>,
+}
+
+impl Prospects {
+    /// Derives the terms and follows their errors, for any tolerance of the target.
+    ///
+    /// Symbols of the problem must not need parameters (a system file's are substituted).
+    ///
+    /// # Errors
+    /// [`ToleranceError`] for a target that makes no sense, or where not even S₅ can be derived.
+    pub fn new(
+        problem: &Problem,
+        target: &Target,
+        limit: TermLimit,
+    ) -> Result<Self, ToleranceError> {
+        let dim = problem.algebra.dim();
+        target.check(dim)?;
+        let mut symbols = Vec::new();
+        for symbol in &problem.symbols {
+            let value = symbol.expr.evaluate(&[]);
+            if !value.is_finite() {
+                return Err(ToleranceError::Symbol(symbol.text.clone()));
+            }
+            symbols.push(value);
         }
-        symbols.push(value);
+        let series = derive(problem, target.truncation, limit)?;
+        let orders: Vec<usize> = (1..=series.truncation()).step_by(2).collect();
+        let terms: Vec<Gradient> =
+            orders.iter().map(|&j| Gradient::new(series.order(j), dim, &symbols)).collect();
+        let brackets = Brackets::new(&problem.algebra);
+        let energy = Gradient::new(problem.generated(), dim, &symbols);
+        let slope = |i| Gradient::new(&problem.generated().derivative(i), dim, &symbols);
+        let curvature: Vec<Gradient> = (0..dim).map(slope).collect();
+        let flow =
+            Flow { brackets: &brackets, energy: &energy, curvature: &curvature, terms: &terms };
+        let sizes = Sizes::of(&flow, dim, target);
+        let first = target.truncation.unwrap_or(*TRUNCATIONS.start());
+        let last = target.truncation.unwrap_or(*TRUNCATIONS.end()).min(series.truncation() - 2);
+        let mut guesses = Guesses::new(problem, limit)?;
+        let mut truncations = Vec::new();
+        for truncation in (first..=last).step_by(2) {
+            let candidate = Problem { truncation, ..problem.clone() };
+            truncations.push((truncation, Plan::operations(&candidate, &series, &mut guesses)?));
+        }
+        if truncations.is_empty() {
+            return Err(ToleranceError::TooLarge { order: first + 2 });
+        }
+        Ok(Self {
+            duration: target.duration,
+            comoving: problem.comoving.is_some(),
+            along_run: target.region.is_none(),
+            orders,
+            sizes,
+            truncations,
+        })
     }
-    let series = derive(problem, target.truncation, limit)?;
-    // Odd orders only: the others vanish.
-    let orders: Vec<usize> = (1..=series.truncation()).step_by(2).collect();
-    let terms: Vec<Gradient> =
-        orders.iter().map(|&j| Gradient::new(series.order(j), dim, &symbols)).collect();
-    let brackets = Brackets::new(&problem.algebra);
-    let energy = Gradient::new(problem.generated(), dim, &symbols);
-    let flow = Flow { brackets: &brackets, energy: &energy, terms: &terms };
-    let sizes = Sizes::of(&flow, dim, target);
-    let first = target.truncation.unwrap_or(*TRUNCATIONS.start());
-    let last = target.truncation.unwrap_or(*TRUNCATIONS.end()).min(series.truncation() - 2);
-    let mut guesses = Guesses::new(problem, limit)?;
-    let mut best: Option<(Choice, Bound)> = None;
-    for truncation in (first..=last).step_by(2) {
-        let (step, bound) = sizes.step(&orders, truncation, target);
-        let candidate = Problem { truncation, ..problem.clone() };
-        let operations = Plan::operations(&candidate, &series, &mut guesses)? as f64 / step;
-        if best.as_ref().is_none_or(|(best, _)| operations < best.operations) {
-            let place = truncation.div_ceil(2);
+
+    /// Picks the K and h that need fewest operations per unit time.
+    ///
+    /// # Errors
+    /// [`ToleranceError::StepTooSmall`] where there are none.
+    pub fn choose(&self, tolerance: f64) -> Result<Choice, ToleranceError> {
+        let Self { duration, comoving, along_run, ref orders, ref sizes, .. } = *self;
+        let choices = self.truncations.iter().map(|&(truncation, operations)| {
+            let (step, bound) = sizes.step(orders, truncation, (duration, tolerance));
             let choice = Choice {
-                tolerance: target.tolerance,
+                tolerance,
                 truncation,
-                comoving: problem.comoving.is_some(),
+                comoving,
                 step,
-                next_term: Some(sizes.rates[place] * step.powi(truncation as i32 + 1)),
-                error: sizes.error(&orders, truncation, step),
+                next_term: Some(
+                    sizes.rates[truncation.div_ceil(2)] * step.powi(truncation as i32 + 1),
+                ),
+                error: sizes.error(orders, truncation, step),
                 region: sizes.region.clone(),
-                along_run: target.region.is_none(),
-                operations,
+                along_run,
+                operations: operations as f64 / step,
             };
-            best = Some((choice, bound));
-        }
-    }
-    let (choice, bound) = best.ok_or(ToleranceError::TooLarge { order: first + 2 })?;
-    let scale = if sizes.turning > 0.0 { TURN / sizes.turning } else { f64::INFINITY };
-    let steps = target.duration / choice.step;
-    let possible = choice.step > 0.0 && choice.error.is_finite() && steps <= MOST_STEPS;
-    if !possible || choice.step < SMALLEST * scale.min(target.duration) {
-        return Err(ToleranceError::StepTooSmall {
-            tolerance: choice.tolerance,
-            truncation: choice.truncation,
-            step: choice.step,
-            steps,
-            scale,
-            bound,
-            along_run: choice.along_run,
+            (choice, bound)
         });
+        let cheaper =
+            |a: &(Choice, Bound), b: &(Choice, Bound)| a.0.operations.total_cmp(&b.0.operations);
+        let Some((choice, bound)) = choices.min_by(cheaper) else {
+            return Err(ToleranceError::TooLarge { order: *TRUNCATIONS.start() + 2 });
+        };
+        let scale = if sizes.turning > 0.0 { TURN / sizes.turning } else { f64::INFINITY };
+        let steps = duration / choice.step;
+        let possible = choice.step > 0.0 && choice.error.is_finite() && steps <= MOST_STEPS;
+        if !possible || choice.step < SMALLEST * scale.min(duration) {
+            return Err(ToleranceError::StepTooSmall {
+                tolerance,
+                truncation: choice.truncation,
+                step: choice.step,
+                steps,
+                scale,
+                bound,
+                along_run,
+            });
+        }
+        Ok(choice)
     }
-    Ok(choice)
 }
 
 impl Target {
@@ -319,33 +361,20 @@ fn derive(
     only: Option<usize>,
     limit: TermLimit,
 ) -> Result<GeneratingSeries, ToleranceError> {
-    let smallest = only.unwrap_or(*TRUNCATIONS.start()) + 2;
-    let mut highest = only.unwrap_or(*TRUNCATIONS.end()) + 2;
-    loop {
-        let derived = hamilton_jacobi::estimate(
-            &problem.algebra,
-            problem.chart,
-            problem.generated(),
-            highest,
-            limit,
-        );
-        highest = match derived {
-            Ok(series) => return Ok(series),
-            Err(DeriveError::TooLarge { order, .. } | DeriveError::TooMuchWork { order, .. })
-                if order > smallest =>
-            {
-                // The odd order before the one that was too much.
-                (order - 2) | 1
-            }
-            Err(DeriveError::TooLarge { .. } | DeriveError::TooMuchWork { .. }) => {
-                return Err(ToleranceError::TooLarge { order: smallest });
-            }
-            Err(error) => return Err(error.into()),
-        };
-    }
+    let range = [*TRUNCATIONS.start(), *TRUNCATIONS.end()];
+    let orders = only.map_or(range, |only| [only; 2]).map(|truncation| truncation + 2);
+    let Problem { algebra, chart, .. } = problem;
+    let derived = hamilton_jacobi::estimate(algebra, *chart, problem.generated(), orders, limit);
+    derived.map_err(|error| match error {
+        DeriveError::TooLarge { .. } | DeriveError::TooMuchWork { .. } => {
+            ToleranceError::TooLarge { order: orders[0] }
+        }
+        error => error.into(),
+    })
 }
 
 /// The size of the terms, and their effect.
+#[derive(Clone, Debug)]
 struct Sizes {
     /// max |∂S_j| over the region, for each odd j.
     rates: Vec<f64>,
@@ -412,8 +441,13 @@ impl Sizes {
 
     /// The largest step that meets the target, so that the duration is a whole number of steps, and
     /// what it is limited by.
-    fn step(&self, orders: &[usize], truncation: usize, target: &Target) -> (f64, Bound) {
-        let (mut most, mut bound) = (target.duration, Bound::Duration);
+    fn step(
+        &self,
+        orders: &[usize],
+        truncation: usize,
+        (duration, tolerance): (f64, f64),
+    ) -> (f64, Bound) {
+        let (mut most, mut bound) = (duration, Bound::Duration);
         let ratio = (RATIO / self.ratio).sqrt();
         if self.ratio > 0.0 && ratio < most {
             (most, bound) = (ratio, Bound::Ratio);
@@ -422,7 +456,7 @@ impl Sizes {
         if self.turning > 0.0 && turn < most {
             (most, bound) = (turn, Bound::Turn);
         }
-        let goal = SAFETY * target.tolerance;
+        let goal = SAFETY * tolerance;
         let (mut low, mut high) = (0.0, most);
         if self.error(orders, truncation, most) > goal {
             for _ in 0..60 {
@@ -435,6 +469,6 @@ impl Sizes {
             }
             (most, bound) = (low, Bound::Error);
         }
-        (target.duration / (target.duration / most).ceil(), bound)
+        (duration / (duration / most).ceil(), bound)
     }
 }

@@ -1,0 +1,82 @@
+//! Systems derived from one text, and what their series say of errors, kept for later calls.
+
+use std::path::Path;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use coadjoint_codegen::hamilton_jacobi::TermLimit;
+use coadjoint_codegen::problem::Problem;
+use coadjoint_codegen::tolerance::{Prospects, Target, ToleranceError};
+
+use crate::ensemble::in_lanes;
+use crate::error::RunError;
+use crate::load::{Derived, System};
+
+/// The systems derived from one text, and the prospects of its truncations.
+#[derive(Debug, Default)]
+pub struct Derivations {
+    systems: Mutex<Vec<(Purpose, Arc<Derived>)>>,
+    prospects: Mutex<Vec<(Question, Arc<Prospects>)>>,
+}
+
+/// The truncation, the frame of a series or collocation, the parameters that are kept, and whether trajectories go side by side.
+type Purpose = (usize, &'static str, Vec<String>, bool);
+
+/// The frame, the parameters that are kept, a target whose tolerance is left out, and the products of coefficients allowed.
+type Question = (&'static str, Vec<String>, Target, u64);
+
+/// The value of a key in a list.
+fn known<K: PartialEq, V: Clone>(list: &[(K, V)], key: &K) -> Option<V> {
+    list.iter().find(|(other, _)| other == key).map(|(_, value)| value.clone())
+}
+
+/// The list behind a lock: a thread that panicked has added whole entries, if any.
+fn locked<T>(list: &Mutex<T>) -> MutexGuard<'_, T> {
+    list.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Derivations {
+    /// The system of the text as it was read now, with its method: kept, or derived for runs or for ensembles.
+    ///
+    /// # Errors
+    /// As [`Derived::of_file`], and for ensembles as [`in_lanes`].
+    pub fn derive(
+        &self,
+        file: &Path,
+        system: System,
+        ensemble: bool,
+    ) -> Result<Arc<Derived>, RunError> {
+        let frame = system.problem.polynomial().map_or("collocation", Problem::frame_name);
+        let facts = system.problem.facts();
+        let names = facts.parameters.iter().map(|own| own.name.clone()).collect();
+        let purpose = (facts.truncation, frame, names, ensemble);
+        if let Some(found) = known(&locked(&self.systems), &purpose) {
+            return Ok(found);
+        }
+        let system = if ensemble { in_lanes(system)? } else { system };
+        let made = Arc::new(Derived::of_file(file, system)?);
+        let mut systems = locked(&self.systems);
+        // Another thread may have been quicker.
+        Ok(known(&systems, &purpose).unwrap_or_else(|| {
+            systems.push((purpose, made.clone()));
+            made
+        }))
+    }
+
+    /// The prospects of a problem for any tolerance of this target.
+    pub(crate) fn prospects(
+        &self,
+        problem: &Problem,
+        target: &Target,
+        limit: TermLimit,
+    ) -> Result<Arc<Prospects>, ToleranceError> {
+        let names = problem.parameters.iter().map(|own| own.name.clone()).collect();
+        let any = Target { tolerance: 0.0, ..target.clone() };
+        let question = (problem.frame_name(), names, any, limit.products);
+        if let Some(found) = known(&locked(&self.prospects), &question) {
+            return Ok(found);
+        }
+        let made = Arc::new(Prospects::new(&problem.with_defaults(), target, limit)?);
+        locked(&self.prospects).push((question, made.clone()));
+        Ok(made)
+    }
+}
