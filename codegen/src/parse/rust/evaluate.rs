@@ -526,7 +526,7 @@ impl<'a> Evaluator<'a> {
         }
         let (span, name) = (Span::of(path), text(path));
         if let Some((module, constant)) = name.rsplit_once("::") {
-            // Those of `std::f64::consts` have exactly the value of the `f64`.
+            // Constants of `std::f64::consts` have exactly the value of the `f64`.
             let value = match constant {
                 "PI" => consts::PI,
                 "TAU" => consts::TAU,

@@ -183,7 +183,7 @@ impl Evaluator<'_> {
         match value {
             Value::Number(a) => self.push(Node::Neg(a), span),
             Value::List(v) if v.shape.is_some() => v.map(|entry| self.negate(entry, span)),
-            // Of an integer, or of nothing that has a negative.
+            // Integers are subtracted; other values have no negative, which is reported.
             other => self.operate("-", Value::Integer(0), other, span),
         }
     }
