@@ -42,7 +42,6 @@ pub fn simulate_lattice<'py>(
         let mut chosen: Vec<f64> = Vec::new();
         let mut told = |news: News<'_>| {
             match news {
-                News::Begin(plan, _) => control.total.store(plan.schedule.steps, Ordering::Relaxed),
                 News::Record(record) => {
                     time.push(record.time);
                     magnetisation.extend(record.magnetisation);
@@ -60,7 +59,10 @@ pub fn simulate_lattice<'py>(
             let lattice = Simulation::read(Path::new(&name), &text, &arrays)?;
             let none = || RunError::Option("the text has no [lattice]".to_owned());
             let settings = (Some(every.unwrap_or(1)), estimate);
-            lattice.ok_or_else(none)?.run(&accuracy, settings, None, &mut told)
+            let lattice = lattice.ok_or_else(none)?;
+            let plan = lattice.plan(&accuracy, None)?;
+            control.total.store(plan.schedule.steps, Ordering::Relaxed);
+            lattice.run(plan, settings, None, &mut told)
         })?;
         Ok((end, time, magnetisation, energy, chosen))
     })?;

@@ -6,6 +6,8 @@ use std::time::Instant;
 use coadjoint_run::RunError;
 use coadjoint_run::simulate::{Begun, Halt, Moment, Outcome, Record, Resume, Sink};
 use indicatif::ProgressBar;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 use super::interrupt::Guard;
 use super::records::{Checkpoint, Records};
@@ -20,7 +22,7 @@ use crate::progress;
 pub(super) const ANEW: &str = "remove it to begin anew";
 
 /// Advice on a checkpoint of another run.
-pub(super) const AGAIN: &str = "give the same command as then, or another --checkpoint";
+const AGAIN: &str = "give the same command as then, or another --checkpoint";
 
 /// A run that has ended, for reports and pictures.
 #[derive(Clone, Debug)]
@@ -42,9 +44,11 @@ pub(crate) struct Trajectory {
 }
 
 /// The outputs of a run that is going on.
-struct Keeper<'a> {
+pub(super) struct Keeper<'a> {
     settings: &'a Settings<'a>,
-    header: &'a Header,
+    header: Header,
+    /// The entries in which a checkpoint must agree.
+    identity: Identity,
     /// Which drifts records have.
     known: [bool; 3],
     records: Option<Records>,
@@ -69,40 +73,11 @@ pub(crate) fn keep(
     coordinates: &[String],
     drive: impl FnOnce(&mut dyn Sink) -> Result<Outcome, RunError>,
 ) -> Result<Trajectory, CliError> {
-    let now = Instant::now();
-    let mut keeper = Keeper {
-        settings,
-        header: &header,
-        known: [false; 3],
-        records: None,
-        row: Vec::new(),
-        samples: settings.sampled.then(|| Samples::new(coordinates.len())),
-        saved: now,
-        guard: None,
-        bar: None,
-        shown: now,
-        failure: None,
-    };
+    let samples = settings.sampled.then(|| Samples::new(coordinates.len()));
+    let mut keeper = Keeper { samples, ..Keeper::new(settings, header.clone()) };
     let outcome = drive(&mut keeper);
-    let Keeper { records, samples, failure, bar, .. } = keeper;
-    bar.inspect(ProgressBar::finish_and_clear);
-    let target = settings.out.as_ref();
-    let outcome = match outcome {
-        Ok(outcome) => outcome,
-        Err(error) => {
-            let error = failure.unwrap_or_else(|| error.into());
-            if let Some(records) = records {
-                records.stop(&error.to_string());
-                let part = target.map(Destination::part);
-                if let Some(part) = part.filter(|part| part.is_file()) {
-                    errln!("the records up to there are in {}", part.display());
-                }
-            }
-            return Err(error);
-        }
-    };
-    let rows = records.as_ref().map(Records::rows);
-    records.map_or(Ok(()), Records::publish)?;
+    let samples = keeper.samples.take();
+    let (outcome, rows) = keeper.close(outcome)?;
     Ok(Trajectory {
         label,
         header,
@@ -110,51 +85,88 @@ pub(crate) fn keep(
         samples: samples.map(Samples::finish).unwrap_or_default(),
         announcement: settings.setup.schedule.announcement(),
         outcome,
-        out: target.zip(rows).map(|(target, rows)| (target.path.clone(), rows)),
+        out: settings.out.as_ref().zip(rows).map(|(target, rows)| (target.path.clone(), rows)),
     })
 }
 
-impl Keeper<'_> {
-    /// Opens the file of records, and goes on from a checkpoint if there is one.
-    fn open(&mut self, begun: &Begun<'_>) -> Result<Option<Resume>, CliError> {
-        self.known = begun.known;
+impl<'a> Keeper<'a> {
+    pub(super) fn new(settings: &'a Settings<'a>, header: Header) -> Self {
+        let now = Instant::now();
+        Self {
+            settings,
+            header,
+            identity: Identity::new(),
+            known: [false; 3],
+            records: None,
+            row: Vec::new(),
+            samples: None,
+            saved: now,
+            guard: None,
+            bar: None,
+            shown: now,
+            failure: None,
+        }
+    }
+
+    /// Opens the file of records, and goes on from a checkpoint if there is one, of which `step` tells the number of steps. `own`
+    /// is an entry in which it must agree besides those of the header.
+    pub(super) fn open<R: DeserializeOwned>(
+        &mut self,
+        (own, value): (&str, String),
+        columns: Vec<String>,
+        step: impl Fn(&R) -> u64,
+    ) -> Result<Option<R>, CliError> {
         let settings = self.settings;
         // First of all: what is read below is then not another run's.
         let output = settings.out.as_ref().map(Destination::open).transpose()?.flatten();
-        let header = self.header.clone().with_scales(begun.known, begun.scales);
-        let path = settings.checkpoint.as_ref().map(|(path, _)| path.as_path());
-        let found = match path {
-            None => None,
-            Some(path) => note::read::<Checkpoint>(path, "checkpoint", ANEW)?.map(|f| (path, f)),
-        };
-        if let Some((path, found)) = &found {
-            note::agree(path, &found.identity, &self.identity(), AGAIN)?;
-            let samples = found.samples.as_ref();
-            if samples.is_some_and(|samples| !samples.fits(begun.coordinates.len())) {
-                return Err(CliError::Option(format!(
-                    "{} does not hold a state of this system: {ANEW}",
-                    path.display()
-                )));
+        self.identity = self.header.identity();
+        // It follows from the time and the step, whose names say more.
+        self.identity.remove("steps");
+        let out = settings.out.as_ref().map(|out| out.path.display().to_string());
+        self.identity.insert("out".to_owned(), out.unwrap_or_else(|| "none".to_owned()));
+        self.identity.insert(own.to_owned(), value);
+        let path = settings.checkpoint.as_ref().map(|(path, _)| path);
+        let found = path.map(|path| note::read(path, "checkpoint", ANEW)).transpose()?.flatten();
+        let (mut done, steps) = (0, settings.setup.schedule.steps);
+        if let (Some(path), Some(Checkpoint::<R> { identity, resume, complete, .. })) =
+            (path, &found)
+        {
+            note::agree(path, identity, &self.identity, AGAIN)?;
+            let path = path.display();
+            done = step(resume);
+            match complete {
+                true => errln!(
+                    "this run has finished; its report is made from {path}: remove it to run anew"
+                ),
+                false => errln!("going on from {path} at step {done} of {steps}"),
             }
         }
         if let Some(target) = &settings.out {
-            let found = found.as_ref().map(|(_, found)| found);
-            self.records = Some(Records::open(target, output, header, begun.columns(), found)?);
+            let header = self.header.clone();
+            self.records = Some(Records::open(target, output, header, columns, found.as_ref())?);
         }
-        let Some((path, found)) = found else { return Ok(None) };
-        let path = path.display();
-        if found.complete {
-            errln!("this run has finished; its report is made from {path}: remove it to run anew");
-        } else {
-            let (step, steps) = (found.resume.step, settings.setup.schedule.steps);
-            errln!("going on from {path} at step {step} of {steps}");
+        if done < steps {
+            self.guard = Some(Guard::new());
+            self.bar = Some(progress::bar(steps, "integrating"));
         }
+        (self.saved, self.shown) = (Instant::now(), Instant::now());
+        let Some(found) = found else { return Ok(None) };
         self.samples = found.samples;
         Ok(Some(found.resume))
     }
 
-    /// Between steps.
-    fn tend(&mut self, n: u64, end: bool, state: &dyn Fn() -> Resume) -> Result<(), CliError> {
+    /// Adds a record.
+    pub(super) fn row(&mut self, numbers: &[f64]) -> Result<(), CliError> {
+        self.records.as_mut().map_or(Ok(()), |records| records.row(numbers))
+    }
+
+    /// Between steps, and at the end; `state` is what the run needs to go on from here, if it can.
+    pub(super) fn tend<R: Serialize>(
+        &mut self,
+        n: u64,
+        end: bool,
+        state: Option<&dyn Fn() -> R>,
+    ) -> Result<(), CliError> {
         let schedule = &self.settings.setup.schedule;
         if let Some(bar) = self.bar.as_ref().filter(|_| self.shown.elapsed() >= progress::INTERVAL)
         {
@@ -172,12 +184,13 @@ impl Keeper<'_> {
         }
         let stop = !end && self.guard.as_ref().is_some_and(Guard::asked);
         let checkpoint = self.settings.checkpoint.as_ref();
-        if let Some((path, interval)) = checkpoint
+        if let (Some((path, interval)), Some(state)) = (checkpoint, state)
             && (end || stop || self.saved.elapsed() >= *interval)
         {
             self.save(path, end, state())?;
         }
-        if !stop {
+        // With checkpoints the run ends where one can be made.
+        if !stop || checkpoint.is_some() && state.is_none() {
             return Ok(());
         }
         let again = checkpoint.map(|(path, _)| path.display());
@@ -191,11 +204,16 @@ impl Keeper<'_> {
     }
 
     /// Writes a checkpoint; the records that it counts are on the disk before.
-    fn save(&mut self, path: &Path, complete: bool, resume: Resume) -> Result<(), CliError> {
+    fn save<R: Serialize>(
+        &mut self,
+        path: &Path,
+        complete: bool,
+        resume: R,
+    ) -> Result<(), CliError> {
         let vouched = self.records.as_mut().map(Records::vouch).transpose()?;
         let (extent, rows) = vouched.unwrap_or_default();
         let checkpoint = Checkpoint {
-            identity: self.identity(),
+            identity: self.identity.clone(),
             resume,
             bytes: extent.bytes,
             records_crc32: extent.crc32,
@@ -208,42 +226,58 @@ impl Keeper<'_> {
         Ok(())
     }
 
-    /// The entries in which a checkpoint must agree.
-    fn identity(&self) -> Identity {
-        let mut identity = self.header.identity();
-        // It follows from the time and the step, whose names say more.
-        identity.remove("steps");
-        let out = self.settings.out.as_ref();
-        let out = out.map_or_else(|| "none".to_owned(), |out| out.path.display().to_string());
-        identity.insert("out".to_owned(), out);
-        identity.insert("plot".to_owned(), self.settings.sampled.to_string());
-        identity
-    }
-
     /// Takes note of a failure.
-    fn note<T>(&mut self, outcome: Result<T, CliError>) -> Result<T, Halt> {
+    pub(super) fn note<T>(&mut self, outcome: Result<T, CliError>) -> Result<T, Halt> {
         outcome.map_err(|error| {
             self.failure = Some(error);
             Halt
         })
     }
+
+    /// The outcome of the run, and the number of records, whose file has its name then; where the run stopped, those made so far
+    /// are kept.
+    pub(super) fn close<T>(
+        self,
+        outcome: Result<T, RunError>,
+    ) -> Result<(T, Option<u64>), CliError> {
+        self.bar.inspect(ProgressBar::finish_and_clear);
+        let error = match outcome {
+            Ok(outcome) => {
+                let rows = self.records.as_ref().map(Records::rows);
+                self.records.map_or(Ok(()), Records::publish)?;
+                return Ok((outcome, rows));
+            }
+            Err(error) => self.failure.unwrap_or_else(|| error.into()),
+        };
+        if let Some(records) = self.records {
+            records.stop(&error.to_string());
+            let part = self.settings.out.as_ref().map(Destination::part);
+            if let Some(part) = part.filter(|part| part.is_file()) {
+                errln!("the records up to there are in {}", part.display());
+            }
+        }
+        Err(error)
+    }
 }
 
 impl Sink for Keeper<'_> {
     fn begin(&mut self, begun: &Begun<'_>) -> Result<Option<Resume>, Halt> {
-        let opened = self.open(begun);
-        let found = self.note(opened)?;
-        let steps = self.settings.setup.schedule.steps;
-        if found.as_ref().is_none_or(|found| found.step < steps) {
-            self.guard = Some(Guard::new());
-            self.bar = Some(progress::bar(steps, "integrating"));
-        }
-        (self.saved, self.shown) = (Instant::now(), Instant::now());
-        Ok(found)
+        self.known = begun.known;
+        self.header = self.header.clone().with_scales(begun.known, begun.scales);
+        let plot = ("plot", self.settings.sampled.to_string());
+        let opened = self.open(plot, begun.columns(), |resume: &Resume| resume.step);
+        let fits = |samples: &Samples| samples.fits(begun.coordinates.len());
+        let opened = match (&self.settings.checkpoint, self.samples.as_ref().is_none_or(fits)) {
+            (Some((path, _)), false) => {
+                let what = "does not hold a state of this system";
+                Err(CliError::Option(format!("{} {what}: {ANEW}", path.display())))
+            }
+            _ => opened,
+        };
+        self.note(opened)
     }
 
     fn record(&mut self, record: &Record<'_>) -> Result<(), Halt> {
-        let Some(records) = &mut self.records else { return Ok(()) };
         let drifts = record.moment.drift.numbers().into_iter().zip(self.known);
         let drifts = drifts.filter_map(|(drift, known)| known.then_some(drift));
         self.row.clear();
@@ -252,7 +286,7 @@ impl Sink for Keeper<'_> {
         self.row.extend_from_slice(record.element);
         self.row.extend(record.moment.energy);
         self.row.extend(drifts);
-        let written = records.row(&self.row);
+        let written = self.records.as_mut().map_or(Ok(()), |records| records.row(&self.row));
         self.note(written)
     }
 
@@ -263,7 +297,7 @@ impl Sink for Keeper<'_> {
     }
 
     fn pause(&mut self, steps: u64, end: bool, state: &dyn Fn() -> Resume) -> Result<(), Halt> {
-        let tended = self.tend(steps, end, state);
+        let tended = self.tend(steps, end, Some(state));
         self.note(tended)
     }
 

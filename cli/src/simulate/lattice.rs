@@ -1,28 +1,25 @@
 //! `coadjoint simulate` of a lattice: progress, records, the spins at the end, and the report.
 
 use std::fmt::Write;
-use std::path::Path;
-use std::time::Instant;
 
 use coadjoint_codegen::file;
 use coadjoint_draw::vectors;
 use coadjoint_learn::npy_header;
 use coadjoint_run::lattice::{Arrays, Conclusion, Itinerary, News, Record, Simulation, Waypoint};
 use coadjoint_run::number::shortest;
+use coadjoint_run::simulate::Setup;
 use coadjoint_run::text_hash;
 use serde_json::{Value, json};
 
-use super::interrupt::Guard;
-use super::keep::{AGAIN, ANEW};
+use super::keep::{ANEW, Keeper};
 use super::plot::brief;
-use super::records::{Checkpoint, Records};
-use super::settings::{self, Header, every};
+use super::records::Checkpoint;
+use super::settings::{self, Header, Settings, every};
 use super::target::{Destination, Place, paths};
 use crate::arguments::SimulateOptions;
 use crate::error::{CliError, unwritten};
 use crate::named::Format;
-use crate::note::{self, Identity};
-use crate::{load, progress};
+use crate::{load, note, progress};
 
 /// The names of the columns of records, before those of chosen sites.
 const COLUMNS: [&str; 5] = ["t", "m_1", "m_2", "m_3", "energy"];
@@ -39,7 +36,6 @@ pub(super) fn run(options: &SimulateOptions) -> Result<bool, CliError> {
     refuse(options)?;
     let mut used = vec![path.clone()];
     let out = settings::check_names(options, &used)?;
-    let checkpoint = settings::checkpoint(options)?;
     let plane = lattice.plane(MOST_DRAWN);
     if options.plot.is_some() && plane.is_none() {
         let what = "--plot: a graph by edges has no places to draw its spins at; read the array of --final";
@@ -61,125 +57,47 @@ pub(super) fn run(options: &SimulateOptions) -> Result<bool, CliError> {
     let run = &lattice.text().run;
     let every = every(options.every.or(run.every).unwrap_or(1))?;
     let estimate = !options.no_estimate && run.estimate != Some(false);
-    // First of all: what is read below is then not another run's.
-    let mut output = out.as_ref().map(Destination::open).transpose()?.flatten();
-    let found = checkpoint.as_ref().map(|(path, _)| note::read(path, "checkpoint", ANEW));
-    let found: Option<Checkpoint<Waypoint>> = found.transpose()?.flatten();
-    let (mut records, mut bar, mut failure) = (None::<Records>, None, None);
-    let (guard, mut shown, mut saved) = (Guard::new(), Instant::now(), Instant::now());
-    let mut journey = None::<(Itinerary, Identity)>;
-    let save = |(plan, identity): &(Itinerary, Identity),
-                records: Option<&mut Records>,
-                (step, spins): (u64, &[[f64; 3]])| {
-        let Some((path, _)) = &checkpoint else { return Ok(()) };
-        let (extent, rows) = records.map(Records::vouch).transpose()?.unwrap_or_default();
-        let checkpoint = Checkpoint {
-            identity: identity.clone(),
-            resume: plan.waypoint(step, spins),
-            bytes: extent.bytes,
-            records_crc32: extent.crc32,
-            rows,
-            samples: None,
-            complete: step == plan.schedule.steps,
-        };
-        note::write(&checkpoint, path, &[&options.input.source(None).file])
-    };
     let choosing = progress::phase("choosing the method and the step");
-    let mut choosing = Some(choosing);
-    let mut tell = |news: News<'_>| -> Result<(), CliError> {
-        match news {
-            News::Begin(plan, first) => {
-                choosing = None;
-                let steps = plan.schedule.steps;
-                plan.schedule.announcement().iter().for_each(|line| errln!("{line}"));
-                let header = header(&lattice, &path, plan, every);
-                let mut identity = header.identity();
-                // It follows from the time and the step; the content of tables shows in the start.
-                identity.remove("steps");
-                identity.insert("start".to_owned(), format!("{:?}", row(first)));
-                let name =
-                    out.as_ref().map_or_else(String::new, |out| out.path.display().to_string());
-                identity.insert("out".to_owned(), name);
-                if let (Some(found), Some((path, _))) = (&found, &checkpoint) {
-                    note::agree(path, &found.identity, &identity, AGAIN)?;
-                    let (path, step) = (path.display(), found.resume.step);
-                    match found.complete {
-                        true => errln!(
-                            "this run has finished; its report is made from {path}: remove it to run anew"
-                        ),
-                        false => errln!("going on from {path} at step {step} of {steps}"),
-                    }
-                }
-                if let Some(out) = &out {
-                    let spins = lattice.text().sites.iter().flat_map(|site| {
-                        lattice.text().coordinates.each_ref().map(|name| format!("{name}[{site}]"))
-                    });
-                    let names = COLUMNS.map(str::to_owned).into_iter().chain(spins).collect();
-                    records =
-                        Some(Records::open(out, output.take(), header, names, found.as_ref())?);
-                }
-                journey = Some((plan.clone(), identity));
-                saved = Instant::now();
-                bar = Some(progress::bar(steps, "integrating"));
-            }
-            News::Record(record) => {
-                records.as_mut().map_or(Ok(()), |records| records.row(&row(record)))?;
-            }
+    let found = options.checkpoint.as_ref().map(|path| note::read(path, "checkpoint", ANEW));
+    let found: Option<Checkpoint<Waypoint>> = found.transpose()?.flatten();
+    let plan = lattice.plan(&asked, found.as_ref().map(|found| &found.resume))?;
+    drop(choosing);
+    plan.schedule.announcement().iter().for_each(|line| errln!("{line}"));
+    let setup = Setup::new(plan.schedule, Vec::new());
+    let hash = text_hash(lattice.source());
+    let settings = Settings {
+        // The end is wanted, too, where nobody reads the records.
+        sampled: options.plot.is_some() || options.last.is_some(),
+        ..Settings::new(options, (&path, &hash), out, setup)?
+    };
+    let header = header(&lattice, &settings, &plan, every);
+    let mut keeper = Keeper::new(&settings, header.clone());
+    let spins = lattice.text().sites.iter().flat_map(|site| {
+        lattice.text().coordinates.each_ref().map(|name| format!("{name}[{site}]"))
+    });
+    let columns = COLUMNS.map(str::to_owned).into_iter().chain(spins).collect();
+    // The content of tables shows in the start.
+    let start =
+        ("start", format!("{:?}", row(&lattice.record(plan.schedule.start, lattice.start())?)));
+    let from = keeper.open(start, columns, |found: &Waypoint| found.step)?;
+    let mut told = |news: News<'_>| {
+        let done = match news {
+            News::Record(record) => keeper.row(&row(record)),
             News::Steps(n, spins) => {
-                if let Some(bar) = bar.as_ref().filter(|_| shown.elapsed() >= progress::INTERVAL) {
-                    bar.set_position(n);
-                    shown = Instant::now();
-                }
-                if let Some(records) = &mut records {
-                    records.tick()?;
-                }
-                let stop = guard.asked();
-                let due =
-                    checkpoint.as_ref().map(|(_, interval)| stop || saved.elapsed() >= *interval);
-                if let (Some(true), Some(journey), Some(spins)) = (due, &journey, spins)
-                    && n < journey.0.schedule.steps
-                {
-                    save(journey, records.as_mut(), (n, spins))?;
-                    saved = Instant::now();
-                }
-                // With checkpoints the run ends where one can be made.
-                if stop && (checkpoint.is_none() || spins.is_some()) {
-                    let again = checkpoint.as_ref().map(|(path, _)| {
-                        format!("; the same command goes on from {}", path.display())
-                    });
-                    let what = format!("interrupted after {n} steps{}", again.unwrap_or_default());
-                    return Err(CliError::Interrupted(what));
-                }
+                let state = || plan.waypoint(n, spins.unwrap_or_default());
+                let state = spins.is_some().then_some(&state as &dyn Fn() -> Waypoint);
+                keeper.tend(n, n == plan.schedule.steps, state)
             }
-        }
-        Ok(())
+        };
+        keeper.note(done).is_ok()
     };
-    let mut told = |news: News<'_>| match tell(news) {
-        Ok(()) => true,
-        Err(error) => {
-            failure = Some(error);
-            false
-        }
-    };
-    let settings = (out.as_ref().map(|_| every), estimate);
-    let from = found.as_ref().map(|found| &found.resume);
-    let end = lattice.run(&asked, settings, from, &mut told);
-    bar.inspect(indicatif::ProgressBar::finish_and_clear);
-    let end = match (end, records) {
-        (Ok(end), mut records) => {
-            records.as_mut().map_or(Ok(()), Records::complete)?;
-            if let Some(journey) = &journey {
-                save(journey, records.as_mut(), (end.plan.schedule.steps, &end.spins))?;
-            }
-            records.map_or(Ok(()), Records::publish)?;
-            end
-        }
-        (Err(error), records) => {
-            let error = failure.unwrap_or_else(|| error.into());
-            records.into_iter().for_each(|records| records.stop(&error.to_string()));
-            return Err(error);
-        }
-    };
+    let end = lattice.run(
+        plan.clone(),
+        (settings.out.as_ref().map(|_| every), estimate),
+        from.as_ref(),
+        &mut told,
+    );
+    let (end, _) = keeper.close(end)?;
     if let Some(last) = &options.last {
         let mut bytes = npy_header(&[end.spins.len() as u64, 3]);
         end.spins.as_flattened().iter().for_each(|x| bytes.extend_from_slice(&x.to_le_bytes()));
@@ -187,14 +105,13 @@ pub(super) fn run(options: &SimulateOptions) -> Result<bool, CliError> {
     }
     if let (Some(path), Some(plane)) = (&options.plot, plane) {
         let picture = picture(&lattice, &end, &plane);
-        let inputs = [options.input.source(None).file];
-        file::write(path, &paths(&inputs), picture.as_bytes()).map_err(unwritten(path))?;
+        file::write(path, &paths(&settings.inputs), picture.as_bytes()).map_err(unwritten(path))?;
     }
     let report = match options.format {
         Format::Text => text(&lattice, &end),
-        Format::Json => format!("{:#}\n", object(&lattice, &path, &end, every)),
+        Format::Json => format!("{:#}\n", object(&lattice, &header, &end)),
     };
-    match out.is_some_and(|out| out.place == Place::Standard) {
+    match settings.out.is_some_and(|out| out.place == Place::Standard) {
         true => err!("{report}"),
         false => out!("{report}"),
     }
@@ -249,13 +166,13 @@ fn picture(lattice: &Simulation, end: &Conclusion, plane: &[(usize, [f64; 2])]) 
 }
 
 /// Everything needed to repeat a run.
-fn header(lattice: &Simulation, path: &Path, plan: &Itinerary, every: u64) -> Header {
+fn header(lattice: &Simulation, settings: &Settings<'_>, plan: &Itinerary, every: u64) -> Header {
     let Itinerary { method, schedule, .. } = plan;
     let text = lattice.text();
     Header::of_entries(vec![
         ("program", json!(format!("coadjoint {}", env!("CARGO_PKG_VERSION")))),
-        ("system", json!(path.display().to_string())),
-        ("system_sha256", json!(text_hash(lattice.source()))),
+        ("system", json!(settings.file.display().to_string())),
+        ("system_sha256", json!(settings.hash)),
         ("name", json!(text.name)),
         ("group", json!("SO3")),
         ("lattice", json!(text.kind)),
@@ -272,13 +189,13 @@ fn header(lattice: &Simulation, path: &Path, plan: &Itinerary, every: u64) -> He
     ])
 }
 
-fn object(lattice: &Simulation, path: &Path, end: &Conclusion, every: u64) -> Value {
+fn object(lattice: &Simulation, header: &Header, end: &Conclusion) -> Value {
     let Conclusion { plan, ends, lengths, error, .. } = end;
     let moment = |Record { time, magnetisation, energy, .. }: &Record| json!({ "time": time, "magnetisation": magnetisation, "energy": energy });
     let tried = plan.tried.iter().map(|(method, seconds)| json!({ "splitting": method.name(), "order": method.order(), "seconds": seconds }));
     json!({
         "method": plan.method.label(),
-        "run": header(lattice, path, plan, every).object(),
+        "run": header.object(),
         "tried": tried.collect::<Vec<_>>(),
         "start": moment(&ends[0]),
         "end": moment(&ends[1]),

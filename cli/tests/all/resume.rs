@@ -152,7 +152,7 @@ fn a_killed_run_of_a_lattice_ends_with_the_same_bits() {
     let child = start(&place, &run, "state", 1);
     kill_process(Pid::from_child(&child), Signal::INT).unwrap();
     let ran = Ran::of(&child.wait_with_output().unwrap());
-    ran.fails(130, &["interrupted after ", "goes on from state"]);
+    ran.fails(130, &["interrupted at time ", "goes on from state"]);
     let whole = place.run(&magnet("collocation", "whole.csv")).ok();
     same(&place, &whole, place.run(&run), "i.csv");
 }

@@ -242,6 +242,7 @@ fn assemble_smooth(
 }
 
 /// Checks what was read and turns it into a problem; `None` where something is wrong, which has then been reported.
+#[cfg(feature = "system")]
 pub(crate) fn assemble(draft: Draft, diagnostics: &Diagnostics) -> Option<Problem> {
     if let Some((Method::Collocation, place)) = draft.choice.method {
         let message = "`method = \"collocation\"`: here steps are made by the series alone";

@@ -9,9 +9,11 @@ mod program;
 mod sums;
 
 pub(crate) use assemble::{
-    Acting, Draft, Formula, assemble, assemble_drive, assemble_either, assemble_potential, linear,
+    Acting, Draft, Formula, assemble_drive, assemble_either, assemble_potential, linear,
 };
 #[cfg(feature = "system")]
-pub(crate) use assemble::{OfSites, assemble_given, constant, entries, function, of_sites};
+pub(crate) use assemble::{
+    OfSites, assemble, assemble_given, constant, entries, function, of_sites,
+};
 pub(crate) use choice::Choice;
 pub use frame::in_other_frame;

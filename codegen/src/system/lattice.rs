@@ -153,11 +153,10 @@ impl Lattice {
 /// # Errors
 /// All mistakes, each at its place in `text`.
 pub fn read_lattice(text: &str) -> Result<Option<Lattice>, Diagnostics> {
-    let (document, _) = DeTable::parse_recoverable(text);
-    if !document.get_ref().contains_key("lattice") {
-        return Ok(None);
-    }
-    read_by(text, |document, diagnostics| system(document, text, diagnostics)).map(Some)
+    read_by(text, |document, diagnostics| match document.contains_key("lattice") {
+        true => system(document, text, diagnostics).map(Some),
+        false => Some(None),
+    })
 }
 
 fn system(document: &DeTable<'_>, text: &str, diagnostics: &Diagnostics) -> Option<Lattice> {

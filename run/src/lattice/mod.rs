@@ -71,8 +71,6 @@ pub struct Record {
 /// News of a run.
 #[derive(Clone, Copy, Debug)]
 pub enum News<'a> {
-    /// The method and the steps are known, and the moment at the start.
-    Begin(&'a Itinerary, &'a Record),
     /// A moment to record.
     Record(&'a Record),
     /// This number of steps is made; where there are spins, a run may go on from them.
@@ -269,11 +267,14 @@ impl Simulation {
         asked.step.or(self.text.run.step).filter(|_| self.tolerance(asked).is_none())
     }
 
-    /// Chooses method and step, by what is asked for, else by the file.
+    /// Chooses method and step, by what is asked for, else by the file; those of a run that went as far as some point.
     ///
     /// # Errors
     /// Steps and times that make no sense, families that do not admit the energy, a tolerance that is not met.
-    pub fn plan(&self, asked: &Accuracy) -> Result<Itinerary, RunError> {
+    pub fn plan(&self, asked: &Accuracy, from: Option<&Waypoint>) -> Result<Itinerary, RunError> {
+        if let Some(from) = from {
+            return self.plan_again(asked, from);
+        }
         let run = &self.text.run;
         let tolerance = self.tolerance(asked);
         let orders = match (self.text.truncation, tolerance) {
@@ -329,22 +330,19 @@ impl Simulation {
         // The ratio of the step with the error wanted to the step tried.
         let ratio =
             |method: Algorithm, error: f64| (wanted / error).powf(1.0 / f64::from(method.order()));
-        let mut tried: Vec<(Algorithm, f64)> = found
-            .iter()
-            .map(|&(method, error, seconds)| (method, seconds / ratio(method, error)))
-            .collect();
-        tried.sort_by(|a, b| a.1.total_cmp(&b.1));
-        let method = tried[0].0;
+        let cost = |&(method, error, seconds): &(Algorithm, f64, f64)| {
+            (method, seconds / ratio(method, error))
+        };
+        found.sort_by(|a, b| cost(a).1.total_cmp(&cost(b).1));
+        let (method, error, _) = found[0];
+        let mut tried: Vec<(Algorithm, f64)> = found.iter().map(cost).collect();
         if tried.len() == 1 {
             tried.clear();
         }
         if let Some(step) = step {
             return Ok(Itinerary { method, schedule: of(step)?, tried, error: None });
         }
-        let (tolerance, error) = (
-            tolerance.unwrap_or(0.0),
-            found.iter().find(|own| own.0 == method).map_or(first, |own| own.1),
-        );
+        let tolerance = tolerance.unwrap_or(0.0);
         let mut schedule = of((trial * ratio(method, error)).min(time))?;
         let whole = |schedule: &Schedule| {
             let made = self.of_cut((method, schedule.step), spins.clone(), start, schedule.steps);
@@ -391,19 +389,18 @@ impl Simulation {
         Ok(Itinerary { method, schedule, tried: Vec::new(), error: found.error })
     }
 
-    /// Makes all steps, or those after a point that an earlier run has come to. With `every`, every n-th of them is recorded, and the
-    /// last. `told` is given the news and returns false to stop.
+    /// Makes all steps of a plan, or those after a point that an earlier run has come to. With `every`, every n-th of them is
+    /// recorded, and the last. `told` is given the news and returns false to stop.
     ///
     /// # Errors
-    /// As [`Simulation::plan`]; steps that cannot be made; [`RunError::Halted`] where it was told to stop.
+    /// Steps that cannot be made; [`RunError::Halted`] where it was told to stop.
     pub fn run(
         &self,
-        asked: &Accuracy,
+        plan: Itinerary,
         (every, estimate): (Option<u64>, bool),
         from: Option<&Waypoint>,
         told: &mut dyn FnMut(News<'_>) -> bool,
     ) -> Result<Conclusion, RunError> {
-        let plan = from.map_or_else(|| self.plan(asked), |from| self.plan_again(asked, from))?;
         let Itinerary { method, schedule, .. } = &plan;
         let halted = |n: u64| RunError::Halted { time: schedule.time(n), step: n };
         let failed = |n: u64| {
@@ -415,7 +412,6 @@ impl Simulation {
         };
         let mut tell = |n: u64, news: News<'_>| if told(news) { Ok(()) } else { Err(halted(n)) };
         let first = self.record(schedule.start, &self.start)?;
-        tell(0, News::Begin(&plan, &first))?;
         let mut spins = from.map_or(&self.start, |from| &from.spins).clone();
         let mut steps = self.problem.steps(*method, schedule.step).map_err(failed(0))?;
         if every.is_some() && from.is_none() {
@@ -446,9 +442,12 @@ impl Simulation {
             if renewed {
                 steps.forget();
             }
-            tell(made, News::Steps(made, renewed.then_some(&spins)))?;
+            if made < schedule.steps {
+                tell(made, News::Steps(made, renewed.then_some(&spins)))?;
+            }
         }
         drop(steps);
+        tell(made, News::Steps(made, Some(&spins)))?;
         let changes = spins.iter().zip(&self.start).map(|(spin, before)| {
             (length(spin) - length(before)).abs() / length(before).max(f64::MIN_POSITIVE)
         });
@@ -492,7 +491,11 @@ impl Simulation {
         Ok((spins, clock.elapsed().as_secs_f64()))
     }
 
-    fn record(&self, time: f64, spins: &Spins) -> Result<Record, RunError> {
+    /// The moment of these spins.
+    ///
+    /// # Errors
+    /// Spins that are not those of the lattice.
+    pub fn record(&self, time: f64, spins: &[[f64; 3]]) -> Result<Record, RunError> {
         let of = || {
             let total = self.problem.lattice.total_spin(spins)?;
             let magnetisation = total.map(|sum| sum / spins.len() as f64);

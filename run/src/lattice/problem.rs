@@ -357,7 +357,7 @@ impl Magnet {
     }
 
     /// The energy at a time.
-    pub(super) fn energy(&self, time: f64, spins: &Spins) -> Result<f64, LatticeError> {
+    pub(super) fn energy(&self, time: f64, spins: &[[f64; 3]]) -> Result<f64, LatticeError> {
         let mut energy = self.lattice.energy(spins)?;
         if !self.driven.is_empty() {
             let total = self.lattice.total_spin(spins)?;

@@ -15,8 +15,8 @@ use coadjoint_program::collocation::{MAX_SWEEPS, Nodes, ROUNDING, SOLVED};
 
 use super::couplings::{Couplings, Energies, Own, UserFunction, Velocity, multiplied};
 use super::error::{LatticeError, check_spins, check_step};
-use super::lanes::{LANES, Pack, larger};
-use super::layout::{Column, Piece, Spins, Vectors, pieces, split, store};
+use super::lanes::{LANES, Pack, larger, larger_each, largest};
+use super::layout::{Column, Spins, Vectors, each_pack, pieces, read, split, write};
 use super::threads;
 use crate::error::{Circumstances, StepError, Stopped};
 
@@ -201,7 +201,7 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
                     let start = now.row(first + at);
                     let mut before = [[Pack::of(0.0); 3]; M];
                     for i in 0..M {
-                        before[i] = own(&nodes[i], at);
+                        before[i] = read(&nodes[i], at);
                     }
                     for i in 0..M {
                         let mut spin = start;
@@ -290,7 +290,7 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
                     let place = first_place + first + at;
                     let mut spins = [[Pack::of(0.0); 3]; M];
                     for i in 0..M {
-                        spins[i] = own(&nodes[i], at);
+                        spins[i] = read(&nodes[i], at);
                     }
                     let mut rates = equation.rates(&spins, further.as_ref(), place);
                     rates = couplings.fields(rates, around.each_ref(), place / LANES);
@@ -305,16 +305,16 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
                         squares = squares + dot(rates[i], rates[i]);
                         write(&mut nodes[i], at, spin);
                     }
-                    change = change.larger(gaps);
+                    change = larger_each(change, gaps);
                     all = all + gaps;
-                    speed = speed.larger(squares);
+                    speed = larger_each(speed, squares);
                 }
                 // The sum is not finite where a change is not a number, which the larger of two may lose.
-                [(change + all.by(0.0)).largest(), speed.largest()]
+                [largest(change + all.by(0.0)), largest(speed)]
             },
         );
-        let largest = |a: [f64; 2], b: [f64; 2]| [larger(a[0], b[0]), larger(a[1], b[1])];
-        changes.into_iter().fold([0.0; 2], largest)
+        let both = |a: [f64; 2], b: [f64; 2]| [larger(a[0], b[0]), larger(a[1], b[1])];
+        changes.into_iter().fold([0.0; 2], both)
     }
 
     /// Turns the spins by the rotation of the whole step.
@@ -326,32 +326,28 @@ impl<const M: usize, F: Fn(&[[f64; 3]], &mut [[f64; 3]])> GaussStep<M, F> {
         }
         let nodes = nodes.each_ref().map(Spins::all);
         let further = further.as_ref().map(|nodes| nodes.each_ref().map(Spins::all));
-        let pieces = pieces([now.all_mut()], couplings.places.len());
-        threads::each(
-            pieces,
+        each_pack(
+            now.all_mut(),
+            couplings.places.len(),
             #[inline(always)]
-            |(first, [mut now])| {
-                for at in (0..now[0].len()).step_by(LANES) {
-                    let place = first + at;
-                    let mut spins = [[Pack::of(0.0); 3]; M];
-                    for i in 0..M {
-                        spins[i] = nodes[i].row(place);
-                    }
-                    let mut rates = equation.rates(&spins, further.as_ref(), place);
-                    rates = couplings.fields(rates, nodes, place / LANES);
-                    equation.drive(&spins, &mut rates, place);
-                    let turns = solved(matrix, &rates);
-                    let mut turn = one();
-                    for j in 0..M {
-                        let part = product(
-                            [Pack::of(0.0), rates[j][0], rates[j][1], rates[j][2]],
-                            turns[j],
-                        );
-                        turn = each(|k| part[k].by_plus(-weights[j], turn[k]));
-                    }
-                    let (spin, norm) = turned(turn, own(&now, at));
-                    write(&mut now, at, scaled(Pack::of(1.0) / norm, spin));
+            |pack, spin| {
+                let place = pack * LANES;
+                let mut spins = [[Pack::of(0.0); 3]; M];
+                for i in 0..M {
+                    spins[i] = nodes[i].row(place);
                 }
+                let mut rates = equation.rates(&spins, further.as_ref(), place);
+                rates = couplings.fields(rates, nodes, pack);
+                equation.drive(&spins, &mut rates, place);
+                let turns = solved(matrix, &rates);
+                let mut turn = one();
+                for j in 0..M {
+                    let [x, y, z] = rates[j];
+                    let part = product([Pack::of(0.0), x, y, z], turns[j]);
+                    turn = each(|k| part[k].by_plus(-weights[j], turn[k]));
+                }
+                let (spin, norm) = turned(turn, spin);
+                scaled(Pack::of(1.0) / norm, spin)
             },
         );
     }
@@ -438,18 +434,6 @@ impl<const M: usize> Equation<M> {
         }
         all
     }
-}
-
-#[inline(always)]
-fn own(columns: &Piece<'_>, at: usize) -> V3<Pack> {
-    [&*columns[0], &*columns[1], &*columns[2]].row(at)
-}
-
-#[inline(always)]
-fn write(columns: &mut Piece<'_>, at: usize, [x, y, z]: V3<Pack>) {
-    store(columns[0], at, x);
-    store(columns[1], at, y);
-    store(columns[2], at, z);
 }
 
 /// A quaternion (w, i, j, k).

@@ -8,10 +8,11 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use coadjoint_geometry::number::Number;
+use coadjoint_geometry::row::Tuple;
 use coadjoint_geometry::vector::V3;
 
 use super::graph::Edge;
-use super::lanes::{LANES, Pack};
+use super::lanes::{LANES, Pack, largest};
 use super::threads::{self, share};
 
 /// A list of sites, or of something else of them, for each site.
@@ -136,10 +137,7 @@ pub struct Neighbours {
 impl Neighbours {
     /// The largest size of a factor.
     pub fn largest(&self) -> f64 {
-        match self.factors.is_empty() {
-            true => 1.0,
-            false => self.factors.iter().map(|own| Number::abs(*own).largest()).fold(0.0, f64::max),
-        }
+        largest_factor(&self.factors)
     }
 
     /// Calls for each neighbour of a pack, by the first place of a pack, with its factors if there are any.
@@ -205,7 +203,7 @@ impl Copies {
                         if let Some(factors) = factors {
                             let of = |site: Option<usize>| factors.of(site?).get(slot).copied();
                             let own = core::array::from_fn(|lane| of(pack[lane]).unwrap_or(0.0));
-                            neighbours.factors.push(Pack(own));
+                            neighbours.factors.push(Tuple(own));
                         }
                     }
                 }
@@ -258,6 +256,12 @@ impl Copies {
     }
 }
 
+/// The largest size of factors, or 1 where there are none.
+fn largest_factor(factors: &[Pack]) -> f64 {
+    let sizes = factors.iter().map(|own| largest(own.abs()));
+    if factors.is_empty() { 1.0 } else { sizes.fold(0.0, f64::max) }
+}
+
 /// True for eight places in a row.
 fn is_row(list: [u32; LANES]) -> bool {
     (0..).zip(list).all(|(lane, place)| place == list[0] + lane)
@@ -284,7 +288,7 @@ impl Pairs {
         let mut of_lists = Vec::new();
         for edges in sorted.chunks(LANES) {
             let mut lists = [[places.len() as u32; LANES]; 2];
-            let mut own = Pack([0.0; LANES]);
+            let mut own = Tuple([0.0; LANES]);
             for (lane, (edge, at)) in edges.iter().enumerate() {
                 (lists[0][lane], lists[1][lane]) = (edge[0], edge[1]);
                 own.0[lane] = factors.map_or(0.0, |factors| factors[*at as usize]);
@@ -304,32 +308,28 @@ impl Pairs {
 
     /// The largest size of a factor.
     pub fn largest(&self) -> f64 {
-        let sizes = self.factors.iter().map(|own| Number::abs(*own).largest());
-        if self.factors.is_empty() { 1.0 } else { sizes.fold(0.0, f64::max) }
+        largest_factor(&self.factors)
     }
 
     /// Replaces the spins at both ends of all edges, by their factors.
     #[inline(always)]
     pub fn replace(
         &self,
-        [x, y, z]: Piece<'_>,
+        mut columns: Piece<'_>,
         change: impl Fn(V3<Pack>, V3<Pack>, Pack) -> [V3<Pack>; 2],
     ) {
         let factor = |at: usize| self.factors.get(at).copied().unwrap_or(Pack::of(1.0));
         for (at, [a, b]) in self.rows.iter().enumerate() {
             let own = factor(at);
             let [a, b] = [*a as usize, *b as usize];
-            let read = |at: usize| [row(x, at), row(y, at), row(z, at)];
-            let [s, t] = change(read(a), read(b), own);
-            for (at, [u, v, w]) in [(a, s), (b, t)] {
-                store(x, at, u);
-                store(y, at, v);
-                store(z, at, w);
-            }
+            let [s, t] = change(read(&columns, a), read(&columns, b), own);
+            write(&mut columns, a, s);
+            write(&mut columns, b, t);
         }
+        let [x, y, z] = columns;
         for (at, ends) in self.lists.iter().enumerate() {
             let own = factor(self.rows.len() + at);
-            let mut spins = [[Pack([0.0; LANES]); 3]; 2];
+            let mut spins = [[Tuple([0.0; LANES]); 3]; 2];
             for end in 0..2 {
                 for lane in 0..LANES {
                     let place = ends[end][lane] as usize;
@@ -374,7 +374,7 @@ pub fn row(numbers: &[f64], place: usize) -> Pack {
     for lane in 0..LANES {
         pack[lane] = numbers[lane];
     }
-    Pack(pack)
+    Tuple(pack)
 }
 
 /// The vectors of all places outside a range, which others may write.
@@ -395,11 +395,19 @@ impl Vectors for &Around<'_> {
     }
 }
 
-/// Writes eight numbers in a row.
+/// The vectors of eight places in a row.
 #[inline(always)]
-pub fn store(numbers: &mut [f64], place: usize, pack: Pack) {
-    if let Some(row) = numbers.get_mut(place..).and_then(<[f64]>::first_chunk_mut) {
-        *row = pack.0;
+pub fn read(columns: &Piece<'_>, place: usize) -> V3<Pack> {
+    [&*columns[0], &*columns[1], &*columns[2]].row(place)
+}
+
+/// Writes the vectors of eight places in a row.
+#[inline(always)]
+pub fn write(columns: &mut Piece<'_>, place: usize, vectors: V3<Pack>) {
+    for axis in 0..3 {
+        if let Some(row) = columns[axis].get_mut(place..).and_then(<[f64]>::first_chunk_mut) {
+            *row = vectors[axis].0;
+        }
     }
 }
 
@@ -488,4 +496,32 @@ pub fn split<'a>(spins: &'a mut Spins, range: &Range<usize>) -> (Around<'a>, Pie
     let [x, y, z] = parts;
     let (before, after) = ([x.0, y.0, z.0], [x.2, y.2, z.2]);
     (Around { before, after, end: range.end }, [x.1, y.1, z.1])
+}
+
+/// Replaces every pack of some columns.
+#[inline(always)]
+pub fn each_pack<const K: usize>(
+    columns: Piece<'_, K>,
+    places: usize,
+    work: impl Fn(usize, [Pack; K]) -> [Pack; K] + Sync,
+) {
+    threads::each(
+        pieces([columns], places),
+        #[inline(always)]
+        |(first, [columns])| {
+            let [first, count] = [first, columns[0].len()].map(|places| places / LANES);
+            // Packs by number, in plain loops: iterators over several columns stay calls.
+            let columns = columns.map(|column| column.as_chunks_mut::<LANES>().0);
+            for at in 0..count {
+                let mut packs = [Pack::of(0.0); K];
+                for k in 0..K {
+                    packs[k] = Tuple(columns[k][at]);
+                }
+                let packs = work(first + at, packs);
+                for k in 0..K {
+                    columns[k][at] = packs[k].0;
+                }
+            }
+        },
+    );
 }

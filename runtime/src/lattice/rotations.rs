@@ -17,7 +17,7 @@ use super::couplings::{
 use super::error::{LatticeError, check_spins, check_step};
 use super::family::Family;
 use super::lanes::{LANES, Pack};
-use super::layout::{Column, Pairs, Piece, Places, Spins, pieces, row, split};
+use super::layout::{Column, Pairs, Piece, Places, Spins, each_pack, row, split};
 use super::threads;
 
 /// Steps of a lattice of spins, composed of exact rotations: the length of each spin is kept to rounding.
@@ -167,22 +167,9 @@ impl RotationStep {
                     now += time;
                     continue;
                 };
-                if let Summand::Driven(UserFunction(field)) = &self.parts[part] {
-                    let field = field(now);
-                    let x = each(|axis| Pack::of(field[axis] * time));
-                    let turn = turn::<false>(x);
-                    let places = self.couplings.places.len();
-                    each_pack(
-                        self.spins.all_mut(),
-                        places,
-                        #[inline(always)]
-                        |_, spin| turn.back(spin),
-                    );
-                    continue;
-                }
                 match (time * slope.times_plus(length, least)).abs() <= SHORT_TURN {
-                    true => self.flow::<true>(part, time),
-                    false => self.flow::<false>(part, time),
+                    true => self.flow::<true>(part, time, now),
+                    false => self.flow::<false>(part, time, now),
                 }
             }
         }
@@ -190,8 +177,8 @@ impl RotationStep {
         Ok(())
     }
 
-    /// The flow of a part of the energy, in which all spins turn by a short angle, or by any.
-    fn flow<const SHORT: bool>(&mut self, part: usize, time: f64) {
+    /// The flow of a part of the energy, as it is now, in which all spins turn by a short angle, or by any.
+    fn flow<const SHORT: bool>(&mut self, part: usize, time: f64, now: f64) {
         let Self { couplings, spins, along, .. } = self;
         let places = couplings.places.len();
         match &self.parts[part] {
@@ -265,8 +252,16 @@ impl RotationStep {
                     },
                 );
             }
-            // Its time is not known here.
-            Summand::Driven(_) => {}
+            Summand::Driven(UserFunction(field)) => {
+                let field = field(now);
+                let turn = turn::<SHORT>(each(|axis| Pack::of(field[axis] * time)));
+                each_pack(
+                    spins.all_mut(),
+                    places,
+                    #[inline(always)]
+                    |_, spin| turn.back(spin),
+                );
+            }
         }
     }
 }
@@ -321,34 +316,6 @@ fn about<const SHORT: bool>(direction: [f64; 3], by: Pack, spin: V3<Pack>) -> V3
     let angle = Angle::new([by], reach(SHORT));
     let x = each(|axis| Pack::of(direction[axis]));
     Turn { w: angle.half_cosine, s: angle.half_sine * by, x }.back(spin)
-}
-
-/// Replaces every pack of some columns.
-#[inline(always)]
-fn each_pack<const K: usize>(
-    columns: Piece<'_, K>,
-    places: usize,
-    work: impl Fn(usize, [Pack; K]) -> [Pack; K] + Sync,
-) {
-    threads::each(
-        pieces([columns], places),
-        #[inline(always)]
-        |(first, [columns])| {
-            let [first, count] = [first, columns[0].len()].map(|places| places / LANES);
-            // Packs by number, in plain loops: iterators over several columns stay calls.
-            let columns = columns.map(|column| column.as_chunks_mut::<LANES>().0);
-            for at in 0..count {
-                let mut packs = [Pack::of(0.0); K];
-                for k in 0..K {
-                    packs[k] = Pack(columns[k][at]);
-                }
-                let packs = work(first + at, packs);
-                for k in 0..K {
-                    columns[k][at] = packs[k].0;
-                }
-            }
-        },
-    );
 }
 
 /// The flow of the energies along an axis, in which the other two components turn.
@@ -528,6 +495,7 @@ fn speed(part: &Summand, couplings: &Couplings) -> [f64; 2] {
             let [least, slope] = own.as_ref().map_or([0.0; 2], Own::speed);
             [linear.abs() + least, square.abs() + slope]
         }
-        Summand::Driven(_) => [0.0; 2],
+        // It may be any, by the time.
+        Summand::Driven(_) => [f64::INFINITY, 0.0],
     }
 }

@@ -6,7 +6,7 @@ use quote::ToTokens;
 use syn::{Expr, ExprArray, ExprCall};
 
 use crate::diagnostic::{Diagnostics, Mistake, Span};
-use crate::lie::{LieAlgebra, LieAlgebraError, RationalMatrix};
+use crate::lie::{LieAlgebra, LieAlgebraError, RationalMatrix, catalogue};
 use crate::parse::{Names, bracket, fraction, rows};
 
 const KEYS: [&str; 3] = ["basis", "generators", "brackets"];
@@ -15,11 +15,19 @@ const EXAMPLE: &str = "write for example algebra(basis = [[[0, -1], [1, 0]]]) or
 /// The name of every algebra written in place; the catalogue has none of this name.
 const NAME: &str = "algebra(…)";
 
-/// Reads `algebra(…)`; `None` if `value` is not of this form, so that it names a group.
-pub(super) fn read(value: &TokenStream, diagnostics: &Diagnostics) -> Option<Option<LieAlgebra>> {
-    let call: ExprCall = syn::parse2(value.clone()).ok()?;
-    let Expr::Path(path) = &*call.func else { return None };
-    path.path.is_ident("algebra").then(|| of_call(&call, diagnostics))
+/// Reads the group: its name, or `algebra(…)`.
+pub(super) fn read(
+    value: &TokenStream,
+    place: Span,
+    diagnostics: &Diagnostics,
+) -> Option<LieAlgebra> {
+    if let Ok(call) = syn::parse2::<ExprCall>(value.clone())
+        && matches!(&*call.func, Expr::Path(path) if path.path.is_ident("algebra"))
+    {
+        return of_call(&call, diagnostics);
+    }
+    let found = catalogue::lookup(&text(value));
+    diagnostics.check(place, found.map_err(|error| Mistake::Group(error.to_string())))
 }
 
 fn of_call(call: &ExprCall, diagnostics: &Diagnostics) -> Option<LieAlgebra> {

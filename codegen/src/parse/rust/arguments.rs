@@ -5,14 +5,8 @@ use proc_macro2::{TokenStream, TokenTree};
 use super::algebra::{self, text};
 use super::signature::Variable;
 use crate::diagnostic::{Diagnostics, Mistake, Span};
-use crate::lie::{LieAlgebra, catalogue};
+use crate::lie::LieAlgebra;
 use crate::pass::Choice;
-
-/// The arguments of `lie_poisson`; `crate` is taken out by the attributes before.
-const OF_SYSTEM: [&str; 8] =
-    ["group", "truncation", "chart", "solver", "frame", "time", "method", "crate"];
-/// Those of `potential`.
-const OF_POTENTIAL: [&str; 2] = ["group", "crate"];
 
 /// Reads `key = value, …`, such as `group = SO3, truncation = 7, chart = exp`, each known key once; `group` must be there.
 /// Values are any tokens up to the next comma, so that groups may be written as people write them: `SO3 * SO3`, `SO3^4`.
@@ -20,14 +14,11 @@ const OF_POTENTIAL: [&str; 2] = ["group", "crate"];
 /// argument that is the time, and its place.
 pub(super) fn read(
     tokens: TokenStream,
-    variable: Variable,
+    variable: &Variable,
     diagnostics: &Diagnostics,
 ) -> (Option<LieAlgebra>, Choice, Option<(String, Span)>) {
     let (mut algebra, mut choice, mut time) = (None, Choice::default(), None);
-    let (owner, known) = match variable {
-        Variable::Momentum => ("#[lie_poisson(…)]", &OF_SYSTEM[..]),
-        Variable::Element => ("#[potential(…)]", &OF_POTENTIAL[..]),
-    };
+    let &Variable { attribute: owner, keys: known, .. } = variable;
     let mut seen: Vec<String> = Vec::new();
     let comma = |token: &TokenTree| matches!(token, TokenTree::Punct(p) if p.as_char() == ',');
     let tokens: Vec<TokenTree> = tokens.into_iter().collect();
@@ -56,7 +47,7 @@ pub(super) fn read(
             continue;
         }
         match key.as_str() {
-            "group" => algebra = group(&value, place, diagnostics),
+            "group" => algebra = algebra::read(&value, place, diagnostics),
             "truncation" => match text(&value).parse() {
                 Ok(k) => choice.set_truncation(k, place, diagnostics),
                 Err(_) => {
@@ -75,12 +66,4 @@ pub(super) fn read(
         diagnostics.report(Span::from_tokens(proc_macro2::Span::call_site()), missing);
     }
     (algebra, choice, time)
-}
-
-fn group(value: &TokenStream, span: Span, diagnostics: &Diagnostics) -> Option<LieAlgebra> {
-    if let Some(algebra) = algebra::read(value, diagnostics) {
-        return algebra;
-    }
-    let found = catalogue::lookup(&text(value));
-    diagnostics.check(span, found.map_err(|error| Mistake::Group(error.to_string())))
 }

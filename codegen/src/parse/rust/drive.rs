@@ -3,14 +3,14 @@
 use syn::{FnArg, Item, ItemFn, Stmt};
 
 use super::evaluate::{Evaluator, source};
-use super::signature::{name, parameter, scalars, shape, shaped};
+use super::signature::{bind, name, parameter, scalars};
 use super::value::Value;
 use crate::diagnostic::{Diagnostics, Span};
 use crate::drive::Drive;
-use crate::expr::{ExprId, Node};
+use crate::expr::Node;
 use crate::lie::LieAlgebra;
 use crate::pass::{Acting, Formula, assemble_drive};
-use crate::problem::Parameter;
+use crate::problem::{Parameter, Shape};
 
 /// The attributes of functions that make a drive.
 const ATTRIBUTES: [&str; 2] = ["velocity", "torque"];
@@ -71,7 +71,8 @@ pub(super) fn read(
     parameters: &mut Vec<Parameter>,
     diagnostics: &Diagnostics,
 ) -> Option<Drive> {
-    let (dim, mut roots) = (coordinates.len(), [None, None]);
+    // None is given in space.
+    let (dim, mut roots) = (coordinates.len(), [const { None }; 4]);
     let (mut sources, mut evaluator) = (Vec::new(), Evaluator::new(diagnostics));
     let algebra = algebra.filter(|algebra| algebra.dim() == dim);
     let statements = &function.block.stmts;
@@ -84,26 +85,25 @@ pub(super) fn read(
         }
         evaluator.begin(statements.iter().filter(|statement| attributed(statement).is_none()));
         arguments(&inner.sig, [algebra?.matrix_size(), dim], parameters, &mut evaluator);
-        let list = components(of, inner, dim, &mut evaluator);
-        roots[number] = Some(list.unwrap_or_default());
+        let numbers = |value: &Value| {
+            let numbers = value.numbers().filter(|list| list.len() == dim);
+            numbers.ok_or_else(|| {
+                format!("a {of} has a number for each of the {dim} coordinates of the momentum")
+            })
+        };
+        let help = "end the function with an array or a vector of them";
+        let list = evaluator.result(&inner.block, numbers, help);
+        roots[number] = Some(list.map(|(list, _)| list).unwrap_or_default());
         sources.push(format!("{of} = {}", source(&inner.block)));
     }
-    if roots.iter().all(Option::is_none) || roots.iter().flatten().any(Vec::is_empty) {
+    if sources.is_empty() || roots.iter().flatten().any(Vec::is_empty) {
         return None;
     }
     let (arena, parameters) = (evaluator.into_arena(), parameters.clone());
     let energy = Formula { arena, root: None, parameters, source: sources.join(", ") };
-    let [velocity, torque] = roots;
-    // None is given in space.
-    let acting = Acting { energy, roots: [velocity, torque, None, None] };
-    assemble_drive(
-        algebra?,
-        (coordinates, &[]),
-        Some((acting, None)),
-        [const { None }; 2],
-        None,
-        diagnostics,
-    )
+    let acting = Some((Acting { energy, roots }, None));
+    let functions = [const { None }; 2];
+    assemble_drive(algebra?, (coordinates, &[]), acting, functions, None, diagnostics)
 }
 
 /// Binds the arguments of a function: a parameter of the Hamiltonian by its name; the time `t`, the matrix `g` of the group element,
@@ -131,57 +131,15 @@ fn arguments(
                 continue;
             }
         };
-        let place = Span::of(&typed.pat);
-        let value = match shape(&typed.ty).filter(|shape| shape.lengths() == lengths) {
-            Some(shape) => shaped(&shape, |i| evaluator.push(node(first + i), place)),
-            None => {
-                let message = format!("`{name}` is {} here", described(&lengths));
-                let help = "t, g, mu and omega are the time, the matrix of the group element, the momentum and the velocity; \
-                            parameters of the Hamiltonian are what they are there";
-                evaluator.unsupported(Span::of(&typed.ty), &message, help)
-            }
+        let described = match lengths[..] {
+            [] => "a number".to_owned(),
+            [n] => format!("a list of {n} numbers"),
+            _ => format!("a matrix of {lengths:?} numbers"),
         };
-        evaluator.bind(&typed.pat, value);
+        let message = format!("`{name}` is {described} here");
+        let help = "t, g, mu and omega are the time, the matrix of the group element, the momentum and the velocity; \
+                    parameters of the Hamiltonian are what they are there";
+        let accepts = |shape: &Shape| shape.lengths() == lengths;
+        bind(typed, accepts, |i| node(first + i), [&message, help], evaluator);
     }
-}
-
-/// What numbers of these lengths are.
-fn described(lengths: &[usize]) -> String {
-    match lengths {
-        [] => "a number".to_owned(),
-        [n] => format!("a list of {n} numbers"),
-        lengths => format!("a matrix of {lengths:?} numbers"),
-    }
-}
-
-/// The components of a velocity or a torque, as many as the momentum has, where its arguments are bound.
-fn components(
-    of: &str,
-    function: &ItemFn,
-    dim: usize,
-    evaluator: &mut Evaluator<'_>,
-) -> Option<Vec<ExprId>> {
-    let entries = match evaluator.returned(&function.block) {
-        Value::Wrong => return None,
-        Value::List(list) => list.entries.to_vec(),
-        _ => Vec::new(),
-    };
-    let number = |entry: &Value| match entry {
-        Value::Number(id) => Some(*id),
-        _ => None,
-    };
-    let list: Option<Vec<ExprId>> = entries.iter().map(number).collect();
-    let wrong = entries.iter().any(|entry| matches!(entry, Value::Wrong));
-    let found = list.filter(|list| list.len() == dim);
-    if found.is_none() && !wrong {
-        let message =
-            format!("a {of} has a number for each of the {dim} coordinates of the momentum");
-        let place = function.block.stmts.last().map_or_else(|| Span::of(&function.block), Span::of);
-        evaluator.unsupported(
-            place,
-            &message,
-            "end the function with an array or a vector of them",
-        );
-    }
-    found
 }

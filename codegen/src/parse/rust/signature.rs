@@ -1,58 +1,81 @@
 //! The signature: which argument is the momentum, and the parameters.
 
 use quote::ToTokens;
-use syn::{Expr, FnArg, GenericArgument, Pat, PathArguments, PathSegment, ReturnType, Type};
+use syn::{Expr, FnArg, ItemFn, Pat, PatType, PathSegment, ReturnType, Type};
 
-use super::evaluate::Evaluator;
+use super::evaluate::{Evaluator, source};
 use super::value::Value;
-use crate::diagnostic::{Mistake, Span};
+use crate::diagnostic::{Diagnostics, Mistake, Span};
 use crate::expr::Node;
+use crate::pass::Formula;
 use crate::problem::{Parameter, Shape};
 
-/// The first argument of a function, besides the parameters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Variable {
-    /// The momentum, an array or a vector.
-    Momentum,
-    /// The matrix of a group element.
-    Element,
-}
-
-impl Variable {
+/// The first argument of a function, besides the parameters, and the attribute that makes it so.
+pub(super) struct Variable {
+    pub attribute: &'static str,
+    /// The keys of the attribute; `crate` is taken out before.
+    pub keys: &'static [&'static str],
+    name: &'static str,
     /// True if an argument of this shape can be this variable.
-    fn accepts(self, shape: &Shape) -> bool {
-        match self {
-            Self::Momentum => matches!(shape, Shape::Array(_) | Shape::Vector(_)),
-            Self::Element => matches!(shape, Shape::Grid(..) | Shape::Matrix(..)),
-        }
-    }
-
-    fn expected(self) -> (&'static str, &'static str) {
-        match self {
-            Self::Momentum => (
-                "the first argument is the momentum: an array or a vector of f64 with a literal \
-                 length",
-                "write for example mu: [f64; 3] or mu: nalgebra::Vector3<f64>",
-            ),
-            Self::Element => (
-                "the first argument is the group element: a matrix of f64 of literal size",
-                "write for example g: [[f64; 3]; 3] or g: nalgebra::Matrix3<f64>",
-            ),
-        }
-    }
+    accepts: fn(&Shape) -> bool,
+    shape: &'static str,
+    /// An example, and another one.
+    examples: [&'static str; 2],
 }
+
+/// The momentum, an array or a vector.
+pub(super) const MOMENTUM: Variable = Variable {
+    attribute: "#[lie_poisson(…)]",
+    keys: &["group", "truncation", "chart", "solver", "frame", "time", "method", "crate"],
+    name: "the momentum",
+    accepts: |shape| matches!(shape, Shape::Array(_) | Shape::Vector(_)),
+    shape: "an array or a vector of f64 with a literal length",
+    examples: ["mu: [f64; 3]", "mu: nalgebra::Vector3<f64>"],
+};
+
+/// The matrix of a group element.
+pub(super) const ELEMENT: Variable = Variable {
+    attribute: "#[potential(…)]",
+    keys: &["group", "crate"],
+    name: "the group element",
+    accepts: |shape| matches!(shape, Shape::Grid(..) | Shape::Matrix(..)),
+    shape: "a matrix of f64 of literal size",
+    examples: ["g: [[f64; 3]; 3]", "g: nalgebra::Matrix3<f64>"],
+};
 
 /// The shape of the variable, the names of its entries, and its place.
 type Variables = (Shape, Vec<String>, Span);
 
-/// Reads a signature and binds its arguments: the shape of the first one, the names of its entries, and where, `None` if it
-/// is not usable; and the parameters. `time` is the name of the argument that is the time, and where it is said.
+/// Reads a function: its variable, `None` if that is not usable, and the energy that it computes. `time` is the name of the
+/// argument that is the time, and where it is said.
 pub(super) fn read(
+    function: &ItemFn,
+    variable: &Variable,
+    time: Option<(String, Span)>,
+    diagnostics: &Diagnostics,
+) -> (Option<Variables>, Formula) {
+    let mut evaluator = Evaluator::new(diagnostics);
+    let (first, parameters) = arguments(&function.sig, variable, time, &mut evaluator);
+    let number = |value: &Value| match value {
+        Value::Number(id) => Ok(*id),
+        other => Err(format!("the function must end with a number, not {}", other.kind())),
+    };
+    let help = "end it with the energy, without a semicolon";
+    // Without its variable every name of the body would be unknown.
+    let root = first.as_ref().and_then(|_| evaluator.result(&function.block, number, help));
+    let (arena, source) = (evaluator.into_arena(), source(&function.block));
+    (first, Formula { arena, root, parameters, source })
+}
+
+/// Binds the arguments of a signature.
+fn arguments(
     signature: &syn::Signature,
-    variable: Variable,
+    variable: &Variable,
     mut time: Option<(String, Span)>,
     evaluator: &mut Evaluator<'_>,
 ) -> (Option<Variables>, Vec<Parameter>) {
+    let Variable { name: variable_name, shape: expected, examples: [example, other], .. } =
+        variable;
     if let Some(token) = &signature.asyncness {
         evaluator.unsupported(Span::of(token), "an energy cannot be async", "remove `async`");
     }
@@ -76,52 +99,55 @@ pub(super) fn read(
             evaluator.unsupported(Span::of(argument), "a method cannot be read", help);
             continue;
         };
-        let (span, place) = (Span::of(&typed.ty), Span::of(&typed.pat));
-        let shape = shape(&typed.ty);
+        let name = name(&typed.pat);
         if position == 0 {
-            let Some(shape) = shape.filter(|shape| variable.accepts(shape)) else {
-                let (what, help) = variable.expected();
-                evaluator.unsupported(span, what, help);
-                continue;
-            };
-            let value = shaped(&shape, |i| evaluator.push(Node::Coordinate(i), place));
-            evaluator.bind(&typed.pat, value);
-            let names = coordinate_names(&typed.pat, shape.len());
-            first = Some((shape, names, span));
-            continue;
+            let what = format!("the first argument is {variable_name}: {expected}");
+            let help = format!("write for example {example} or {other}");
+            let bound = bind(typed, variable.accepts, Node::Coordinate, [&what, &help], evaluator);
+            first = bound.map(|shape| {
+                let names = coordinate_names(&typed.pat, shape.len());
+                (shape, names, Span::of(&typed.ty))
+            });
+        } else if time.take_if(|(time, _)| name.as_ref() == Some(time)).is_some() {
+            let number = |shape: &Shape| *shape == Shape::Scalar;
+            let said = ["the time is a number", "write for example t: f64"];
+            bind(typed, number, |_| Node::Time, said, evaluator);
+        } else {
+            parameter(typed, &mut parameters, evaluator);
         }
-        if let Some(name) = name(&typed.pat)
-            && time.take_if(|(time, _)| *time == name).is_some()
-        {
-            let value = match shape {
-                Some(Shape::Scalar) => evaluator.push(Node::Time, place),
-                _ => {
-                    evaluator.unsupported(span, "the time is a number", "write for example t: f64")
-                }
-            };
-            evaluator.bind(&typed.pat, value);
-            continue;
-        }
-        parameter(typed, &mut parameters, evaluator);
     }
     if let Some((name, place)) = time {
         let what = format!("the function has no argument `{name}` after the first to be the time");
         evaluator.unsupported(place, &what, "write for example time = t, with an argument t: f64");
     }
     if signature.inputs.is_empty() {
-        let (what, help) = match variable {
-            Variable::Momentum => ("the momentum", "write for example mu: [f64; 3]"),
-            Variable::Element => ("the group element", "write for example g: [[f64; 3]; 3]"),
-        };
-        let what = format!("the function has no arguments: the first one must be {what}");
-        evaluator.unsupported(Span::of(&signature.ident), &what, help);
+        let what = format!("the function has no arguments: the first one must be {variable_name}");
+        let help = format!("write for example {example}");
+        evaluator.unsupported(Span::of(&signature.ident), &what, &help);
     }
     (first, parameters)
 }
 
+/// Binds an argument to nodes by the number of the entry; reports a type of which the shape is not accepted, with help.
+pub(super) fn bind(
+    typed: &PatType,
+    accepts: impl Fn(&Shape) -> bool,
+    node: impl Fn(usize) -> Node,
+    [what, help]: [&str; 2],
+    evaluator: &mut Evaluator<'_>,
+) -> Option<Shape> {
+    let (found, place) = (shape(&typed.ty).filter(accepts), Span::of(&typed.pat));
+    let value = match &found {
+        Some(shape) => shaped(shape, |i| evaluator.push(node(i), place)),
+        None => evaluator.unsupported(Span::of(&typed.ty), what, help),
+    };
+    evaluator.bind(&typed.pat, value);
+    found
+}
+
 /// Reads a parameter and binds it.
 pub(super) fn parameter(
-    typed: &syn::PatType,
+    typed: &PatType,
     parameters: &mut Vec<Parameter>,
     evaluator: &mut Evaluator<'_>,
 ) {
@@ -135,16 +161,12 @@ pub(super) fn parameter(
         let taken = "the step size, the first argument of the integrator's `new`".to_owned();
         evaluator.wrong(place, Mistake::NameTaken(name.clone(), taken));
     }
-    let Some(shape) = shape(&typed.ty) else {
-        let message = format!("parameters of type `{}` are not read", typed.ty.to_token_stream());
-        let help = "parameters are f64, [f64; n], [[f64; n]; m], or vectors and matrices of nalgebra of fixed size";
-        let value = evaluator.unsupported(Span::of(&typed.ty), &message, help);
-        return evaluator.bind(&typed.pat, value);
-    };
+    let message = format!("parameters of type `{}` are not read", typed.ty.to_token_stream());
+    let help = "parameters are f64, [f64; n], [[f64; n]; m], or vectors and matrices of nalgebra of fixed size";
     let first = scalars(parameters);
-    let value = shaped(&shape, |i| evaluator.push(Node::Parameter(first + i), place));
-    evaluator.bind(&typed.pat, value);
-    parameters.push(Parameter { name, shape, default: None });
+    let node = |i| Node::Parameter(first + i);
+    let shape = bind(typed, |_| true, node, [&message, help], evaluator);
+    parameters.extend(shape.map(|shape| Parameter { name, shape, default: None }));
 }
 
 /// The number of scalars that parameters are.
@@ -167,17 +189,16 @@ pub(super) fn bare(mut expression: &Expr) -> &Expr {
 
 /// Fills a shape with numbers by their position.
 pub(super) fn shaped(shape: &Shape, mut number: impl FnMut(usize) -> Value) -> Value {
+    let mut list = |range: std::ops::Range<usize>| range.map(&mut number).collect::<Vec<_>>();
     match *shape {
         Shape::Scalar => number(0),
-        Shape::Array(n) => Value::list((0..n).map(number)),
+        Shape::Array(n) => Value::list(list(0..n)),
         Shape::Grid(rows, columns) => {
-            let row = |i| Value::list((0..columns).map(|j| number(i * columns + j)));
+            let row = |i| Value::list(list(i * columns..(i + 1) * columns));
             Value::list((0..rows).map(row))
         }
-        Shape::Vector(n) => Value::matrix(n, 1, (0..n).map(number).collect()),
-        Shape::Matrix(rows, columns) => {
-            Value::matrix(rows, columns, (0..rows * columns).map(number).collect())
-        }
+        Shape::Vector(n) => Value::matrix(n, 1, list(0..n)),
+        Shape::Matrix(rows, columns) => Value::matrix(rows, columns, list(0..rows * columns)),
     }
 }
 
@@ -204,7 +225,7 @@ pub(super) fn is_f64(ty: &Type) -> bool {
 }
 
 /// The shape of a type, where it is one.
-pub(super) fn shape(ty: &Type) -> Option<Shape> {
+fn shape(ty: &Type) -> Option<Shape> {
     match ty {
         Type::Paren(inner) => shape(&inner.elem),
         Type::Group(inner) => shape(&inner.elem),
@@ -217,7 +238,7 @@ pub(super) fn shape(ty: &Type) -> Option<Shape> {
                 _ => None,
             }
         }
-        Type::Path(path) if is_f64(ty) && path.qself.is_none() => Some(Shape::Scalar),
+        Type::Path(_) if is_f64(ty) => Some(Shape::Scalar),
         Type::Path(path) => of_segment(path.path.segments.last()?),
         _ => None,
     }
@@ -226,25 +247,15 @@ pub(super) fn shape(ty: &Type) -> Option<Shape> {
 /// The shape of a type of nalgebra of fixed size: `Vector3<f64>`, `SMatrix<f64, 2, 3>`, also without arguments where these are
 /// no sizes.
 pub(super) fn of_segment(segment: &PathSegment) -> Option<Shape> {
-    let mut sizes = Vec::new();
-    if let PathArguments::AngleBracketed(arguments) = &segment.arguments {
-        for argument in &arguments.args {
-            match argument {
-                GenericArgument::Type(entry) if is_f64(entry) => {}
-                GenericArgument::Const(size) => sizes.push(length(size)?),
-                _ => return None,
-            }
-        }
-    }
-    let name = segment.ident.to_string();
-    let digits = |prefix: &str| -> Option<Vec<usize>> {
-        let digits = name.strip_prefix(prefix)?.split('x');
-        digits.map(|n| n.parse().ok().filter(|n| (1..=6).contains(n))).collect()
+    let text = segment.to_token_stream().to_string().replace([' ', ':', '>'], "");
+    let (name, arguments) = text.split_once('<').unwrap_or((&text, "f64"));
+    let sizes = match name {
+        "SVector" | "SMatrix" => arguments.strip_prefix("f64,")?,
+        _ if arguments != "f64" => return None,
+        _ => name.strip_prefix("Vector").or_else(|| name.strip_prefix("Matrix"))?,
     };
-    if !matches!(name.as_str(), "SVector" | "SMatrix") {
-        sizes = digits("Vector").or_else(|| digits("Matrix"))?;
-    }
-    match (name.contains("Vector"), &sizes[..]) {
+    let sizes: Option<Vec<usize>> = sizes.split([',', 'x']).map(of_digits).collect();
+    match (name.contains("Vector"), &sizes?[..]) {
         (true, &[n]) | (false, &[n, 1]) => Some(Shape::Vector(n)),
         (false, &[n]) => Some(Shape::Matrix(n, n)),
         (false, &[rows, columns]) => Some(Shape::Matrix(rows, columns)),
@@ -255,9 +266,11 @@ pub(super) fn of_segment(segment: &PathSegment) -> Option<Shape> {
 /// A length that is written as a number.
 pub(super) fn length(expression: &Expr) -> Option<usize> {
     match bare(expression) {
-        Expr::Lit(syn::ExprLit { lit: syn::Lit::Int(n), .. }) => {
-            n.base10_parse().ok().filter(|n| (1..=4096).contains(n))
-        }
+        Expr::Lit(syn::ExprLit { lit: syn::Lit::Int(n), .. }) => of_digits(n.base10_digits()),
         _ => None,
     }
+}
+
+fn of_digits(digits: &str) -> Option<usize> {
+    digits.parse().ok().filter(|n| (1..=4096).contains(n))
 }

@@ -1,14 +1,13 @@
 //! The values of a function's variables while it is read, and what can be computed with them.
 
-use std::cmp::Ordering;
 use std::rc::Rc;
 
-use syn::{BinOp, ExprMethodCall, GenericArgument};
+use syn::{ExprMethodCall, GenericArgument};
 
 use crate::diagnostic::{Mistake, Span, nearest};
 use crate::expr::{ExprId, Function, Node};
 use crate::number::{Rational, integer};
-use crate::parse::rust::evaluate::{Callable, Evaluator, NoValue};
+use crate::parse::rust::evaluate::{Callable, Evaluator};
 use crate::parse::rust::signature::length;
 use crate::parse::vectors;
 
@@ -44,13 +43,12 @@ impl Aggregate {
         Value::List(Self { entries, shape: self.shape })
     }
 
-    /// The place of the entry named by an index, or the length where there is none such.
-    pub(super) fn position(&self, index: &[usize]) -> Result<usize, usize> {
-        let below = |i: usize, length: usize| if i < length { Ok(i) } else { Err(length) };
+    /// The place of the entry named by an index.
+    pub(super) fn position(&self, index: &[usize]) -> Option<usize> {
         match (self.shape, index) {
-            (_, &[at]) => below(at, self.entries.len()),
-            (Some((rows, columns)), &[i, j]) => Ok(below(i, rows)? + below(j, columns)? * rows),
-            _ => Err(0),
+            (_, &[at]) => (at < self.entries.len()).then_some(at),
+            (Some((rows, columns)), &[i, j]) => (i < rows && j < columns).then_some(i + j * rows),
+            _ => None,
         }
     }
 }
@@ -65,6 +63,24 @@ impl Value {
         let by_columns = (0..columns).flat_map(|j| entries.iter().skip(j).step_by(columns));
         let entries = Rc::new(by_columns.cloned().collect());
         Self::List(Aggregate { entries, shape: Some((rows, columns)) })
+    }
+
+    /// True if something of it is wrong.
+    pub(super) fn is_wrong(&self) -> bool {
+        match self {
+            Self::List(list) => list.entries.iter().any(Self::is_wrong),
+            value => matches!(value, Self::Wrong),
+        }
+    }
+
+    /// The numbers of a list of nothing else.
+    pub(super) fn numbers(&self) -> Option<Vec<ExprId>> {
+        let Self::List(list) = self else { return None };
+        let number = |entry: &Self| match entry {
+            Self::Number(id) => Some(*id),
+            _ => None,
+        };
+        list.entries.iter().map(number).collect()
     }
 
     /// A description for messages.
@@ -87,62 +103,55 @@ const KNOWN: &str = "powi, powf, mul_add, sqrt, sin, cos, tan, atan, tanh, exp, 
     component_mul, component_div, fixed_rows, sum, len, iter, map, zip, enumerate, rev, fold";
 
 impl Evaluator<'_> {
-    /// A binary operation, or that of a compound assignment.
-    pub(super) fn operate(&mut self, op: &BinOp, a: Value, b: Value, span: Span) -> Value {
-        let order: fn(Ordering) -> bool = match op {
-            BinOp::Add(_) | BinOp::AddAssign(_) => return self.arithmetic('+', a, b, span),
-            BinOp::Sub(_) | BinOp::SubAssign(_) => return self.arithmetic('-', a, b, span),
-            BinOp::Mul(_) | BinOp::MulAssign(_) => return self.arithmetic('*', a, b, span),
-            BinOp::Div(_) | BinOp::DivAssign(_) => return self.arithmetic('/', a, b, span),
-            BinOp::Rem(_) | BinOp::RemAssign(_) => return self.arithmetic('%', a, b, span),
-            BinOp::Eq(_) => Ordering::is_eq,
-            BinOp::Ne(_) => Ordering::is_ne,
-            BinOp::Lt(_) => Ordering::is_lt,
-            BinOp::Le(_) => Ordering::is_le,
-            BinOp::Gt(_) => Ordering::is_gt,
-            BinOp::Ge(_) => Ordering::is_ge,
-            _ => return self.unread("operator", op),
-        };
-        match (a, b) {
-            (Value::Integer(a), Value::Integer(b)) => Value::Bool(order(a.cmp(&b))),
-            (Value::Wrong, _) | (_, Value::Wrong) => Value::Wrong,
-            _ => self.undecided("a comparison", span),
-        }
-    }
-
     /// An operation named by its sign.
-    fn arithmetic(&mut self, sign: char, a: Value, b: Value, span: Span) -> Value {
+    pub(super) fn operate(&mut self, sign: &str, a: Value, b: Value, span: Span) -> Value {
         match (a, b) {
             (Value::Wrong, _) | (_, Value::Wrong) => Value::Wrong,
             (Value::Integer(a), Value::Integer(b)) => {
                 let value = match sign {
-                    '+' => a.checked_add(b),
-                    '-' => a.checked_sub(b),
-                    '*' => a.checked_mul(b),
-                    '/' => a.checked_div(b),
-                    _ => a.checked_rem(b),
+                    "+" => a.checked_add(b),
+                    "-" => a.checked_sub(b),
+                    "*" => a.checked_mul(b),
+                    "/" => a.checked_div(b),
+                    "%" => a.checked_rem(b),
+                    "==" => return Value::Bool(a == b),
+                    "!=" => return Value::Bool(a != b),
+                    "<" => return Value::Bool(a < b),
+                    "<=" => return Value::Bool(a <= b),
+                    ">" => return Value::Bool(a > b),
+                    ">=" => return Value::Bool(a >= b),
+                    _ => None,
                 };
-                self.checked_integer(value, span)
+                let Some(value) = value else {
+                    return self.unsupported(span, "this integer operation overflows", "");
+                };
+                Value::Integer(value)
             }
-            (Value::Number(a), Value::Number(b)) if sign != '%' => {
+            _ if matches!(sign, "==" | "!=" | "<" | "<=" | ">" | ">=") => {
+                let message = "a comparison must not depend on an argument: the function must be one expression, the same \
+                               everywhere";
+                let help = "compare integers known beforehand only, such as loop variables";
+                self.unsupported(span, message, help)
+            }
+            (Value::Number(a), Value::Number(b)) if matches!(sign, "+" | "-" | "*" | "/") => {
                 let node = match sign {
-                    '+' => Node::Add,
-                    '-' => Node::Sub,
-                    '*' => Node::Mul,
+                    "+" => Node::Add,
+                    "-" => Node::Sub,
+                    "*" => Node::Mul,
                     _ => Node::Div,
                 };
                 self.push(node(a, b), span)
             }
-            (s @ Value::Number(_), Value::List(v)) if v.shape.is_some() && sign == '*' => {
-                v.map(|x| self.arithmetic(sign, s.clone(), x, span))
+            (s @ Value::Number(_), Value::List(v)) if v.shape.is_some() && sign == "*" => {
+                v.map(|x| self.operate(sign, s.clone(), x, span))
             }
             (Value::List(v), s @ Value::Number(_))
-                if v.shape.is_some() && matches!(sign, '*' | '/') =>
+                if v.shape.is_some() && matches!(sign, "*" | "/") =>
             {
-                v.map(|x| self.arithmetic(sign, x, s.clone(), span))
+                v.map(|x| self.operate(sign, x, s.clone(), span))
             }
             (Value::List(Aggregate { entries: a, shape: Some((rows, inner)) }), Value::List(b))
-                if sign == '*' && b.shape.is_some_and(|(other, _)| inner == other) =>
+                if sign == "*" && b.shape.is_some_and(|(other, _)| inner == other) =>
             {
                 let row = |i| a.iter().skip(i).step_by(rows).cloned().collect();
                 let lines: Vec<Vec<Value>> = (0..rows).map(row).collect();
@@ -154,7 +163,7 @@ impl Evaluator<'_> {
                 Value::List(Aggregate { entries: Rc::new(entries), shape })
             }
             (Value::List(a), Value::List(b))
-                if a.shape.is_some() && a.shape == b.shape && matches!(sign, '+' | '-') =>
+                if a.shape.is_some() && a.shape == b.shape && matches!(sign, "+" | "-") =>
             {
                 self.entrywise(sign, &a, &b, span)
             }
@@ -165,39 +174,30 @@ impl Evaluator<'_> {
         }
     }
 
-    fn entrywise(&mut self, sign: char, a: &Aggregate, b: &Aggregate, span: Span) -> Value {
+    fn entrywise(&mut self, sign: &str, a: &Aggregate, b: &Aggregate, span: Span) -> Value {
         let mut others = b.entries.iter().cloned();
-        a.map(|x| self.arithmetic(sign, x, others.next().unwrap_or(Value::Wrong), span))
-    }
-
-    fn checked_integer(&mut self, value: Option<i128>, span: Span) -> Value {
-        match value {
-            Some(value) => Value::Integer(value),
-            None => self.unsupported(span, "this integer operation overflows", ""),
-        }
+        a.map(|x| self.operate(sign, x, others.next().unwrap_or(Value::Wrong), span))
     }
 
     pub(super) fn negate(&mut self, value: Value, span: Span) -> Value {
         match value {
             Value::Number(a) => self.push(Node::Neg(a), span),
-            Value::Integer(n) => self.checked_integer(n.checked_neg(), span),
             Value::List(v) if v.shape.is_some() => v.map(|entry| self.negate(entry, span)),
-            Value::Wrong => Value::Wrong,
-            other => {
-                let message = format!("`-` of {} is not read", other.kind());
-                self.unsupported(span, &message, "write it out in coordinates")
-            }
+            // Integers are subtracted; other values have no negative, which is reported.
+            other => self.operate("-", Value::Integer(0), other, span),
         }
     }
 
-    fn sum(&mut self, items: Vec<Value>, span: Span) -> Value {
-        let sum = items.into_iter().reduce(|sum, item| self.arithmetic('+', sum, item, span));
+    fn sum(&mut self, items: &[Value], span: Span) -> Value {
+        self.count(items.len(), span);
+        let items = items.iter().cloned();
+        let sum = items.reduce(|sum, item| self.operate("+", sum, item, span));
         sum.unwrap_or_else(|| self.constant(integer(0), span))
     }
 
     /// The operations on values, for [`vectors`].
     fn operations(&mut self, span: Span) -> impl FnMut(char, &Value, &Value) -> Value {
-        move |sign, a, b| self.arithmetic(sign, a.clone(), b.clone(), span)
+        move |sign, a, b| self.operate(sign.encode_utf8(&mut [0; 4]), a.clone(), b.clone(), span)
     }
 
     fn dot(&mut self, a: &[Value], b: &[Value], span: Span) -> Value {
@@ -215,29 +215,25 @@ impl Evaluator<'_> {
         }
     }
 
-    pub(super) fn method_call(&mut self, call: &ExprMethodCall) -> Result<Value, NoValue> {
+    pub(super) fn method_call(&mut self, call: &ExprMethodCall) -> Value {
         let span = Span::of(call);
-        self.tick(span)?;
-        let receiver = self.expression(&call.receiver)?;
-        let arguments = self.expressions(&call.args)?;
+        self.count(1, span);
+        let receiver = self.expression(&call.receiver);
+        let mut given = self.expressions(&call.args);
         let name = call.method.to_string();
         let value = match &receiver {
-            Value::Number(x) => self.number_method(&name, *x, &arguments, span),
-            Value::List(list) => self.list_method(&name, list, call, &arguments)?,
+            Value::Number(x) => self.number_method(&name, *x, &given, span),
+            Value::List(list) => self.list_method(&name, list, call, &given),
             _ => None,
         };
-        let mut all = arguments.iter().chain([&receiver]);
-        Ok(match value {
-            Some(value) => value,
-            None if all.any(|value| matches!(value, Value::Wrong)) => Value::Wrong,
-            None => {
-                let kind = receiver.kind();
-                let message = format!("`{name}` of {kind} with these arguments is not read");
-                let near = nearest(&name, KNOWN.split(", ")).filter(|known| *known != name);
-                let help = near.map(|known| format!("did you mean `{known}`?"));
-                let help = help.unwrap_or_else(|| format!("methods read: {KNOWN}"));
-                self.unsupported(Span::of(&call.method), &message, &help)
-            }
+        let kind = receiver.kind();
+        given.push(receiver);
+        self.known(value, &given, || {
+            let message = format!("`{name}` of {kind} with these arguments is not read");
+            let near = nearest(&name, KNOWN.split(", ")).filter(|known| *known != name);
+            let help = near.map(|known| format!("did you mean `{known}`?"));
+            let help = help.unwrap_or_else(|| format!("methods read: {KNOWN}"));
+            (Span::of(&call.method), message, help)
         })
     }
 
@@ -249,26 +245,30 @@ impl Evaluator<'_> {
         arguments: &[Value],
         span: Span,
     ) -> Option<Value> {
-        let node = match (name, arguments) {
+        let own = Value::Number(x);
+        Some(match (name, arguments) {
             ("powi", [Value::Integer(n)]) => {
-                Node::Pow(x, self.number(Rational::from_integer((*n).into()), span))
+                let n = self.constant(Rational::from_integer((*n).into()), span);
+                return self.number_method("powf", x, &[n], span);
             }
-            ("powf", [Value::Number(n)]) => Node::Pow(x, *n),
+            ("powf", [Value::Number(n)]) => self.push(Node::Pow(x, *n), span),
             ("mul_add", [a, b]) => {
-                let product = self.arithmetic('*', Value::Number(x), a.clone(), span);
-                return Some(self.arithmetic('+', product, b.clone(), span));
+                let product = self.operate("*", own, a.clone(), span);
+                self.operate("+", product, b.clone(), span)
             }
-            ("recip", []) => Node::Div(self.number(integer(1), span), x),
+            ("recip", []) => {
+                let one = self.constant(integer(1), span);
+                self.operate("/", one, own, span)
+            }
             ("min" | "max" | "clamp" | "floor" | "ceil" | "round" | "signum" | "trunc", _) => {
                 let message =
                     format!("`{name}` has kinks or jumps: the Hamiltonian must be smooth");
                 let help = "write it with functions that are smooth, such as tanh";
-                return Some(self.unsupported(span, &message, help));
+                self.unsupported(span, &message, help)
             }
-            (_, []) => Node::Call(Function::lookup(name)?, x),
+            (_, []) => self.push(Node::Call(Function::lookup(name)?, x), span),
             _ => return None,
-        };
-        Some(self.push(node, span))
+        })
     }
 
     /// Methods of arrays, iterators, vectors and matrices; `None` if there is no such method.
@@ -278,10 +278,10 @@ impl Evaluator<'_> {
         list: &Aggregate,
         call: &ExprMethodCall,
         arguments: &[Value],
-    ) -> Result<Option<Value>, NoValue> {
+    ) -> Option<Value> {
         let (items, span) = (&list.entries, Span::of(call));
         let pair = |(a, b): (Value, &Value)| Value::list([a, b.clone()]);
-        Ok(Some(match (name, arguments) {
+        Some(match (name, arguments) {
             ("iter" | "into_iter" | "copied" | "cloned" | "into_owned", []) => {
                 Value::List(list.clone())
             }
@@ -292,22 +292,15 @@ impl Evaluator<'_> {
                 Value::list(items.iter().cloned().zip(other.entries.iter()).map(pair))
             }
             ("map", [Value::Function(function)]) => {
-                let values: Result<Vec<Value>, NoValue> = items
-                    .iter()
-                    .map(|item| self.apply(function, vec![item.clone()], span))
-                    .collect();
-                Value::list(values?)
+                Value::list(items.iter().map(|item| self.apply(function, vec![item.clone()], span)))
             }
             ("fold", [start, Value::Function(function)]) => {
-                items.iter().try_fold(start.clone(), |value, item| {
+                items.iter().fold(start.clone(), |value, item| {
                     self.apply(function, vec![value, item.clone()], span)
-                })?
+                })
             }
-            ("sum", []) => {
-                items.iter().try_for_each(|_| self.tick(span))?;
-                self.sum(items.to_vec(), span)
-            }
-            _ if list.shape.is_none() => return Ok(None),
+            ("sum", []) => self.sum(items, span),
+            _ if list.shape.is_none() => return None,
             ("dot", [Value::List(other)]) if items.len() == other.entries.len() => {
                 self.dot(items, &other.entries, span)
             }
@@ -317,10 +310,10 @@ impl Evaluator<'_> {
                 other => other,
             },
             ("component_mul", [Value::List(other)]) if list.shape == other.shape => {
-                self.entrywise('*', list, other, span)
+                self.entrywise("*", list, other, span)
             }
             ("component_div", [Value::List(other)]) if list.shape == other.shape => {
-                self.entrywise('/', list, other, span)
+                self.entrywise("/", list, other, span)
             }
             ("cross", [Value::List(other)]) if items.len() == 3 && other.entries.len() == 3 => {
                 let product = vectors::cross(items, &other.entries, &mut self.operations(span));
@@ -328,8 +321,8 @@ impl Evaluator<'_> {
             }
             ("fixed_rows", [Value::Integer(start)]) => {
                 let sizes = call.turbofish.as_ref().and_then(|sizes| sizes.args.first());
-                let Some(GenericArgument::Const(count)) = sizes else { return Ok(None) };
-                let Some(count) = length(count) else { return Ok(None) };
+                let Some(GenericArgument::Const(count)) = sizes else { return None };
+                let count = length(count)?;
                 let start = usize::try_from(*start).unwrap_or(usize::MAX);
                 let end = start.saturating_add(count);
                 match items.get(start..end) {
@@ -340,7 +333,7 @@ impl Evaluator<'_> {
                     }
                 }
             }
-            _ => return Ok(None),
-        }))
+            _ => return None,
+        })
     }
 }
