@@ -11,7 +11,6 @@ mod ensemble;
 mod file_format;
 mod groups;
 mod lattice;
-mod learn;
 mod no_c;
 mod outputs;
 mod plot;
