@@ -17,7 +17,6 @@ mod plot;
 mod potential;
 mod refused;
 mod resume;
-mod simulate;
 mod simulate_records;
 mod smooth;
 mod support;
