@@ -1,5 +1,5 @@
-//! Integrators from a build script, of system files as users write them: for `tests/all/front_ends.rs`, `tests/all/emitted_steps.rs` with
-//! all of `systems/emitted`, and `tests/all/parts.rs` with a large one.
+//! Integrators from a build script, of system files as users write them: for `tests/all/emitted_steps.rs` with all of
+//! `systems/emitted`, and `tests/all/parts.rs` with a large one.
 
 use std::error::Error;
 use std::path::PathBuf;
@@ -9,8 +9,6 @@ use coadjoint_codegen::Build;
 fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed=systems/emitted");
-    Build::new("systems/rigid_body.toml").write("rigid_body.rs")?;
-    Build::new("systems/brackets.toml").truncation(3).write("brackets.rs")?;
     Build::new("systems/weighted_body.toml").write("weighted_body.rs")?;
     Build::new("systems/fast_body.toml").write("fast_body.rs")?;
     Build::new("systems/ring_20.toml").write("ring_20.rs")?;

@@ -43,8 +43,17 @@ fn rotated(
 }
 
 fn collocated<const M: usize>(lattice: &Lattice, h: f64, steps: u64, start: &State) -> State {
+    collocated_from::<M>(lattice, 0.0, (h, steps), start)
+}
+
+fn collocated_from<const M: usize>(
+    lattice: &Lattice,
+    begin: f64,
+    (h, steps): (f64, u64),
+    start: &State,
+) -> State {
     let mut spins = start.clone();
-    lattice.gauss::<M>(h).unwrap().advance_by(&mut spins, steps).unwrap();
+    lattice.gauss::<M>(h).unwrap().advance_from(&mut spins, begin, steps).unwrap();
     spins
 }
 
@@ -176,24 +185,22 @@ fn steps_have_their_orders() {
     let lattice = ring(6, symmetric());
     let start = disordered(6);
     let exact = collocated::<6>(&lattice, 0.05, 40, &start);
-    let found = [
-        order(
-            &exact,
-            &collocated::<1>(&lattice, 0.05, 40, &start),
-            &collocated::<1>(&lattice, 0.025, 80, &start),
-        ),
-        order(
-            &exact,
-            &collocated::<2>(&lattice, 0.1, 20, &start),
-            &collocated::<2>(&lattice, 0.05, 40, &start),
-        ),
-        order(
-            &exact,
-            &collocated::<3>(&lattice, 0.2, 10, &start),
-            &collocated::<3>(&lattice, 0.1, 20, &start),
-        ),
-    ];
-    for (found, expected) in found.into_iter().zip([2.0, 4.0, 6.0]) {
+    nodes_have_their_orders(&lattice, (0.0, 2.0), [40, 20, 10], &start, &exact);
+}
+
+/// Steps at one, two and three nodes, of these numbers over a time from its beginning and twice as many, have the orders 2, 4 and 6.
+fn nodes_have_their_orders(
+    lattice: &Lattice,
+    (begin, time): (f64, f64),
+    counts: [u64; 3],
+    start: &State,
+    exact: &State,
+) {
+    let ends = [collocated_from::<1>, collocated_from::<2>, collocated_from::<3>];
+    for ((end, count), expected) in ends.into_iter().zip(counts).zip([2.0, 4.0, 6.0]) {
+        let [coarse, fine] =
+            [count, 2 * count].map(|n| end(lattice, begin, (time / n as f64, n), start));
+        let found = order(exact, &coarse, &fine);
         assert!((found - expected).abs() < 0.4, "{found} for {expected}");
     }
 }
@@ -375,13 +382,9 @@ fn driven_fields_keep_the_order() {
     let field = |t: f64| [0.8 * (1.3 * t).cos(), 0.8 * (1.3 * t).sin(), 0.3 * t];
     let lattice = ring(6, symmetric()).driven(field);
     let (start, begin) = (disordered(6), 0.7);
-    let gauss = |h: f64, steps: u64| {
-        let mut spins = start.clone();
-        lattice.gauss::<6>(h).unwrap().advance_from(&mut spins, begin, steps).unwrap();
-        spins
-    };
-    let exact = gauss(0.05, 40);
-    assert!(distance(&gauss(0.025, 80), &exact) < 1e-13);
+    let [exact, finer] =
+        [(0.05, 40), (0.025, 80)].map(|steps| collocated_from::<6>(&lattice, begin, steps, &start));
+    assert!(distance(&finer, &exact) < 1e-13);
     for family in FAMILIES {
         for (kind, steps) in [(Order::Four, 20), (Order::Six, 16)] {
             let after = |n: u64| {
@@ -432,36 +435,12 @@ fn damping_and_velocity_have_the_order_and_keep_lengths() {
             exact = plus(&exact, weight * h / 6.0, k);
         }
     }
-    fn gauss<const M: usize>(lattice: &Lattice, begin: f64, n: u64, start: &State) -> State {
-        let mut spins = start.clone();
-        lattice.gauss::<M>(1.0 / n as f64).unwrap().advance_from(&mut spins, begin, n).unwrap();
-        spins
-    }
-    let end = gauss::<5>(&driven, begin, 10, &start);
+    let end = collocated_from::<5>(&driven, begin, (0.1, 10), &start);
     assert!(distance(&end, &exact) < 1e-11, "{:e}", distance(&end, &exact));
     let lengths =
         end.iter().zip(&start).map(|(a, b)| Vector3::from(*a).norm() - Vector3::from(*b).norm());
     assert!(lengths.fold(0.0, |largest: f64, gap| largest.max(gap.abs())) < 2e-15);
-    let found = [
-        order(
-            &exact,
-            &gauss::<1>(&driven, begin, 20, &start),
-            &gauss::<1>(&driven, begin, 40, &start),
-        ),
-        order(
-            &exact,
-            &gauss::<2>(&driven, begin, 8, &start),
-            &gauss::<2>(&driven, begin, 16, &start),
-        ),
-        order(
-            &exact,
-            &gauss::<3>(&driven, begin, 6, &start),
-            &gauss::<3>(&driven, begin, 12, &start),
-        ),
-    ];
-    for (found, expected) in found.into_iter().zip([2.0, 4.0, 6.0]) {
-        assert!((found - expected).abs() < 0.4, "{found} for {expected}");
-    }
+    nodes_have_their_orders(&driven, (begin, 1.0), [20, 8, 6], &start, &exact);
 }
 
 #[cfg(feature = "ensemble")]

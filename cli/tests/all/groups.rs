@@ -79,35 +79,3 @@ fn the_list_is_that_of_the_catalogue() {
         assert!(line.contains(&format!(" {dim} ")), "{line}");
     }
 }
-
-/// The printed constants are those of the printed matrices.
-#[test]
-fn structure_constants_are_the_commutators_of_the_basis() {
-    for name in ["SO4", "SU3", "U2", "SL2", "SO3 |x Sym3"] {
-        let facts = json(&format!("groups '{name}'"));
-        let size = facts["matrix_size"].as_u64().unwrap() as usize;
-        let matrix = |entries: &serde_json::Value| {
-            let mut matrix = nalgebra::DMatrix::<f64>::zeros(size, size);
-            for entry in entries.as_array().unwrap() {
-                let at = |key: &str| entry[key].as_u64().unwrap() as usize - 1;
-                let value: f64 = entry["value"].as_str().unwrap().parse().unwrap();
-                matrix[(at("row"), at("column"))] = value;
-            }
-            matrix
-        };
-        let basis: Vec<_> = facts["basis"].as_array().unwrap().iter().map(matrix).collect();
-        let n = basis.len();
-        let mut brackets = vec![vec![nalgebra::DMatrix::<f64>::zeros(size, size); n]; n];
-        for c in facts["structure_constants"].as_array().unwrap() {
-            let at = |key: &str| c[key].as_u64().unwrap() as usize - 1;
-            let value: f64 = c["value"].as_str().unwrap().parse().unwrap();
-            brackets[at("i")][at("j")] += value * &basis[at("k")];
-        }
-        for i in 0..n {
-            for j in 0..n {
-                let commutator = &basis[i] * &basis[j] - &basis[j] * &basis[i];
-                assert_eq!(commutator, brackets[i][j], "{name} {i} {j}");
-            }
-        }
-    }
-}

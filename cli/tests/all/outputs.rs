@@ -2,10 +2,9 @@
 #![cfg(unix)]
 
 use std::fs;
-use std::path::Path;
 use std::process::{Command, Stdio};
 
-use crate::support::{BODY, Folder, Ran, root, run, text_of};
+use crate::support::{BODY, Folder, Ran, run, text_of};
 
 /// A folder with a system, a table of momenta, and pairs to learn from.
 fn place() -> Folder {
@@ -188,53 +187,4 @@ fn devices_pipes_and_large_files_are_refused() {
     shell.current_dir(place.path()).args(["-c", script, env!("CARGO_BIN_EXE_coadjoint")]);
     let piped = Ran::of(&shell.output().unwrap()).ok();
     assert_eq!(run(&format!("derive {BODY}")).out, piped.out);
-}
-
-/// Whatever opens an output does so by the one function that knows all of this.
-#[test]
-fn one_place_opens_outputs() {
-    let mut found = Vec::new();
-    for folder in
-        ["cli/src", "run/src", "learn/src", "codegen/src", "python/src", "python/coadjoint"]
-    {
-        look(&root().join(folder), &mut found);
-    }
-    let allowed = ["codegen/src/file.rs", "cluster/files.py"];
-    found.retain(|place: &String| !allowed.iter().any(|own| place.contains(own)));
-    assert!(found.is_empty(), "these open files by themselves: {found:#?}");
-}
-
-const OPENERS: [&str; 11] = [
-    "File::create",
-    "fs::write",
-    "OpenOptions",
-    "File::options",
-    "fs::rename",
-    "fs::copy",
-    "hard_link",
-    "Writer::from_path",
-    ".write_text(",
-    ".write_bytes(",
-    "os.replace",
-];
-
-fn look(folder: &Path, found: &mut Vec<String>) {
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            look(&path, found);
-        } else if path.extension().is_some_and(|ending| ending == "rs" || ending == "py") {
-            let text = fs::read_to_string(&path).unwrap();
-            let text = text.split("#[cfg(test)]").next().unwrap().replace("_core.write_text", "");
-            for (number, line) in text.lines().enumerate() {
-                let python = ["\"w\"", "\"wb\"", "\"xb\"", "\"a\""].iter();
-                let opens = line.contains("open(")
-                    && !line.contains("fdopen")
-                    && python.clone().any(|mode| line.contains(mode));
-                if opens || OPENERS.iter().any(|opener| line.contains(opener)) {
-                    found.push(format!("{}:{}: {}", path.display(), number + 1, line.trim()));
-                }
-            }
-        }
-    }
 }

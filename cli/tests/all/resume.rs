@@ -15,6 +15,12 @@ fn place() -> Folder {
     let place = Folder::new();
     place.write("body.toml", text_of(BODY));
     place.write("smooth.toml", text_of("examples/relativistic_body.toml"));
+    // Pairs to learn from.
+    let case = text_of("cli/tests/cases/learn.case");
+    place.write(
+        "train.csv",
+        case.split("== train.csv\n").nth(1).unwrap().split("== ").next().unwrap(),
+    );
     place
 }
 
@@ -100,7 +106,6 @@ fn a_killed_run_ends_with_the_same_bits() {
 #[test]
 fn an_interrupted_run_leaves_a_whole_part_and_goes_on() {
     let place = place();
-    place.pairs("train.csv", 40, 1);
     place.run("learn train.csv --dt 0.1 --degree 2 --out model.json").ok();
     for (signal, run, out) in [
         (Signal::INT, body as fn(&str) -> String, "i.csv"),
@@ -196,10 +201,9 @@ fn a_run_with_other_inputs_is_refused() {
 
 #[test]
 fn a_killed_training_ends_with_the_same_model() {
-    let place = Folder::new();
-    place.pairs("train.csv", 100, 1);
+    let place = place();
     let network =
-        "learn train.csv --dt 0.1 --model network --widths 40,40 --evaluations 1500 --out";
+        "learn train.csv --dt 0.1 --model network --widths 40,40 --evaluations 5000 --out";
     place.run(&format!("{network} whole.json")).ok();
     let checkpoint = "killed.json.checkpoint.network";
     kill(start(&place, &format!("{network} killed.json"), checkpoint, 0));

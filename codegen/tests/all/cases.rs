@@ -1,4 +1,5 @@
-//! What is said of mistakes: each file of `codegen/tests/cases` is of one kind of input, and says of each all that is said.
+//! What is read, and what is said of mistakes: each file of `codegen/tests/cases` is of one kind of input, and has of each all that
+//! is read or said.
 //!
 //! ```text
 //! # the kind of input
@@ -18,14 +19,16 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use coadjoint_codegen::parse::rust;
-use coadjoint_codegen::system::{Options, read};
+use coadjoint_codegen::smooth::Hamiltonian;
+use coadjoint_codegen::system::{Options, Parameters, read, read_either};
 
-/// A kind of input: the name of its file, and the mistakes of a text.
+/// A kind of input: the name of its file, and the mistakes of a text or all that is read of it.
 type Kind = (&'static str, fn(&str) -> String);
 
-const KINDS: [Kind; 4] = [
+const KINDS: [Kind; 5] = [
     ("attributes", of_an_attribute),
     ("hamiltonians", |text| of_a_file(&crate::text::file(text), "h.toml")),
+    ("read", of_what_is_read),
     ("sums", |text| of_a_file(&crate::sums::file(text, crate::sums::MOMENTUM), "h.toml")),
     ("system_files", |text| of_a_file(text, "system.toml")),
 ];
@@ -52,6 +55,76 @@ fn of_an_attribute(text: &str) -> String {
         writeln!(all, "{}:{}-{}: {error}", start.line, start.column + 1, end.column + 1).unwrap();
         all
     })
+}
+
+/// All that is read of a file, then all that is read differently where parameters are kept.
+fn of_what_is_read(text: &str) -> String {
+    let read = lines(text, Parameters::Substituted);
+    let kept = lines(text, Parameters::Kept);
+    let other = kept.iter().filter(|line| !read.contains(line)).map(|line| format!("kept {line}"));
+    read.iter().cloned().chain(other).map(|line| line + "\n").collect()
+}
+
+/// The parts of a system and its run, a line each; numbers of functions have fourteen digits.
+fn lines(text: &str, parameters: Parameters) -> Vec<String> {
+    let options = Options { parameters, ..Options::default() };
+    let system = match read_either(text, options, &[]) {
+        Ok(system) => system,
+        Err(mistakes) => return vec![mistakes.render("system.toml", text)],
+    };
+    let (facts, run, units) = (system.problem.facts(), &system.run, &system.units);
+    let short = |x: &f64| format!("{x:.13e}").parse::<f64>().unwrap();
+    let list = |numbers: &[f64]| format!("{:?}", numbers.iter().map(short).collect::<Vec<_>>());
+    let brackets = facts.algebra.structure().iter().filter(|constant| constant.i < constant.j);
+    let brackets = brackets.map(|s| format!("[{}, {}] = {}*{}", s.i, s.j, s.value, s.k));
+    let mut all = vec![
+        format!(
+            "{} on {}, {:?}, K = {}",
+            facts.name,
+            facts.algebra.name(),
+            facts.coordinates,
+            facts.truncation
+        ),
+        format!("brackets {}", brackets.collect::<Vec<_>>().join(", ")),
+    ];
+    let symbols = match &system.problem {
+        Hamiltonian::Polynomial(problem, _) => {
+            all.push(format!("H = {:?}, {} chart", problem.hamiltonian, problem.chart));
+            &problem.symbols
+        }
+        Hamiltonian::Smooth(smooth) => {
+            let symbols = smooth.symbols_at(&facts.defaults());
+            let mu: Vec<f64> =
+                (0..smooth.gradient.outputs().len()).map(|i| i as f64 + 1.0).collect();
+            let value = short(&smooth.energy(&symbols, 0.3, &mu));
+            let gradient = list(&smooth.gradient(&symbols, 0.3, &mu));
+            all.push(format!(
+                "H(0.3, {mu:?}) = {value}, its gradient {gradient}, moves: {}",
+                smooth.moves
+            ));
+            &smooth.symbols
+        }
+    };
+    for symbol in symbols {
+        all.push(format!("{} = {}", symbol.text, short(&symbol.expr.evaluate(&facts.defaults()))));
+    }
+    for parameter in facts.parameters {
+        let values = parameter.default.iter().flatten().map(ToString::to_string);
+        let values = values.collect::<Vec<_>>().join(", ");
+        all.push(format!("parameter {} of {:?}: {values}", parameter.name, parameter.shape));
+    }
+    all.extend(system.writable().err());
+    all.extend(run.step.map(|step| format!("step {}", short(&step))));
+    all.extend(run.time.map(|time| format!("time {time}, every {:?}", run.every)));
+    all.extend(run.momentum.iter().map(|mu| format!("momentum {}", list(mu))));
+    for row in run.group_element.iter().flatten() {
+        all.push(format!("g {row:?}"));
+    }
+    all.extend(units.time.iter().map(|unit| format!("time in {unit}")));
+    let names = facts.coordinates.iter().enumerate();
+    let named = names.filter_map(|(i, name)| Some(format!("{name} in {}", units.coordinate(i)?)));
+    all.extend(named);
+    all
 }
 
 #[test]

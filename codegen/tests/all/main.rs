@@ -3,7 +3,6 @@
 
 mod c_header;
 mod cases;
-mod expressions;
 mod given;
 mod limits;
 mod quoting;

@@ -3,7 +3,6 @@
 
 use coadjoint_codegen::parse::rust;
 use coadjoint_codegen::smooth::{Hamiltonian, Smooth};
-use coadjoint_codegen::system::{Options, read_either};
 
 pub fn read(arguments: &str, function: &str) -> Hamiltonian {
     let source = syn::parse_str(function).unwrap();
@@ -102,45 +101,6 @@ fn the_time_is_the_argument_said_to_be_it() {
     // Otherwise `t` is a parameter like any other.
     let body = "fn h(mu: [f64; 3], t: f64) -> f64 { t * mu[0].powi(2) }";
     assert!(matches!(read("group = SO3", body), Hamiltonian::Polynomial(..)));
-}
-
-/// Parameters, coordinates and indices of sums come before the time.
-#[test]
-fn t_is_the_time_where_a_file_does_not_say_otherwise() {
-    let read = |coordinates: &str, hamiltonian: &str, parameters: &str| {
-        let text = format!(
-            "group = \"SO3\"\ncoordinates = [{coordinates}]\nhamiltonian = \"{hamiltonian}\"\n[parameters]\n{parameters}"
-        );
-        read_either(&text, Options::default(), &[]).unwrap().problem
-    };
-    let xyz = "\"x\", \"y\", \"z\"";
-    match read(xyz, "cos(w*t)*x^2 + y^2", "w = 2") {
-        Hamiltonian::Smooth(smooth) => {
-            assert!(smooth.moves);
-            let value = smooth.energy(&[], 0.3, &[1.0, 2.0, 0.0]);
-            assert!((value - 4.0 - 0.6_f64.cos()).abs() < 1e-15, "{value}");
-        }
-        Hamiltonian::Polynomial(..) => panic!("a polynomial"),
-    }
-    for (coordinates, hamiltonian, parameters) in [
-        (xyz, "t*x^2 + y", "t = 2"),
-        ("\"t\", \"u\", \"v\"", "t^2 + u*v", ""),
-        (xyz, "sum(t, 0..3, mu[t]^2)", ""),
-    ] {
-        let found = read(coordinates, hamiltonian, parameters);
-        assert!(matches!(found, Hamiltonian::Polynomial(..)), "{hamiltonian}");
-    }
-}
-
-/// Printers would have no table to read.
-#[test]
-fn systems_with_inputs_are_not_written_as_code() {
-    let text =
-        "group = 'SO3'\nhamiltonian = 'mu[0]^2 + u*mu[1]'\n[inputs]\ntimes = [0, 1]\nu = [0, 1]";
-    let why = read_either(text, Options::default(), &[]).unwrap().writable().unwrap_err();
-    assert!(why.contains("no code is written of a system with the input `u`"), "{why}");
-    let text = text.replace("u*mu", "mu").replace("[inputs]\ntimes = [0, 1]\nu = [0, 1]", "");
-    assert!(read_either(&text, Options::default(), &[]).unwrap().writable().is_ok());
 }
 
 #[test]

@@ -1,9 +1,7 @@
-//! Sums over sites in system files, and coordinates and momenta given for one copy.
+//! Sums over sites in system files; `cases/read.cases` has others, and momenta given for one copy.
 #![allow(clippy::unwrap_used)]
 
-use coadjoint_codegen::system::{self, Options};
-
-use crate::given::{kept, read};
+use crate::given::read;
 
 pub fn file(hamiltonian: &str, momentum: &str) -> String {
     format!(
@@ -13,40 +11,6 @@ pub fn file(hamiltonian: &str, momentum: &str) -> String {
 }
 
 pub const MOMENTUM: &str = "[1, 2, 3, 4, 5, 6, 7, 8, 9]";
-
-#[test]
-fn a_sum_is_its_terms() {
-    for (short, long) in [
-        ("sum(i, 0..3, x[i]^2)", "x[0]^2 + x[1]^2 + x[2]^2"),
-        ("2*sum(i, 0..3, x[i]*x[(i+1)%3]) - z[0]", "2*(x[0]*x[1] + x[1]*x[2] + x[2]*x[0]) - z[0]"),
-        ("sum(i, 1..3, J[i]*y[i - 1]*y[i])", "2*y[0]*y[1] + 3*y[1]*y[2]"),
-        ("sum(i, 0..3, i^2*z[(i - 1) % 3]^2)", "z[0]^2 + 4*z[1]^2"),
-        (
-            "sum(i, 0..3, sum(j, i + 1..3, (j - i)*x[i]*x[j]))",
-            "x[0]*x[1] + 2*x[0]*x[2] + x[1]*x[2]",
-        ),
-        ("sum(i, 0..len(J), len(x)*J[i]*x[J[i] - 1])", "3*(x[0] + 2*x[1] + 3*x[2])"),
-    ] {
-        let [short, long] = [short, long].map(|text| read(&file(text, MOMENTUM)));
-        assert_eq!(short.problem.hamiltonian, long.problem.hamiltonian, "{}", short.problem.source);
-    }
-}
-
-#[test]
-fn the_momentum_of_a_power_may_be_given_for_one_copy() {
-    let momentum = |text: &str| {
-        let text = file("sum(i, 0..3, x[i]^2)", text);
-        system::read(&text, Options::default()).map(|system| system.run.momentum.unwrap())
-    };
-    assert_eq!(
-        momentum("[\"i + 1\", 0.5, \"2/4\"]").unwrap(),
-        [1.0, 0.5, 0.5, 2.0, 0.5, 0.5, 3.0, 0.5, 0.5]
-    );
-    assert_eq!(momentum("[\"cos(i)\", \"sin(i)\", 0]").unwrap()[3..5], [1f64.cos(), 1f64.sin()]);
-    assert!(momentum("[\"1/i\", 0, 0]").is_err());
-    assert!(momentum("[\"k\", 0, 0]").is_err());
-    assert!(momentum("[1, 2]").is_err());
-}
 
 /// The exchange of all pairs of sites at this squared distance, in plain terms.
 fn exchange(sites: &[[f64; 3]], distance2: f64) -> (usize, String) {
@@ -91,15 +55,4 @@ fn lattices_by_edges_are_those_of_their_geometry() {
         ));
         assert_eq!(example.problem.hamiltonian, plain.problem.hamiltonian, "{name}");
     }
-}
-
-#[test]
-fn edges_are_numbers_where_parameters_are_kept() {
-    let text = "group = \"SO3^3\"\ncoordinates = [\"x\", \"y\", \"z\"]\n\
-                hamiltonian = \"sum(b, 0..n - 1, J[b]*x[P[b]]*x[P[b + 1]])\"\n\
-                [parameters]\nn = \"len(P)\"\nJ = [1, 2]\nP = [0, 2, 1]\n";
-    let problem = kept(text).problem;
-    let names: Vec<_> = problem.parameters.iter().map(|p| p.name.as_str()).collect();
-    assert_eq!(names, ["J"]);
-    assert_eq!(problem.hamiltonian.len(), 2);
 }

@@ -129,60 +129,6 @@ fn symbols_specialise_to_numbers() {
     }
 }
 
-/// so(3) in a skewed basis f_a = Σ_b m_ab e_b, given by brackets alone. The momenta dual to it are
-/// q_a = Σ_b m_ab p_b, and S as a function of them is the same function.
-#[test]
-fn unseen_basis_by_brackets() {
-    let m = [[1, 2, 0], [0, 1, -1], [3, 0, 2]];
-    // The inverse of m is this over its determinant, checked below.
-    let determinant = -4;
-    let adjugate = [[2, -4, -2], [-3, 2, 1], [-3, 6, 1]];
-    for i in 0..3 {
-        for j in 0..3 {
-            let entry: i64 = (0..3).map(|k| m[i][k] * adjugate[k][j]).sum();
-            assert_eq!(entry, if i == j { determinant } else { 0 });
-        }
-    }
-    let cross = |a: [i64; 3], b: [i64; 3]| {
-        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-    };
-    let mut brackets = Vec::new();
-    for i in 0..3 {
-        for j in i + 1..3 {
-            let c = cross(m[i], m[j]);
-            let components = (0..3).map(|k| {
-                let value: i64 = (0..3).map(|b| c[b] * adjugate[b][k]).sum();
-                (k, ratio(value, determinant))
-            });
-            brackets.push((i, j, components.collect()));
-        }
-    }
-    let names = ["f", "g", "h"].map(String::from).to_vec();
-    let skewed = LieAlgebra::from_brackets("skewed", names, brackets).unwrap();
-    // p_b = Σ_a (m⁻¹)_ba q_a.
-    let p: Vec<Polynomial> = (0..3)
-        .map(|b| {
-            (0..3).fold(Polynomial::zero(3), |sum, a| {
-                &sum + &Polynomial::variable(3, a).scale(&ratio(adjugate[b][a], determinant))
-            })
-        })
-        .collect();
-    let substitute = |s: &Polynomial| {
-        s.terms().fold(Polynomial::zero(3), |sum, (e, value)| {
-            let term = (0..3).fold(Polynomial::constant(3, value), |t, i| &t * &p[i].pow(e[i]));
-            &sum + &term
-        })
-    };
-    let limit = TermLimit::default();
-    let so3 = catalogue::lookup("SO3").unwrap();
-    let straight = derive(&so3, Chart::Exponential, &rigid_body(), 7, limit).unwrap();
-    let h = substitute(&rigid_body());
-    let series = derive(&skewed, Chart::Exponential, &h, 7, limit).unwrap();
-    for k in 1..=7 {
-        assert_eq!(*series.order(k), substitute(straight.order(k)), "S_{k}");
-    }
-}
-
 #[test]
 fn abelian_flow_is_linear_in_time() {
     let plane = LieAlgebra::from_structure_constants("R2", 2, []).unwrap();

@@ -110,44 +110,6 @@ fn a_solution_beyond_a_fork_is_told() {
     assert!(seen[0] > 5 && seen[1] > 0, "{seen:?}");
 }
 
-/// The judge notices an x that is off the right one in any direction by more than rounding, on several groups and charts.
-#[test]
-fn spoilt_steps_are_told() {
-    for (group, chart, truncation) in [
-        ("SO3", Chart::Exponential, 5),
-        ("SO3", Chart::Cayley, 5),
-        ("SE3", Chart::Exponential, 3),
-        ("SO4", Chart::Exponential, 3),
-        ("SL2", Chart::Exponential, 5),
-    ] {
-        let algebra = lookup(group).unwrap();
-        let n = algebra.dim();
-        let h = Polynomial::from_factors(
-            n,
-            (0..n).map(|i| (vec![(i as u32, 2)], ratio(1, 3 + i as i64))),
-        );
-        let series = derive(&algebra, chart, &h, truncation, TermLimit::default()).unwrap();
-        let judge = Judge::new(&algebra, &series).unwrap();
-        let mut setting = judge.at(0.3, &[]).unwrap();
-        let mu: Vec<f64> = (0..n).map(|i| 0.8 - 0.3 * i as f64).collect();
-        let step = setting.step(&mu).unwrap();
-        let right = step.right_solution().unwrap();
-        let x: Vec<f64> = right.x.iter().map(|x| x.to_f64()).collect();
-        let point = step.at(&x).unwrap();
-        assert!(point.residual(UNIT).relative() < 1.0);
-        assert!(matches!(point.branch().0, Branch::Right));
-        let by = 4.0 * point.residual(UNIT).bound * right.response;
-        for i in 0..n {
-            for sign in [-1.0, 1.0] {
-                let mut spoilt = x.clone();
-                spoilt[i] += sign * by;
-                let relative = step.at(&spoilt).unwrap().residual(UNIT).relative();
-                assert!(relative > 2.0, "{group} {chart:?}: {relative} for coordinate {i}");
-            }
-        }
-    }
-}
-
 /// The judge knows of a step only its definition: the algebra, the exact series, the frame, the problem; and of a smooth
 /// Hamiltonian the nodes of its formula, not the programs of its gradient and functions, nor what runs them.
 #[test]

@@ -7,18 +7,25 @@ use std::sync::{Arc, LazyLock, Mutex};
 
 use coadjoint::collocation::{Collocation, Energy};
 use coadjoint::groups::{Coordinates, MatrixGroup, Power, SE2, SL2, SU2};
-use coadjoint::{LieGroup, Phase, SE3, SO3};
+use coadjoint::{LieGroup, SE3, SO3};
 use coadjoint_codegen::smooth::{Hamiltonian, Smooth};
-use coadjoint_codegen::step::{Observation, Origin, Step};
+use coadjoint_codegen::step::Origin;
 use coadjoint_codegen::system::{Options, Parameters, read_either};
-use coadjoint_program::{Precision, Stepper};
+use coadjoint_program::Precision;
+use nalgebra::DVector;
 
 use super::family::{Family, algebra};
-use super::flow::{DRAWS, Generic, Mover, Trial};
+use super::flow::Trial;
+use super::kernels::{self, Subject};
 use super::random::Random;
+use super::runtime::{Snapshot, Steps, Transition, Way, phase, snapshot};
 use super::verdict::Tally;
-use crate::backends::entries_of;
+use crate::backends::Backend;
+use crate::bridge::named;
 use crate::kernels::TextEnergy;
+
+/// Systems and momenta drawn of one seed.
+const DRAWS: usize = 32;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Draw {
@@ -55,12 +62,12 @@ struct Term {
 }
 
 impl Term {
-    fn along<V: Coordinates<f64>>(&self, m: &V) -> f64 {
-        (0..m.dim()).map(|i| self.slope[i] * m[i]).sum()
+    fn along(&self, m: &[f64]) -> f64 {
+        self.slope.iter().zip(m).map(|(slope, m)| slope * m).sum()
     }
 
     /// Between which of its poles or edges a momentum is.
-    fn side<V: Coordinates<f64>>(&self, m: &V) -> f64 {
+    fn side(&self, m: &[f64]) -> f64 {
         let u = self.width * (self.along(m) - self.offset);
         match EDGES.iter().position(|f| *f == self.f) {
             Some(1) => (u / core::f64::consts::PI + 0.5).floor(),
@@ -73,7 +80,7 @@ impl Term {
 /// A Hamiltonian for any values of its numbers, and the programs of a kernel where they are asked for.
 struct Routine {
     smooth: Smooth,
-    kernel: Option<(Step, Observation)>,
+    kernel: Option<Arc<Subject>>,
 }
 
 /// That with these functions in its terms, or a root if there are none, on a group of the catalogue; made once.
@@ -111,9 +118,7 @@ fn routine(group: &str, nodes: usize, terms: &[&str], with_kernel: bool) -> Arc<
         let Hamiltonian::Smooth(smooth) = read else { panic!("a polynomial: {text}") };
         let kernel = with_kernel.then(|| {
             let step = Origin::Collocation(smooth.clone()).step(Precision::Double);
-            let step = step.expect("a kernel");
-            let observation = Observation::new(&step);
-            (step, observation)
+            Arc::new(Subject::new(step.expect("a kernel"), named(group), Backend::Interpreter))
         });
         Arc::new(Routine { smooth: *smooth, kernel })
     };
@@ -172,20 +177,17 @@ impl Drawn {
     }
 
     /// The gradient of the form.
-    fn turning<V: Coordinates<f64>>(&self, m: &V) -> V {
-        V::from_entries(m.dim(), |i| (0..m.dim()).map(|j| self.form[i][j] * m[j]).sum())
+    fn turning(&self, m: &[f64]) -> Vec<f64> {
+        self.form.iter().map(|row| row.iter().zip(m).map(|(q, m)| q * m).sum()).collect()
     }
 
     /// Moves the edge of the term to where the motion would be, were it not for the term, after 0.02 to 3 steps.
-    fn meet<G: LieGroup<Scalar = f64>>(
-        &mut self,
-        group: &G,
-        (h, mu): (f64, &G::Vector),
-        random: &mut Random,
-    ) {
-        let rate = group.ad_star(&self.turning(mu), mu);
+    fn meet(&mut self, group: &MatrixGroup, (h, mu): (f64, &[f64]), random: &mut Random) {
+        let turning = DVector::from_vec(self.turning(mu));
+        let rate = group.ad_star(&turning, &DVector::from_column_slice(mu));
         let term = &mut self.terms[0];
-        let (now, away) = (term.along(mu), term.along(&rate) * h * random.between(0.02, 3.0));
+        let along = term.along(rate.as_slice());
+        let (now, away) = (term.along(mu), along * h * random.between(0.02, 3.0));
         term.offset = now + away;
         match EDGES.iter().position(|f| *f == term.f) {
             Some(1) => {
@@ -201,58 +203,75 @@ impl Drawn {
     }
 }
 
-/// A kernel's steps, by the interpreter.
-struct Interpreted<'a> {
-    step: &'a Step,
-    observation: &'a Observation,
-    slots: Vec<f64>,
-    element: Vec<f64>,
+/// An energy, with the way that its arguments go as its steps see it.
+struct Seen<'a> {
+    energy: TextEnergy<'a>,
+    /// As if they went nowhere.
+    still: bool,
 }
 
-impl<V: Coordinates<f64>> Mover<V> for Interpreted<'_> {
-    fn advance(&mut self, mu: &mut V) -> bool {
-        let mut numbers: Vec<f64> = (0..mu.dim()).map(|i| mu[i]).collect();
-        let kernel = self.step.kernel();
-        let made = kernel.advance(&self.slots, &mut self.element, &mut numbers, 1).steps == 1;
-        *mu = V::from_entries(numbers.len(), |i| numbers[i]);
-        made
+impl<V: Coordinates<f64>> Energy<V> for Seen<'_> {
+    fn value(&self, time: f64, m: &V) -> f64 {
+        self.energy.value(time, m)
     }
 
-    fn spatial(&self, mu: &V) -> V {
-        let numbers: Vec<f64> = (0..mu.dim()).map(|i| mu[i]).collect();
-        let spatial = self.observation.spatial_momentum(&self.element, &numbers);
-        V::from_entries(mu.dim(), |i| spatial[i])
+    fn gradient(&self, time: f64, m: &V) -> V {
+        self.energy.gradient(time, m)
+    }
+
+    fn reach(&self, from: (f64, &V), to: (f64, &V)) -> Option<f64> {
+        if self.still { Some(0.0) } else { self.energy.reach(from, to) }
     }
 }
 
-/// Steps of one system with `M` nodes; by programs where the group has this name in the catalogue.
+/// Steps with `M` nodes, by the runtime.
+struct Generic<'a, G, const M: usize> {
+    group: &'a G,
+    energy: Seen<'a>,
+    h: f64,
+}
+
+impl<G: LieGroup<Scalar = f64>, const M: usize> Steps for Generic<'_, G, M> {
+    fn go(&self, way: Way, at: &[f64], mu: &[f64]) -> Option<Transition> {
+        let mut step =
+            Collocation::<_, _, M>::new(self.group.clone(), &self.energy, self.h).ok()?;
+        let mut state = phase(self.group, at, mu);
+        let before: Snapshot = snapshot(self.group, &state);
+        let made = step.advance_by(&mut state, 0.0, way.steps());
+        let error = made.err().map(|stopped| stopped.error.to_string());
+        Some(Transition { before, after: snapshot(self.group, &state), error })
+    }
+}
+
+/// The systems of a family: how they are drawn, and whether by programs.
+type Of = (Draw, bool);
+
+/// Draws and judges steps of one system with `M` nodes, on a group of the runtime and the same one by tables.
 fn steps<G, const M: usize>(
-    group: &G,
-    (draw, by_programs): (Draw, Option<&'static str>),
+    (group, name, tables): (&G, &str, &MatrixGroup),
+    (draw, by_programs): Of,
     random: &mut Random,
     tally: &mut Tally,
 ) where
-    G: LieGroup<Scalar = f64> + 'static,
+    G: LieGroup<Scalar = f64>,
 {
     let n = group.dim();
     let mut drawn = Drawn::new(draw, n, random);
     let functions: Vec<&str> = drawn.terms.iter().map(|term| term.f).collect();
     // A formula knows no more of a group than its dimension.
-    let name = by_programs.map_or_else(|| format!("R{n}"), str::to_owned);
-    let routine = routine(&name, M, &functions, by_programs.is_some());
-    let energy = |drawn: &Drawn| {
-        let symbols = routine.smooth.symbols_at(&drawn.values());
-        TextEnergy { smooth: &routine.smooth, symbols, tells: draw != Draw::Root }
+    let name = if by_programs { name.to_owned() } else { format!("R{n}") };
+    let routine = routine(&name, M, &functions, by_programs);
+    let gradient_of = |drawn: &Drawn, mu: &[f64]| {
+        routine.smooth.gradient(&routine.smooth.symbols_at(&drawn.values()), 0.0, mu)
     };
     let size = random.between(0.2, 3.0);
-    let direction = random.direction(n);
-    let mu = G::Vector::from_entries(n, |i| size * direction[i]);
+    let mu: Vec<f64> = random.direction(n).into_iter().map(|entry| size * entry).collect();
     let turning = drawn.turning(&mu);
     let velocity = match draw {
         Draw::Edge => turning.clone(),
-        _ => energy(&drawn).gradient(0.0, &mu),
+        _ => gradient_of(&drawn, &mu),
     };
-    let length = |v: &G::Vector| v.pairing(v).sqrt();
+    let length = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     let speed = length(&velocity).max(1e-3);
     let (shortest, longest) = match (draw, random.one_in(2)) {
         (Draw::Root, true) => (0.05, 3.0),
@@ -262,66 +281,46 @@ fn steps<G, const M: usize>(
     };
     let h = random.between(shortest, longest) / speed * random.sign_one_in(8);
     if draw == Draw::Edge {
-        drawn.meet(group, (h, &mu), random);
-        let own = length(&energy(&drawn).gradient(0.0, &mu).minus(&turning));
+        drawn.meet(tables, (h, &mu), random);
+        let whole = gradient_of(&drawn, &mu);
+        let own = length(&whole.iter().zip(&turning).map(|(a, b)| a - b).collect::<Vec<_>>());
         // As large a velocity as a share of the other.
         if random.one_in(3) && own > 0.0 && own.is_finite() {
             drawn.terms[0].height *= speed * random.between(0.01, 1.0) / own;
         }
     }
-    let energy = energy(&drawn);
-    let element = group.exp(&G::Vector::from_entries(n, |_| random.between(-1.0, 1.0)));
-    let mut mover: Box<dyn Mover<G::Vector> + '_> = match &routine.kernel {
-        None => {
-            let step = Collocation::<_, _, M>::new(group.clone(), &energy, h);
-            let Ok(step) = step else { return };
-            Box::new(Generic { group: group.clone(), step, element })
-        }
-        Some((step, observation)) => {
-            let Ok(slots) = step.fold(h, &drawn.values()) else { return };
-            let element = step.element_of(&entries_of(group, &element));
-            Box::new(Interpreted { step, observation, slots, element })
-        }
+    let at: Vec<f64> = (0..n).map(|_| random.between(-1.0, 1.0)).collect();
+    let generic = |still| {
+        let (smooth, tells) = (&routine.smooth, draw != Draw::Root);
+        let energy = TextEnergy { smooth, symbols: smooth.symbols_at(&drawn.values()), tells };
+        Generic::<G, M> { group, energy: Seen { energy, still }, h }
     };
-    let sides = |m: &G::Vector| drawn.terms.iter().map(|term| term.side(m)).collect::<Vec<_>>();
-    let about = format!("M = {M}, {drawn:?}");
-    let farthest = draw.farthest(M);
-    let trial = Trial { group, energy: &energy, h, farthest, sides: &sides, about };
-    // A refused step would have been right if one that is judged at its nodes alone, as if all arguments went nowhere, is.
-    let right = |from: &G::Vector| {
-        let still = Still(&energy);
-        let Ok(mut step) = Collocation::<_, _, M>::new(group.clone(), still, h) else {
-            return false;
-        };
-        let mut state = Phase::<G>::new(group.identity(), from.clone());
-        let made = draw != Draw::Root && step.advance(&mut state, 0.0).is_ok();
-        made && trial.share(from, &state.momentum).is_some_and(|share| share <= 1.0)
+    let (own, still) = (generic(false), generic(true));
+    let kernel =
+        routine.kernel.as_ref().map(|subject| kernels::Runner::new(subject, h, &drawn.values()));
+    let own: &dyn Steps = match &kernel {
+        None => &own,
+        Some(Some(kernel)) => kernel,
+        Some(None) => return,
     };
-    trial.follow(mover.as_mut(), mu, right, tally);
-}
-
-/// An energy whose arguments are said to go nowhere.
-struct Still<'a>(&'a TextEnergy<'a>);
-
-impl<V: Coordinates<f64>> Energy<V> for Still<'_> {
-    fn value(&self, time: f64, m: &V) -> f64 {
-        self.0.value(time, m)
-    }
-
-    fn gradient(&self, time: f64, m: &V) -> V {
-        self.0.gradient(time, m)
-    }
-
-    fn reach(&self, _: (f64, &V), _: (f64, &V)) -> Option<f64> {
-        Some(0.0)
-    }
+    let trial = Trial {
+        steps: own,
+        still: (draw != Draw::Root).then_some(&still as &dyn Steps),
+        group: tables,
+        gradient: &|mu| gradient_of(&drawn, mu),
+        h,
+        farthest: draw.farthest(M),
+        sides: &|m| drawn.terms.iter().map(|term| term.side(m)).collect(),
+        about: format!("M = {M}, {drawn:?}"),
+    };
+    trial.follow(&at, &mu, tally);
 }
 
 /// Steps with a number of nodes.
-fn at<G: LieGroup<Scalar = f64> + 'static>(
-    group: &G,
+fn at<G: LieGroup<Scalar = f64>>(
+    group: (&G, &str, &MatrixGroup),
     nodes: usize,
-    of: (Draw, Option<&'static str>),
+    of: Of,
     random: &mut Random,
     tally: &mut Tally,
 ) {
@@ -332,6 +331,27 @@ fn at<G: LieGroup<Scalar = f64> + 'static>(
         4 => steps::<G, 4>(group, of, random, tally),
         5 => steps::<G, 5>(group, of, random, tally),
         _ => steps::<G, 6>(group, of, random, tally),
+    }
+}
+
+/// Steps on a group of the catalogue, or on one in another basis.
+fn on(name: &str, nodes: usize, of: Of, random: &mut Random, tally: &mut Tally) {
+    let signs = match name {
+        "so(2, 1)" => SO21_SIGNS,
+        _ => SO3_SIGNS,
+    };
+    if name.starts_with("so(") {
+        let group = skew(signs, random);
+        return at((&group, name, &group), nodes, of, random, tally);
+    }
+    let tables = &named(name);
+    match name {
+        "SO3" => at((&SO3::new(), name, tables), nodes, of, random, tally),
+        "SU2" => at((&SU2::new(), name, tables), nodes, of, random, tally),
+        "SE2" => at((&SE2::new(), name, tables), nodes, of, random, tally),
+        "SE3" => at((&SE3::new(), name, tables), nodes, of, random, tally),
+        "SL2" => at((&SL2::new(), name, tables), nodes, of, random, tally),
+        _ => at((&Power::<SO3, 2, 6>::new(), name, tables), nodes, of, random, tally),
     }
 }
 
@@ -375,55 +395,35 @@ fn skew(signs: Signs, random: &mut Random) -> MatrixGroup {
     MatrixGroup::from_structure_constants(n, &structure).expect("a Lie algebra")
 }
 
-/// A step that is drawn and judged.
-type Judged = dyn Fn(&mut Random, &mut Tally) + Send + Sync;
-
 /// Families by the group, with any number of nodes, by the runtime and by programs; and by the number of nodes, on any group.
 pub(super) fn families(only: &str) -> Vec<Family> {
     let mut all = Vec::new();
-    let mut add = |name: String, one: Box<Judged>| {
-        let steps = move |seed: u64, tally: &mut Tally| {
-            let mut random = Random::new(seed);
-            (0..DRAWS).for_each(|_| one(&mut random, tally));
+    let mut add = |name: String, groups: &'static [&str], most: Option<usize>, of: Of| {
+        let steps = move |random: &mut Random, tally: &mut Tally| {
+            for _ in 0..DRAWS {
+                let nodes = most.unwrap_or_else(|| 1 + random.below(6));
+                let group = groups[if groups.len() > 1 { random.below(groups.len()) } else { 0 }];
+                on(group, nodes, of, random, tally);
+            }
         };
-        all.extend(name.contains(only).then(|| Family::alone(name, steps)));
+        all.extend(name.contains(only).then(|| Family::new(name, 128, steps)));
     };
-    for (name, known) in [
-        ("so3", "SO3"),
-        ("su2", "SU2"),
-        ("se2", "SE2"),
-        ("se3", "SE3"),
-        ("sl2", "SL2"),
-        ("power", "SO3^2"),
-    ] {
-        for (ending, by) in [("", None), ("-kernel", Some(known))] {
-            let one = move |random: &mut Random, tally: &mut Tally| {
-                let (nodes, of) = (1 + random.below(6), (Draw::Root, by));
-                match known {
-                    "SO3" => at(&SO3::<f64>::new(), nodes, of, random, tally),
-                    "SU2" => at(&SU2::<f64>::new(), nodes, of, random, tally),
-                    "SE2" => at(&SE2::<f64>::new(), nodes, of, random, tally),
-                    "SE3" => at(&SE3::<f64>::new(), nodes, of, random, tally),
-                    "SL2" => at(&SL2::<f64>::new(), nodes, of, random, tally),
-                    _ => at(&Power::<SO3, 2, 6>::new(), nodes, of, random, tally),
-                }
-            };
-            add(format!("collocation-{name}{ending}"), Box::new(one));
-        }
+    let groups: [(&str, &'static [&str]); 6] = [
+        ("so3", &["SO3"]),
+        ("su2", &["SU2"]),
+        ("se2", &["SE2"]),
+        ("se3", &["SE3"]),
+        ("sl2", &["SL2"]),
+        ("power", &["SO3^2"]),
+    ];
+    for (name, group) in groups {
+        add(format!("collocation-{name}"), group, None, (Draw::Root, false));
+        add(format!("collocation-{name}-kernel"), group, None, (Draw::Root, true));
     }
+    let groups = &["SO3", "SE3", "SL2", "so(2, 1)", "so(3)"];
     for (kind, draw) in [("edge", Draw::Edge), ("steep", Draw::Flank)] {
         for nodes in 1..=5 {
-            let one = move |random: &mut Random, tally: &mut Tally| {
-                let of = (draw, None);
-                match random.below(5) {
-                    0 => at(&SO3::<f64>::new(), nodes, of, random, tally),
-                    1 => at(&SE3::<f64>::new(), nodes, of, random, tally),
-                    2 => at(&SL2::<f64>::new(), nodes, of, random, tally),
-                    3 => at(&skew(SO21_SIGNS, random), nodes, of, random, tally),
-                    _ => at(&skew(SO3_SIGNS, random), nodes, of, random, tally),
-                }
-            };
-            add(format!("{kind}-{nodes}"), Box::new(one));
+            add(format!("{kind}-{nodes}"), groups, Some(nodes), (draw, false));
         }
     }
     all

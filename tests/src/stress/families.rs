@@ -14,7 +14,7 @@ use super::runtime::{
     Cayley, Exponential, Heisenberg, MatrixFree, Power, Runner, SE2, SE3, SO3, SU2, SU3, Terms,
     polynomial,
 };
-use super::{collocation, generated, kernels};
+use super::{collocation, generated, instance, kernels};
 use crate::bridge::matrix_group;
 
 fn table(algebra: &LieAlgebra, terms: Terms, _: f64, _: &mut Random) -> Option<Instance> {
@@ -129,7 +129,8 @@ pub fn families(only: &str) -> Vec<Family> {
             // The same systems whatever else is tried.
             let seed =
                 recipe.name.bytes().fold(7_u64, |seed, b| seed.wrapping_mul(31) + u64::from(b));
-            families.push(recipe.family(seed, steps));
+            let models = recipe.drawn(seed, steps);
+            families.push(instance::family(recipe.name.to_owned(), recipe.weight, models));
         }
     }
     families.extend(generated::families(only));

@@ -50,27 +50,32 @@ impl Instance {
 /// Makes steps from the algebra, the terms of S, and the step size that these have been folded for.
 pub type Maker = fn(&LieAlgebra, Terms, f64, &mut Random) -> Option<Instance>;
 
-/// Makes the steps of a seed and counts how they were judged.
-type Judged = Box<dyn Fn(u64, &mut Tally) + Send + Sync>;
+/// Draws systems, makes their steps and counts how they were judged.
+type Judged = Box<dyn Fn(&mut Random, &mut Tally) + Send + Sync>;
 
 pub struct Family {
     pub name: String,
+    /// How many of all instances are of this family, relative to the others: where steps take long, few.
+    pub weight: usize,
+    pub judge: Judged,
+}
+
+/// The Hamiltonians of a family of steps by series.
+pub struct Models {
     pub models: Vec<Template>,
     /// How far log₁₀|μ| goes to either side of 0.
     pub decades: f64,
-    /// How many of all instances are of this family, relative to the others: where steps take long, few.
-    pub weight: usize,
     /// Whether all momenta are of those whose steps must be accepted.
     pub promise: bool,
-    /// Makes and judges the steps of a seed, where they are those of no generating function.
-    pub instance: Option<Judged>,
 }
 
 impl Family {
-    /// A family whose steps are those of no generating function.
-    pub fn alone(name: String, instance: impl Fn(u64, &mut Tally) + Send + Sync + 'static) -> Self {
-        let (models, decades, promise) = (Vec::new(), 0.0, false);
-        Self { name, models, decades, weight: 128, promise, instance: Some(Box::new(instance)) }
+    pub fn new(
+        name: String,
+        weight: usize,
+        judge: impl Fn(&mut Random, &mut Tally) + Send + Sync + 'static,
+    ) -> Self {
+        Self { name, weight, judge: Box::new(judge) }
     }
 }
 
@@ -177,7 +182,7 @@ pub struct Recipe {
     must_accept: bool,
     /// Whether only such are made.
     promise: bool,
-    weight: usize,
+    pub weight: usize,
     /// How far log₁₀|μ| goes to either side of 0.
     decades: f64,
 }
@@ -241,8 +246,8 @@ pub fn algebra(name: &str) -> LieAlgebra {
 }
 
 impl Recipe {
-    /// The family whose steps are made by `steps`.
-    pub fn family(&self, seed: u64, steps: Maker) -> Family {
+    /// The Hamiltonians, whose steps are made by `steps`.
+    pub fn drawn(&self, seed: u64, steps: Maker) -> Models {
         let algebra = algebra(self.group);
         let mut random = Random::new(seed);
         let mut models = Vec::new();
@@ -251,9 +256,7 @@ impl Recipe {
                 models.push(self.model(&algebra, truncation, &mut random, steps));
             }
         }
-        let (decades, weight, promise) = (self.decades, self.weight, self.promise);
-        let (name, instance) = (self.name.to_owned(), None);
-        Family { name, models, decades, weight, promise, instance }
+        Models { models, decades: self.decades, promise: self.promise }
     }
 
     fn model(

@@ -6,7 +6,8 @@ use coadjoint_codegen::number::Rational;
 use coadjoint_codegen::parse::rust;
 use coadjoint_codegen::poly::Polynomial;
 
-use super::family::{Family, Instance, Realisation, Template, inertias};
+use super::family::{Family, Instance, Models, Realisation, Template, inertias};
+use super::instance;
 use super::random::Random;
 use super::runtime::{MatrixFree, Runner};
 
@@ -94,13 +95,9 @@ pub fn families(only: &str) -> Vec<Family> {
         ("generated-comoving-9", 256, comoving::TEXT, true, in_a_comoving_frame),
     ];
     let chosen = all.into_iter().filter(|family| family.0.contains(only));
-    let family = |(name, weight, text, must, make): (&str, _, _, _, _)| Family {
-        name: name.to_owned(),
-        models: vec![model(text, must, make)],
-        decades: 30.0,
-        weight,
-        promise: name.contains("promise"),
-        instance: None,
+    let family = |(name, weight, text, must, make): (&str, _, _, _, _)| {
+        let (models, promise) = (vec![model(text, must, make)], name.contains("promise"));
+        instance::family(name.to_owned(), weight, Models { models, decades: 30.0, promise })
     };
     chosen.map(family).collect()
 }

@@ -2,7 +2,7 @@
 
 use coadjoint_codegen::judge::{Branch, Enclosure, Inside, Point, RightSolution, Setting, Stop};
 
-use super::family::{Family, Instance, Realisation};
+use super::family::{Family, Instance, Models, Realisation};
 use super::random::Random;
 use super::runtime::{Steps, Transition, Way};
 use super::verdict::{Tally, Wrong};
@@ -26,19 +26,22 @@ struct Case<'a> {
     steps: &'a dyn Steps,
 }
 
-/// Draws one system of the family and [`DRAWS`] momenta, and judges the steps.
-pub fn run(family: &Family, seed: u64, tally: &mut Tally) {
-    if let Some(instance) = &family.instance {
-        return instance(seed, tally);
-    }
-    let mut random = Random::new(seed);
+/// The family of steps by the series of these.
+pub fn family(name: String, weight: usize, models: Models) -> Family {
+    let own = name.clone();
+    Family::new(name, weight, move |random, tally| run(&own, &models, random, tally))
+}
+
+/// Draws one system of a family and [`DRAWS`] momenta, and judges the steps.
+fn run(name: &str, family: &Models, random: &mut Random, tally: &mut Tally) {
+    let (seed, random) = (random.state(), &mut *random);
     let model = &family.models[random.below(family.models.len())];
-    let system = (model.draw)(&mut random);
-    let Some((h, made)) = setting(family, &system, &mut random) else { return };
+    let system = (model.draw)(random);
+    let Some((h, made)) = setting(family, &system, random) else { return };
     let judge = made.judge.as_ref().unwrap_or(&model.judge);
     let Ok(mut judge) = judge.at(h, &system.symbols) else { return };
     let steps = made.steps.as_ref();
-    let case = Case { family: &family.name, seed, system: &system, h, steps };
+    let case = Case { family: name, seed, system: &system, h, steps };
     let dim = system.velocity.len();
     let mut ray = random.direction(dim);
     let mut boundary = 1.0;
@@ -53,9 +56,9 @@ pub fn run(family: &Family, seed: u64, tally: &mut Tally) {
             };
         }
         let mu: Vec<f64> = if family.promise {
-            promised(&case, &mut random)
+            promised(&case, random)
         } else if random.one_in(40) {
-            special(&mut random, dim)
+            special(random, dim)
         } else {
             let size = match draw % 4 {
                 0 | 2 => boundary * random.between(0.9, 1.1),
@@ -65,13 +68,13 @@ pub fn run(family: &Family, seed: u64, tally: &mut Tally) {
             ray.iter().map(|r| size * (r + random.between(-0.02, 0.02))).collect()
         };
         let mu = case.steps.rounded(&mu);
-        judge_step(&case, &mut judge, &mu, &mut random, tally);
+        judge_step(&case, &mut judge, &mu, random, tally);
     }
-    in_lanes(&case, &mut judge, &mut random, longest, tally);
+    in_lanes(&case, &mut judge, random, longest, tally);
 }
 
 /// A step size, by way of the size that momenta are to have, and the steps of it.
-fn setting(family: &Family, system: &Realisation, random: &mut Random) -> Option<(f64, Instance)> {
+fn setting(family: &Models, system: &Realisation, random: &mut Random) -> Option<(f64, Instance)> {
     for _ in 0..20 {
         let decades = if random.one_in(2) { family.decades.min(2.0) } else { family.decades };
         let size = 10_f64.powf(random.between(-decades, decades));
@@ -157,28 +160,14 @@ fn special(random: &mut Random, dim: usize) -> Vec<f64> {
     mu
 }
 
-fn hex(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return value.to_string();
-    }
-    let bits = value.to_bits();
-    let (sign, biased, fraction) =
-        (if bits >> 63 == 1 { "-" } else { "" }, (bits >> 52) & 0x7ff, bits & ((1 << 52) - 1));
-    match biased {
-        0 => format!("{sign}0x0.{fraction:013x}p-1022"),
-        _ => format!("{sign}0x1.{fraction:013x}p{}", biased as i64 - 1023),
-    }
-}
-
 impl Case<'_> {
     fn example(&self, what: &str, mu: &[f64]) -> String {
-        let exact: Vec<String> = mu.iter().map(|&m| hex(m)).collect();
-        let (family, seed, h, text) = (self.family, self.seed, hex(self.h), &self.system.text);
-        let turn = self.h.abs() * speed(self.system, mu);
-        let exact = exact.join(", ");
+        // The shortest decimals that are read as the same numbers.
+        let Self { family, seed, h, system, .. } = self;
+        let turn = h.abs() * speed(system, mu);
         format!(
-            "{what}\n    --only {family} --instance {seed}: h = {h} ({}), h|Ω| = {turn:.4}\n    μ = [{exact}] = {mu:?}\n    {text}",
-            self.h
+            "{what}\n    --only {family} --instance {seed}: h = {h}, h|Ω| = {turn:.4}\n    μ = {mu:?}\n    {}",
+            system.text
         )
     }
 }
@@ -221,10 +210,7 @@ fn judge_step(
     };
     let at: Vec<f64> = (0..mu.len()).map(|_| random.between(-1.0, 1.0)).collect();
     if let Some(outcome) = case.steps.go(way, &at, mu) {
-        let steps = match way {
-            Way::Many(steps) => steps,
-            Way::One => 1,
-        };
+        let steps = way.steps();
         if outcome.error.is_none() {
             // The first one has been counted.
             tally.accepted += steps - 1;

@@ -12,7 +12,8 @@ use coadjoint_codegen::system::Options;
 use coadjoint_program::WIDTH;
 use nalgebra::DVector;
 
-use super::family::{Family, Instance, Realisation, Template};
+use super::family::{Family, Instance, Models, Realisation, Template};
+use super::instance;
 use super::random::Random;
 use super::runtime::{Snapshot, Steps, Transition, Way};
 use crate::backends::{AnyStepper, Backend, matrix_of, numbers_of};
@@ -40,7 +41,7 @@ const SYSTEMS: [(&str, &str, &str, &str, usize); 16] = [
 ];
 
 /// A kernel, and what it takes to make its steps.
-struct Subject {
+pub struct Subject {
     step: Step,
     group: MatrixGroup,
     backend: Backend,
@@ -49,18 +50,28 @@ struct Subject {
 }
 
 impl Subject {
+    pub fn new(step: Step, group: MatrixGroup, backend: Backend) -> Self {
+        Self { step, group, backend, stepper: OnceLock::new() }
+    }
+
     fn stepper(&self) -> Option<AnyStepper> {
         self.stepper.get_or_init(|| self.backend.stepper(self.step.kernel())).clone()
     }
 }
 
-struct Runner {
+pub struct Runner {
     subject: Arc<Subject>,
     stepper: AnyStepper,
     slots: Vec<f64>,
 }
 
 impl Runner {
+    /// Steps of this size with these parameters; `None` where there are none.
+    pub fn new(subject: &Arc<Subject>, h: f64, parameters: &[f64]) -> Option<Self> {
+        let (subject, slots) = (Arc::clone(subject), subject.step.fold(h, parameters).ok()?);
+        Some(Self { stepper: subject.stepper()?, subject, slots })
+    }
+
     fn element(&self, at: &[f64]) -> Vec<f64> {
         let group = &self.subject.group;
         numbers_of(&self.subject.step, group, &group.exp(&DVector::from_column_slice(at)))
@@ -88,11 +99,7 @@ impl Steps for Runner {
     }
 
     fn go(&self, way: Way, at: &[f64], mu: &[f64]) -> Option<Transition> {
-        let steps = match way {
-            Way::One => 1,
-            Way::Many(steps) => steps,
-        };
-        let (mut g, mut mu) = (self.element(at), mu.to_vec());
+        let (steps, mut g, mut mu) = (way.steps(), self.element(at), mu.to_vec());
         let before = self.state(&g, &mu);
         let made = self.stepper.advance(&self.slots, &mut g, &mut mu, steps).steps;
         Some(self.outcome(before, &g, &mu, made < steps))
@@ -119,14 +126,6 @@ impl Steps for Runner {
         }
         Some(outcomes)
     }
-
-    fn unit(&self) -> f64 {
-        0.5 * f64::EPSILON
-    }
-
-    fn rounded(&self, mu: &[f64]) -> Vec<f64> {
-        mu.to_vec()
-    }
 }
 
 fn model(system: (&str, &str, &str, &str, usize), backend: Backend) -> Template {
@@ -141,16 +140,12 @@ fn model(system: (&str, &str, &str, &str, usize), backend: Backend) -> Template 
     let integrator = Integrator::build(problem, limit).expect("an integrator");
     let step = Step::build(&integrator).expect("a kernel");
     let group = matrix_group(&algebra).expect("a group");
-    let stepper = OnceLock::new();
-    let subject = Arc::new(Subject { step, group, backend, stepper });
+    let subject = Arc::new(Subject::new(step, group, backend));
     let text = format!("{system:?}");
     let draw = move |_: &mut Random| {
         let subject = Arc::clone(&subject);
-        let steps = move |h: f64, _: &mut Random| {
-            let slots = subject.step.fold(h, &[]).ok()?;
-            let (stepper, subject) = (subject.stepper()?, Arc::clone(&subject));
-            Some(Instance::series(Runner { subject, stepper, slots }))
-        };
+        let steps =
+            move |h: f64, _: &mut Random| Some(Instance::series(Runner::new(&subject, h, &[])?));
         Realisation {
             text: text.clone(),
             velocity: velocity.clone(),
@@ -166,13 +161,9 @@ fn model(system: (&str, &str, &str, &str, usize), backend: Backend) -> Template 
 pub fn families(only: &str) -> Vec<Family> {
     let named = Backend::ALL.iter().map(|&backend| (format!("kernel-{}", backend.name()), backend));
     let chosen = named.filter(|(name, _)| name.contains(only));
-    let family = |(name, backend)| Family {
-        name,
-        models: SYSTEMS.iter().map(|&system| model(system, backend)).collect(),
-        decades: 30.0,
-        weight: 128,
-        promise: false,
-        instance: None,
+    let family = |(name, backend)| {
+        let models = SYSTEMS.iter().map(|&system| model(system, backend)).collect();
+        instance::family(name, 128, Models { models, decades: 30.0, promise: false })
     };
     chosen.map(family).collect()
 }

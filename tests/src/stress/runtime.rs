@@ -18,6 +18,15 @@ pub enum Way {
     Many(u64),
 }
 
+impl Way {
+    pub fn steps(self) -> u64 {
+        match self {
+            Self::One => 1,
+            Self::Many(steps) => steps,
+        }
+    }
+}
+
 /// A state as numbers: the group element's matrix, row by row, and the momentum.
 #[derive(Clone, Debug)]
 pub struct Snapshot {
@@ -41,22 +50,44 @@ pub struct Transition {
     pub error: Option<String>,
 }
 
-/// A generating function of whatever group, chart and solver.
+/// Steps of one system and one size, by whatever makes them.
 pub trait Steps {
-    /// The x that `solve` finds.
-    fn solve(&self, mu: &[f64]) -> Result<Vec<f64>, String>;
-
     /// Steps from (exp(at), μ); `None` where these groups have no such steps.
     fn go(&self, way: Way, at: &[f64], mu: &[f64]) -> Option<Transition>;
 
+    /// The x of a step, where it has one that a judge of series knows.
+    fn solve(&self, _: &[f64]) -> Result<Vec<f64>, String> {
+        Err("no series".to_owned())
+    }
+
     /// The same steps of several states at once, in lanes; `None` where there are none.
-    fn together(&self, starts: &[(Vec<f64>, Vec<f64>)], steps: u64) -> Option<Vec<Transition>>;
+    fn together(&self, _: &[(Vec<f64>, Vec<f64>)], _: u64) -> Option<Vec<Transition>> {
+        None
+    }
 
     /// The unit roundoff of the scalar.
-    fn unit(&self) -> f64;
+    fn unit(&self) -> f64 {
+        0.5 * f64::EPSILON
+    }
 
     /// μ as the scalar holds it.
-    fn rounded(&self, mu: &[f64]) -> Vec<f64>;
+    fn rounded(&self, mu: &[f64]) -> Vec<f64> {
+        mu.to_vec()
+    }
+}
+
+/// The state (exp(at), μ).
+pub fn phase<G: LieGroup>(group: &G, at: &[f64], mu: &[f64]) -> Phase<G> {
+    let of = |v: &[f64]| G::Vector::from_entries(v.len(), |i| G::Scalar::of(v[i]));
+    Phase::new(group.exp(&of(at)), of(mu))
+}
+
+pub fn snapshot<G: LieGroup>(group: &G, phase: &Phase<G>) -> Snapshot {
+    let size = group.matrix_size();
+    let element = (0..size * size)
+        .map(|at| group.matrix_entry(&phase.group_element, at / size, at % size).largest_lane());
+    let (element, momentum) = (element.collect(), entries(&phase.momentum));
+    Snapshot { element, momentum, text: format!("{phase:?}") }
 }
 
 type PhaseOf<S> = Phase<<S as GeneratingFunction>::Group>;
@@ -90,23 +121,6 @@ impl<S: Integrator> Runner<S> {
     fn vector(&self, v: &[f64]) -> VectorOf<S> {
         VectorOf::<S>::from_entries(v.len(), |i| ScalarOf::<S>::of(v[i]))
     }
-
-    fn start(&self, at: &[f64], mu: &[f64]) -> PhaseOf<S> {
-        Phase::new(self.steps.group().exp(&self.vector(at)), self.vector(mu))
-    }
-
-    fn state(&self, phase: &PhaseOf<S>) -> Snapshot {
-        let group = self.steps.group();
-        let size = group.matrix_size();
-        let element = (0..size * size).map(|at| {
-            group.matrix_entry(&phase.group_element, at / size, at % size).largest_lane()
-        });
-        Snapshot {
-            element: element.collect(),
-            momentum: entries(&phase.momentum),
-            text: format!("{phase:?}"),
-        }
-    }
 }
 
 fn entries<T: Scalar, V: Coordinates<T>>(v: &V) -> Vec<f64> {
@@ -122,8 +136,8 @@ impl<S: Integrator> Steps for Runner<S> {
     }
 
     fn go(&self, way: Way, at: &[f64], mu: &[f64]) -> Option<Transition> {
-        let mut phase = self.start(at, mu);
-        let before = self.state(&phase);
+        let mut phase = phase(self.steps.group(), at, mu);
+        let before = snapshot(self.steps.group(), &phase);
         let result = match way {
             Way::One => advance(&self.steps, &mut phase).map(drop),
             Way::Many(steps) => advance_by(&self.steps, &mut phase, steps)
@@ -131,18 +145,20 @@ impl<S: Integrator> Steps for Runner<S> {
                 .map_err(|stopped| stopped.error),
         };
         let error = result.err().map(|error| error.to_string());
-        Some(Transition { before, after: self.state(&phase), error })
+        Some(Transition { before, after: snapshot(self.steps.group(), &phase), error })
     }
 
     fn together(&self, starts: &[(Vec<f64>, Vec<f64>)], steps: u64) -> Option<Vec<Transition>> {
         let run = self.together?;
-        let mut phases: Vec<_> = starts.iter().map(|(at, mu)| self.start(at, mu)).collect();
-        let before: Vec<_> = phases.iter().map(|phase| self.state(phase)).collect();
+        let mut phases: Vec<_> =
+            starts.iter().map(|(at, mu)| phase(self.steps.group(), at, mu)).collect();
+        let before: Vec<_> =
+            phases.iter().map(|phase| snapshot(self.steps.group(), phase)).collect();
         let failures = run(&self.steps, &mut phases, steps);
         let outcomes =
             before.into_iter().zip(&phases).enumerate().map(|(index, (before, phase))| {
                 let error = failures.iter().find(|f| f.0 == index).map(|f| f.1.clone());
-                Transition { before, after: self.state(phase), error }
+                Transition { before, after: snapshot(self.steps.group(), phase), error }
             });
         Some(outcomes.collect())
     }

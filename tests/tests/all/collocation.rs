@@ -1,12 +1,10 @@
-//! Steps of collocation: errors, orders, laws, sweeps, energy over long runs, and refusals.
+//! Steps of collocation: errors, sweeps, energy over long runs, and refusals; `judged_collocation` compares them with the judge's.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use coadjoint::collocation::{Collocation, Energy, Undefined};
-use coadjoint::groups::{Coordinates, SE2, SL2, SU2};
+use coadjoint::groups::Coordinates;
 use coadjoint::{LieGroup, Phase, SE3, SO3, StepError};
-use coadjoint_tests::kernels::{
-    ANY, DRIVEN, ROOT, SIX, SIX_MOMENTA, SPIN, THREE, TOP, TextEnergy, smooth,
-};
+use coadjoint_tests::kernels::{ROOT, SIX, SIX_MOMENTA, THREE, TOP, TextEnergy, smooth};
 use nalgebra::{Vector3, Vector6};
 
 /// The momentum after steps from the time 0.1.
@@ -55,49 +53,6 @@ fn one_step_errs_as_an_independent_program_does() {
             assert!((0.5 * expected..2.0 * expected).contains(&found), "{hamiltonian}: {found:e}");
         }
     }
-}
-
-/// Compares the order from the errors after the time 2.4 in steps of two sizes.
-fn has_order<G: LieGroup<Scalar = f64>, const M: usize>(
-    group: &G,
-    hamiltonian: &str,
-    mu: &[f64],
-    [long, short]: [f64; 2],
-) {
-    let mu = G::Vector::from_entries(mu.len(), |i| mu[i]);
-    let smooth = smooth(&format!("R{}", group.dim()), hamiltonian, 1);
-    let energy = &TextEnergy::closure(&smooth);
-    let exact = after::<_, _, 8>(group, energy, 0.04, 60, &mu);
-    let error = |h: f64| {
-        let end = after::<_, _, M>(group, energy, h, (2.4 / h).round() as u64, &mu);
-        distance(&end, &exact)
-    };
-    let order = (error(long) / error(short)).ln() / (long / short).ln();
-    let expected = 2.0 * M as f64;
-    assert!((order - expected).abs() < 0.15, "{hamiltonian}, {M} nodes: order {order:.3}");
-}
-
-#[test]
-fn orders_are_twice_the_number_of_nodes() {
-    let spin = [1.2, -0.5, 0.8];
-    has_order::<_, 1>(&SO3::new(), ROOT, &THREE, [0.05, 0.025]);
-    has_order::<_, 2>(&SO3::new(), ROOT, &THREE, [0.1, 0.05]);
-    has_order::<_, 3>(&SO3::new(), ROOT, &THREE, [0.2, 0.1]);
-    has_order::<_, 4>(&SO3::new(), ROOT, &THREE, [0.4, 0.3]);
-    has_order::<_, 5>(&SO3::new(), ROOT, &THREE, [0.8, 0.6]);
-    has_order::<_, 2>(&SO3::new(), SPIN, &spin, [0.1, 0.05]);
-    has_order::<_, 3>(&SU2::new(), SPIN, &spin, [0.2, 0.1]);
-    has_order::<_, 4>(&SO3::new(), SPIN, &spin, [0.6, 0.4]);
-    has_order::<_, 2>(&SO3::new(), DRIVEN, &THREE, [0.1, 0.05]);
-    has_order::<_, 3>(&SO3::new(), DRIVEN, &THREE, [0.1, 0.05]);
-    has_order::<_, 4>(&SO3::new(), DRIVEN, &THREE, [0.15, 0.1]);
-    has_order::<_, 5>(&SE3::new(), TOP, &SIX_MOMENTA, [0.8, 0.6]);
-    has_order::<_, 4>(&SE2::new(), ANY, &THREE, [0.6, 0.48]);
-    has_order::<_, 5>(&SL2::new(), ANY, &THREE, [0.6, 0.48]);
-    has_order::<_, 1>(&SE3::new(), SIX, &SIX_MOMENTA, [0.05, 0.025]);
-    has_order::<_, 2>(&SE3::new(), SIX, &SIX_MOMENTA, [0.1, 0.05]);
-    has_order::<_, 3>(&SE3::new(), SIX, &SIX_MOMENTA, [0.2, 0.1]);
-    has_order::<_, 4>(&SE3::new(), SIX, &SIX_MOMENTA, [0.3, 0.24]);
 }
 
 #[test]

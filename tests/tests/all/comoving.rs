@@ -2,9 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use coadjoint::generating::Reversed;
-use coadjoint::nalgebra::SVector;
 use coadjoint::steps::{advance, poisson_map};
-use coadjoint::{GeneratingFunction, Phase, SE3, StepError, lie_poisson};
+use coadjoint::{Phase, SE3, StepError, lie_poisson};
 use coadjoint_tests::matrix_free::MatrixFree;
 
 /// A symmetric top in a frame that turns about its axis: a linear term, too.
@@ -12,16 +11,6 @@ use coadjoint_tests::matrix_free::MatrixFree;
 pub fn short(mu: [f64; 6], transverse: f64, axial: f64, weight: f64, frame: f64) -> f64 {
     let [x, y, z, _, v, _] = mu;
     (x * x + z * z) / (2.0 * transverse) + y * y / (2.0 * axial) + weight * v - frame * y
-}
-
-/// Two symmetric bodies with their axes coupled: both spins are integrals.
-#[lie_poisson(group = SO3 * SO3, truncation = 1, frame = comoving)]
-fn pair(mu: [f64; 6], transverse: f64, axial: [f64; 2]) -> f64 {
-    let [a, b, c, d, e, f] = mu;
-    (a * a + b * b + d * d + e * e) / (2.0 * transverse)
-        + c * c / (2.0 * axial[0])
-        + f * f / (2.0 * axial[1])
-        + c * f / 3.0
 }
 
 pub const MU: [f64; 6] = [0.3, -1.7, 0.8, 0.2, 0.9, -0.4];
@@ -58,17 +47,5 @@ fn every_way_to_step_moves_the_frame() -> Result<(), StepError> {
     assert!((back - start.momentum).amax() < 1e-14);
     let matrix_free = poisson_map(&MatrixFree(step), &start.momentum)?;
     assert!((matrix_free - moved).amax() < 1e-14);
-    Ok(())
-}
-
-#[test]
-fn several_spins_are_split_off() -> Result<(), StepError> {
-    let mu = SVector::<f64, 6>::from([0.4, -0.2, 0.9, 0.1, 0.7, -1.2]);
-    let step = Pair::new(0.1, 1.5, [0.4, 0.6])?;
-    let turn = step.frame(0, &mu).unwrap();
-    for (i, (axial, own)) in [(2, (0.4, 0.9)), (5, (0.6, -1.2))] {
-        assert!((turn[i] - 0.1 * (1.0 / axial - 1.0 / 1.5) * own).abs() < 1e-16, "{turn}");
-    }
-    assert!([0, 1, 3, 4].iter().all(|&i| turn[i] == 0.0));
     Ok(())
 }

@@ -6,28 +6,17 @@ use std::path::Path;
 use std::process::Command;
 
 use coadjoint::generating::PolynomialFunction;
-use coadjoint::groups::{Cayley, Coordinates, Exponential};
-use coadjoint::solve::Integrator;
+use coadjoint::groups::{Cayley, Exponential};
 use coadjoint::steps::{advance, advance_by};
-use coadjoint::{GeneratingFunction, LieGroup, Phase};
+use coadjoint::{GeneratingFunction, Phase};
 use coadjoint::{SE3, SO3, StepError, lie_poisson};
 use coadjoint_tests::sources::{self, root};
-use coadjoint_tests::stress::Random;
 use nalgebra::{Matrix3, Quaternion, SVector, UnitQuaternion, Vector3};
 
 const INERTIA: [f64; 3] = [1.3, 2.1, 3.0];
 
-fn energy(mu: &Vector3<f64>) -> f64 {
-    0.5 * (0..3).map(|i| mu[i] * mu[i] / INERTIA[i]).sum::<f64>()
-}
-
 #[lie_poisson(group = SO3, truncation = 7)]
 fn body(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
-    0.5 * (mu[0] * mu[0] / inertia[0] + mu[1] * mu[1] / inertia[1] + mu[2] * mu[2] / inertia[2])
-}
-
-#[lie_poisson(group = SO3, truncation = 5, chart = cayley)]
-fn cayley_body(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
     0.5 * (mu[0] * mu[0] / inertia[0] + mu[1] * mu[1] / inertia[1] + mu[2] * mu[2] / inertia[2])
 }
 
@@ -37,38 +26,8 @@ fn top(mu: [f64; 6], inertia: [f64; 3], height: f64) -> f64 {
         + height * mu[5]
 }
 
-/// Steps from random momenta of this size: how many were accepted. A refused one leaves the state; of an accepted one
-/// the spatial momentum is kept, and `right` says so too.
-fn accepted<S>(step: &S, size: f64, right: impl Fn(&Phase<S::Group>, &Phase<S::Group>)) -> usize
-where
-    S: Integrator,
-    S::Group: LieGroup<Scalar = f64>,
-{
-    let group = step.group();
-    let mut random = Random::new(1);
-    let mut count = 0;
-    for _ in 0..500 {
-        let mu = <S::Group as LieGroup>::Vector::from_entries(group.dim(), |_| {
-            random.between(-size, size)
-        });
-        let start = Phase::<S::Group>::new(group.identity(), mu);
-        let mut state = start.clone();
-        if advance(step, &mut state).is_err() {
-            assert_eq!(format!("{state:?}"), format!("{start:?}"));
-            continue;
-        }
-        count += 1;
-        let (before, after) = (start.spatial_momentum(group), state.spatial_momentum(group));
-        for i in 0..group.dim() {
-            assert!((after[i] - before[i]).abs() < 1e-11 * size, "{start:?} -> {state:?}");
-        }
-        right(&start, &state);
-    }
-    count
-}
-
 #[test]
-fn steps_of_a_top_that_lose_momentum_are_refused() -> Result<(), StepError> {
+fn a_step_of_a_top_that_loses_momentum_is_refused() -> Result<(), StepError> {
     let step = Top::new(1.0, INERTIA, 1.0)?;
     // This one was accepted with |x| = 4e52.
     let mu = [
@@ -83,30 +42,6 @@ fn steps_of_a_top_that_lose_momentum_are_refused() -> Result<(), StepError> {
     let mut state = start.clone();
     assert!(step.advance(&mut state).is_err());
     assert_eq!(state.momentum, start.momentum);
-    let counts = [0.3, 2.0, 4.0, 8.0].map(|size| accepted(&step, size, |_, _| {}));
-    assert!(counts[0] > 400, "{counts:?}");
-    Ok(())
-}
-
-#[test]
-fn no_step_of_a_body_follows_another_motion() -> Result<(), StepError> {
-    let step = Body::new(1.0, INERTIA)?;
-    let keeps = |start: &Phase<SO3>, end: &Phase<SO3>| {
-        let change = (energy(&end.momentum) - energy(&start.momentum)).abs();
-        assert!(change < 0.1 * energy(&start.momentum), "{start:?} -> {end:?}");
-    };
-    let counts = [1.0, 3.0, 6.0, 10.0, 30.0].map(|size| accepted(&step, size, keeps));
-    assert!(counts[0] == 500 && counts[4] < 50, "{counts:?}");
-    Ok(())
-}
-
-#[test]
-fn steps_far_beyond_the_cayley_chart_are_refused() -> Result<(), StepError> {
-    let step = CayleyBody::new(1.0, INERTIA)?;
-    for size in [1e3, 1e6, 1e150, 1e300] {
-        assert_eq!(accepted(&step, size, |_, _| {}), 0, "{size:e}");
-    }
-    assert!(accepted(&step, 0.5, |_, _| {}) > 400);
     Ok(())
 }
 

@@ -1,6 +1,5 @@
 //! The formulas of groups: their series beside the closed forms, and the numbers they are evaluated in beside one another.
 
-use coadjoint::{LieGroup, SE3, SO3};
 use coadjoint_geometry::angle::{Angle, Length};
 use coadjoint_geometry::dual::{Dual, dual, parts};
 use coadjoint_geometry::group::Group;
@@ -110,19 +109,4 @@ fn momenta_at_nodes_are_pulled_back_to_p() {
     for k in 0..6 {
         assert!((back[k] - p[k]).abs() < 4e-16, "{back:?} {p:?}");
     }
-}
-
-/// The increment and the moved momentum of one call are those of two.
-#[test]
-fn transport_is_exp_and_the_coadjoint_action() {
-    let x3 = nalgebra::Vector3::new(0.4, -2.0, 0.3);
-    let mu3 = nalgebra::Vector3::new(0.1, 0.7, -0.9);
-    let group = SO3::<f64>::new();
-    let (g, moved) = group.exp_transport(&x3, &mu3);
-    assert!((moved - group.coadjoint(&group.inverse(&g), &mu3)).amax() < 1e-15);
-    let x6 = nalgebra::Vector6::new(0.4, -2.0, 0.3, 1.0, 0.2, -0.7);
-    let mu6 = nalgebra::Vector6::new(0.1, 0.7, -0.9, 0.5, 1.1, 0.3);
-    let group = SE3::<f64>::new();
-    let (g, moved) = group.exp_transport(&x6, &mu6);
-    assert!((moved - group.coadjoint(&group.inverse(&g), &mu6)).amax() < 3e-15);
 }

@@ -9,7 +9,9 @@ use coadjoint_codegen::step::Origin;
 use coadjoint_program::{Precision, Stepper};
 use coadjoint_tests::backends::entries_of;
 use coadjoint_tests::bridge::named;
-use coadjoint_tests::kernels::{ANY, DRIVEN, ROOT, SIX, SIX_MOMENTA, THREE, TextEnergy, smooth};
+use coadjoint_tests::kernels::{
+    ANY, DRIVEN, ROOT, SIX, SIX_MOMENTA, SPIN, THREE, TOP, TextEnergy, smooth,
+};
 use coadjoint_tests::stress::Random;
 
 const START: f64 = 0.1;
@@ -107,11 +109,15 @@ fn steps_of_the_runtime_and_of_kernels_are_those_of_the_judge_to_rounding() {
     are_judged_right::<_, 4>(&SO3::new(), ("SO3", ROOT), &THREE, &lengths);
     are_judged_right::<_, 3>(&SO3::new(), ("SO3", DRIVEN), &THREE, &lengths);
     are_judged_right::<_, 4>(&SE3::new(), ("SE3", SIX), &SIX_MOMENTA, &lengths);
+    are_judged_right::<_, 5>(&SE3::new(), ("SE3", TOP), &SIX_MOMENTA, &lengths);
     are_judged_right::<_, 2>(&named("SL2"), ("SL2", ANY), &THREE, &lengths.map(|h| 0.5 * h));
     are_judged_right::<_, 4>(&named("SL2"), ("SL2", ANY), &THREE, &lengths.map(|h| 0.5 * h));
     let root = "sqrt(1 + a^2/2 + b^2/3 + c^2/5) + b^3/10";
     steps_are_judged_right(&SO3::new(), "SO3", "exp(-a/2)/3 + a + b*sin(2*t)/4 + ln(2 + c)*cos(t)");
     steps_are_judged_right(&SU2::new(), "SU2", root);
+    steps_are_judged_right(&SO3::new(), "SO3", SPIN);
+    steps_are_judged_right(&SU2::new(), "SU2", SPIN);
+    steps_are_judged_right(&SE2::new(), "SE2", ANY);
     let plane = "exp(a/3) + b^2/2 + c^2/3";
     steps_are_judged_right(&SE2::new(), "SE2", plane);
     let six = "sqrt(1 + a^2 + b^2/2 + c^2/3) + exp(d/5) + e^2/3 + 1/(2 + f^2) + a*d/7";

@@ -1,4 +1,4 @@
-//! Steps as programs: of many dimensions, in frames, and refused. `laws` measures those on every group and chart.
+//! Steps as programs: of many dimensions, and refused. `laws` measures those on every group and chart.
 #![allow(clippy::unwrap_used)]
 
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
@@ -84,28 +84,4 @@ fn steps_driven_too_hard_are_refused_and_leave_the_state() {
     assert_eq!(step.kernel().advance(&slots, &mut g, &mut mu, 10).steps, 0);
     let (mut g, mut mu) = (vec![1.0, 0.0, 0.0, 0.0], vec![0.3, 0.3, 0.1]);
     assert_eq!(step.kernel().advance(&slots, &mut g, &mut mu, 10).steps, 10);
-}
-
-#[test]
-fn a_frame_moves_as_far_as_it_spins() {
-    // A body that spins many turns a step: the motion about its axis is in the frame.
-    let text = "group = \"SO3\"\ncoordinates = [\"a\", \"b\", \"c\"]\nhamiltonian = \"a^2/3 + b^2/3.2 + c^2/4\"\n[integrator]\nframe = \"comoving\"\n";
-    let options = Options { truncation: Some(7), ..Options::default() };
-    let problem = read(text, options).unwrap().problem;
-    let integrator = Integrator::build(problem, TermLimit::default()).unwrap();
-    assert!(!integrator.frame.is_empty());
-    let step = Step::build(&integrator).unwrap();
-    let advance = |h: f64, steps: u64| {
-        let slots = unlimited(&step, h);
-        let (mut g, mut mu) = (vec![1.0, 0.0, 0.0, 0.0], vec![0.3, 0.2, 1.0]);
-        assert_eq!(step.kernel().advance(&slots, &mut g, &mut mu, steps).steps, steps);
-        (g, mu)
-    };
-    // Long and short steps to the same time.
-    let ((g, mu), (h, nu)) = (advance(2.0, 300), advance(0.25, 2400));
-    for (a, b) in mu.iter().zip(&nu) {
-        assert!((a - b).abs() < 1e-6, "{mu:?} {nu:?}");
-    }
-    let aligned = g.iter().zip(&h).map(|(a, b)| a * b).sum::<f64>();
-    assert!((aligned.abs() - 1.0).abs() < 1e-6, "{g:?} {h:?}");
 }

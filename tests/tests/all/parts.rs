@@ -59,20 +59,3 @@ fn a_step_in_parts_is_that_of_the_kernel() {
     assert_eq!(kernel.kernel().advance(&slots, &mut g, &mut moved, 10).steps, 10);
     assert!((phase.momentum - SVector::<f64, DIM>::from_vec(moved)).amax() < 1e-14);
 }
-
-#[test]
-fn a_step_in_parts_keeps_the_momentum() {
-    let step = built::Ring20::new(0.05).unwrap();
-    let group = built::Ring20Group::<f64>::new();
-    let mu = SVector::<f64, DIM>::from_fn(|i, _| (0.7 * i as f64).cos());
-    let mut phase = Phase::<built::Ring20Group>::at_identity(mu);
-    let before = phase.spatial_momentum(&group);
-    let energy = step.energy(&phase.momentum);
-    for _ in 0..100 {
-        step.advance(&mut phase).unwrap();
-    }
-    assert!((phase.spatial_momentum(&group) - before).amax() < 1e-13);
-    // The motion is no mere rotation, and its energy swings with h⁴.
-    assert!((phase.momentum - mu).amax() > 0.1);
-    assert!((step.energy(&phase.momentum) / energy - 1.0).abs() < 1e-4);
-}

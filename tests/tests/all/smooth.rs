@@ -3,7 +3,7 @@
 
 use coadjoint::collocation::{Collocation, Energy};
 use coadjoint::lanes::F64x4;
-use coadjoint::nalgebra::{SimdValue, Vector3, Vector6};
+use coadjoint::nalgebra::{SimdValue, Vector3};
 use coadjoint::{Phase, SE3, SO3, StepError, lie_poisson};
 
 /// A body at speeds near that of light.
@@ -39,28 +39,6 @@ fn one_node(mu: [f64; 3]) -> f64 {
     (1.0 + mu[0] * mu[0] + 0.999 * (mu[1] * mu[1] + mu[2] * mu[2])).sqrt()
 }
 
-/// A twist about the third axis whose rate grows; the time is not the last argument.
-#[lie_poisson(group = SO3, truncation = 9, time = s)]
-fn twist(mu: [f64; 3], s: f64, rate: f64) -> f64 {
-    0.5 * mu[2] * mu[2] * (rate * s).exp()
-}
-
-/// ∂H/∂μ stays on the third axis, and turns μ backwards by its integral.
-#[test]
-fn the_time_is_an_argument_of_steps() {
-    let (rate, start) = (0.3, [0.8, -0.5, 1.2]);
-    let steps = Twist::new(0.1, rate).unwrap();
-    let mut phase = Phase::<SO3>::at_identity(start);
-    steps.advance_by(&mut phase, 0.0, 30).unwrap();
-    steps.advance(&mut phase, 3.0).unwrap();
-    let angle = 1.2 * ((rate * 3.1).exp() - 1.0) / rate;
-    let (sin, cos) = angle.sin_cos();
-    let expected = Vector3::new(0.8 * cos - 0.5 * sin, -0.8 * sin - 0.5 * cos, 1.2);
-    assert!((phase.momentum - expected).norm() < 1e-12, "{}", phase.momentum - expected);
-    let energy = steps.energy(3.1, &phase.momentum);
-    assert!((energy - twist(expected.into(), 3.1, rate)).abs() < 1e-14);
-}
-
 /// The steps of `relativistic` by closures.
 fn by_closures(h: f64) -> Collocation<SO3, impl Energy<Vector3<f64>>, 4> {
     let omega = Vector3::new(1.0 / 1.5, 0.5, 0.4);
@@ -92,20 +70,6 @@ fn steps_are_those_of_closures() {
     assert!((steps.energy(&phase.momentum) - before).abs() < 1e-11);
     let spatial = |phase: &Phase<SO3>| phase.spatial_momentum(&SO3::new());
     assert!((spatial(&phase) - spatial(&start)).norm() < 1e-13);
-}
-
-#[test]
-fn order_is_the_truncation_and_one() {
-    let end = |steps: u64| {
-        let step = SixVariables::new(2.0 / steps as f64, 0.7).unwrap();
-        let mut phase = Phase::<SE3>::at_identity([0.4, -0.5, 1.1, 0.3, 0.2, -0.9]);
-        step.advance_by(&mut phase, steps).unwrap();
-        phase.momentum
-    };
-    let exact: Vector6<f64> = end(64);
-    let errors = [4, 8].map(|steps| (end(steps) - exact).norm());
-    let order = (errors[0] / errors[1]).log2();
-    assert!((order - SixVariables::<f64>::ORDER as f64).abs() < 0.5, "{order}");
 }
 
 #[test]

@@ -27,6 +27,8 @@ fn no_wrong_step_is_accepted() {
     let edges = tallies.iter().filter(|(name, _)| name.starts_with("edge-"));
     assert!(edges.map(|(_, tally)| tally.accepted).sum::<u64>() > 20);
     assert!(tallies.iter().map(|t| t.1.refused).sum::<u64>() > 1000);
+    // Some steps were spoilt, and told.
+    assert!(tallies.iter().map(|t| t.1.spoilt).sum::<u64>() > 4);
     assert!(tallies.iter().all(|(_, tally)| tally.wrong() == 0), "{}", report(&tallies));
 }
 

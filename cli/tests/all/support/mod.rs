@@ -5,8 +5,6 @@ use std::process::{Command, Output, Stdio};
 
 pub(crate) mod page;
 
-use coadjoint::SO3;
-use coadjoint_learn::truth::{MomentumBox, Separable, phase_pairs};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -162,25 +160,6 @@ impl Folder {
     /// The lines of a file of records without comments, cell by cell: names, then records.
     pub(crate) fn table(&self, name: &str) -> Vec<Vec<String>> {
         table(&self.text(name))
-    }
-
-    /// Pairs of phase points of a quadratic generating function on SO(3), to learn from.
-    pub(crate) fn pairs(&self, name: &str, count: usize, seed: u64) {
-        let wide = MomentumBox { low: -2.0, high: 2.0 };
-        let pairs = phase_pairs(&SO3::new(), &Separable::paper(), 0.1, wide, count, seed);
-        let mut text = "mu_1,mu_2,mu_3,mu_next_1,mu_next_2,mu_next_3,q_w,q_x,q_y,q_z,q_next_w,q_next_x,q_next_y,q_next_z"
-            .to_owned();
-        for pair in pairs {
-            let ends = [&pair.before, &pair.after];
-            let momenta = ends.into_iter().flat_map(|end| end.momentum.as_slice().to_vec());
-            let attitudes = ends.into_iter().flat_map(|end| {
-                let q = &end.group_element;
-                [q.w, q.i, q.j, q.k]
-            });
-            let cells = momenta.chain(attitudes).map(|value: f64| value.to_string());
-            text += &format!("\n{}", cells.collect::<Vec<_>>().join(","));
-        }
-        std::fs::write(self.at(name), text).unwrap();
     }
 }
 
