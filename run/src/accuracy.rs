@@ -21,10 +21,14 @@ use crate::simulate::{Maker, error_of};
 
 /// The limit of a series while a frame is chosen.
 const GLANCE: TermLimit = TermLimit { terms: 2_000, products: 50_000 };
-/// The products of coefficients of a series while a truncation is chosen, at least and at most, and the operations of a run for each
-/// one: choosing takes about a tenth of the run, or some ten milliseconds.
-const PRODUCTS: [f64; 2] = [5e5, 2e6];
-const OPERATIONS: f64 = 2e3;
+/// The limits while a truncation is chosen, of short runs and of long ones: choosing takes some ten milliseconds or about a
+/// tenth of the run.
+const AFFORDABLE: [TermLimit; 2] = [
+    TermLimit { terms: 20_000, products: 500_000 },
+    TermLimit { terms: 20_000, products: 2_000_000 },
+];
+/// Operations of a long run.
+const LONG: f64 = 1e9;
 
 /// Picks truncation, step and, where the system leaves the choice, frame where a tolerance is asked for, by the settings
 /// or in the text, and puts them into the system; what was picked. Parameters that are kept have the values of the text for
@@ -110,9 +114,7 @@ fn by_series(
     let mut frames: Vec<(f64, &Problem)> =
         [problem].into_iter().chain(&other).map(|own| (cost(own), own)).collect();
     frames.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let products = frames[0].0 * target.duration / OPERATIONS;
-    let products = products.clamp(PRODUCTS[0], PRODUCTS[1]) as u64;
-    let limit = TermLimit { terms: 20_000, products };
+    let limit = AFFORDABLE[usize::from(frames[0].0 * target.duration > LONG)];
     let (_, first) = frames[0];
     choose(first, limit).or_else(|error| {
         let others = &mut frames[1..].iter();

@@ -135,7 +135,7 @@ impl<'a> Derivation<'a> {
         let next = body_momentum.extend(work, (&*x, &*p), k - 1)?;
         momentum.iter_mut().zip(next).for_each(|(series, next)| series.push(next));
         energy.extend(work, &*momentum, k - 1)?;
-        orders.push(match k % 2 == 0 && odd_only {
+        orders.push(match k.is_multiple_of(2) && odd_only {
             true => orders[0].clone(),
             false => energy.coefficient(0, k - 1).scale(&reciprocal(k)),
         });
