@@ -81,6 +81,8 @@ entries! {
             "An algebra given by its matrices; orbits are hyperboloids.";
         "so21-top", "Top with an indefinite metric", "../../examples/so21_by_brackets.toml",
             "An algebra given by its brackets alone.";
+        "kepler", "Kepler's problem", "../../examples/kepler.toml",
+            "An orbit of eccentricity 0.9 in regularised time, on three pairs of Heisenberg's algebra.";
         "heisenberg-geodesics", "Heisenberg group", "../systems/heisenberg_geodesics.toml",
             "Geodesics of the Heisenberg group; orbits are planes.";
     }

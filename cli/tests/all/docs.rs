@@ -75,6 +75,7 @@ chapters! {
     groups: 21;
     chart_and_step: 2;
     gyrostat: 6;
+    canonical: 4;
     simulate: 2;
     faster: 1;
     forces: 1;
