@@ -11,6 +11,9 @@ use crate::ensemble::in_lanes;
 use crate::error::RunError;
 use crate::load::{Derived, System};
 
+/// Prospects that are kept: of several starts and durations, in both frames.
+const MOST: usize = 64;
+
 /// The systems derived from one text, and the prospects of its truncations.
 #[derive(Debug, Default)]
 pub struct Derivations {
@@ -76,7 +79,11 @@ impl Derivations {
             return Ok(found);
         }
         let made = Arc::new(Prospects::new(&problem.with_defaults(), target, limit)?);
-        locked(&self.prospects).push((question, made.clone()));
+        let mut prospects = locked(&self.prospects);
+        if prospects.len() == MOST {
+            prospects.remove(0);
+        }
+        prospects.push((question, made.clone()));
         Ok(made)
     }
 }
