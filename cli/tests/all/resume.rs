@@ -24,10 +24,11 @@ fn place() -> Folder {
     place
 }
 
-/// Records every 3rd step and between steps, and a picture.
+/// Records every 3rd step and between steps, and a picture. By one backend: a report names those that made its own steps.
 fn body(out: &str) -> String {
     format!(
-        "simulate body.toml --time 8000 --every 3 --at 0.55,77.77,150.01 --format json --out {out} --plot {out}.svg"
+        "simulate body.toml --backend interpreter --time 8000 --every 3 --at 0.55,77.77,150.01 --format json --out {out} \
+         --plot {out}.svg"
     )
 }
 
@@ -38,7 +39,7 @@ fn learned(out: &str) -> String {
 
 /// Steps by collocation, which are guessed from those before them.
 fn smooth(out: &str) -> String {
-    format!("simulate smooth.toml --time 4000 --every 3 --format json --out {out}")
+    format!("simulate smooth.toml --backend interpreter --time 4000 --every 3 --format json --out {out}")
 }
 
 /// A lattice, by collocation or by rotations.
