@@ -39,7 +39,9 @@ fn learned(out: &str) -> String {
 
 /// Steps by collocation, which are guessed from those before them.
 fn smooth(out: &str) -> String {
-    format!("simulate smooth.toml --backend interpreter --time 4000 --every 3 --format json --out {out}")
+    format!(
+        "simulate smooth.toml --backend interpreter --time 4000 --every 3 --format json --out {out}"
+    )
 }
 
 /// A lattice, by collocation or by rotations.
