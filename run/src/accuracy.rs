@@ -107,19 +107,21 @@ fn by_series(
         Ok((Problem { truncation: choice.truncation, ..problem.clone() }, choice))
     };
     let other = in_other_frame(problem);
-    // Low orders tell which frame is cheaper, and about how long the run takes.
-    let cost = |problem: &Problem| {
-        choose(problem, GLANCE).map_or(f64::INFINITY, |(_, choice)| choice.operations)
-    };
+    type Found = Result<(Problem, Choice), ToleranceError>;
+    let operations =
+        |found: &Found| found.as_ref().map_or(f64::INFINITY, |(_, choice)| choice.operations);
+    // Low orders tell about how long the run takes and, where they meet the target in both frames, which one is cheaper.
+    let glance = |own| (operations(&choose(own, GLANCE)), own);
     let mut frames: Vec<(f64, &Problem)> =
-        [problem].into_iter().chain(&other).map(|own| (cost(own), own)).collect();
+        [problem].into_iter().chain(&other).map(glance).collect();
     frames.sort_by(|a, b| a.0.total_cmp(&b.0));
     let limit = AFFORDABLE[usize::from(frames[0].0 * target.duration > LONG)];
-    let (_, first) = frames[0];
-    choose(first, limit).or_else(|error| {
-        let others = &mut frames[1..].iter();
-        others.find_map(|(_, other)| choose(other, limit).ok()).ok_or(error)
-    })
+    if frames.iter().all(|(cost, _)| cost.is_finite()) {
+        frames.truncate(1);
+    }
+    let found = frames.into_iter().map(|(_, own)| choose(own, limit));
+    let found = found.min_by(|a, b| operations(a).total_cmp(&operations(b)));
+    found.unwrap_or_else(|| choose(problem, limit))
 }
 
 /// The most steps of a run that is tried: a minute for a small system.
