@@ -295,7 +295,9 @@ impl<'a> Evaluator<'a> {
         };
         let outside = self.variables.len();
         for item in items.iter() {
-            self.count(1, Span::of(&for_loop.expr));
+            if self.ended() || !self.count(1, Span::of(&for_loop.expr)) {
+                break;
+            }
             self.bind(&for_loop.pat, item.clone());
             self.block(&for_loop.body);
             self.variables.truncate(outside);
