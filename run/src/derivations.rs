@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
-use coadjoint_codegen::problem::Problem;
+use coadjoint_codegen::problem::{Parameter, Problem};
 use coadjoint_codegen::tolerance::{Prospects, Target, ToleranceError};
 
 use crate::ensemble::in_lanes;
@@ -32,6 +32,10 @@ fn known<K: PartialEq, V: Clone>(list: &[(K, V)], key: &K) -> Option<V> {
     list.iter().find(|(other, _)| other == key).map(|(_, value)| value.clone())
 }
 
+fn names(parameters: &[Parameter]) -> Vec<String> {
+    parameters.iter().map(|own| own.name.clone()).collect()
+}
+
 /// The list behind a lock: a thread that panicked has added whole entries, if any.
 fn locked<T>(list: &Mutex<T>) -> MutexGuard<'_, T> {
     list.lock().unwrap_or_else(PoisonError::into_inner)
@@ -50,8 +54,7 @@ impl Derivations {
     ) -> Result<Arc<Derived>, RunError> {
         let frame = system.problem.polynomial().map_or("collocation", Problem::frame_name);
         let facts = system.problem.facts();
-        let names = facts.parameters.iter().map(|own| own.name.clone()).collect();
-        let purpose = (facts.truncation, frame, names, ensemble);
+        let purpose = (facts.truncation, frame, names(facts.parameters), ensemble);
         if let Some(found) = known(&locked(&self.systems), &purpose) {
             return Ok(found);
         }
@@ -72,9 +75,8 @@ impl Derivations {
         target: &Target,
         limit: TermLimit,
     ) -> Result<Arc<Prospects>, ToleranceError> {
-        let names = problem.parameters.iter().map(|own| own.name.clone()).collect();
         let any = Target { tolerance: 0.0, ..target.clone() };
-        let question = (problem.frame_name(), names, any, limit.products);
+        let question = (problem.frame_name(), names(&problem.parameters), any, limit.products);
         if let Some(found) = known(&locked(&self.prospects), &question) {
             return Ok(found);
         }

@@ -194,6 +194,24 @@ impl Work {
         Self { limit, arithmetic, products: 0, order: 0, variables }
     }
 
+    /// Work with the Hamiltonian of a group of this dimension.
+    ///
+    /// # Errors
+    /// Refuses one that has fewer variables than momenta.
+    pub(super) fn on(
+        hamiltonian: &Polynomial,
+        dimension: usize,
+        limit: TermLimit,
+        arithmetic: Arithmetic,
+    ) -> Result<Self, DeriveError> {
+        match hamiltonian.variables() {
+            variables if variables < dimension => {
+                Err(DeriveError::Variables { variables, dimension })
+            }
+            variables => Ok(Self::new(variables, limit, arithmetic)),
+        }
+    }
+
     /// Σ factor · left · right.
     pub(crate) fn sum(
         &mut self,

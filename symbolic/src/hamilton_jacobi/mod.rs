@@ -111,14 +111,11 @@ impl<'a> Derivation<'a> {
         arithmetic: Arithmetic,
     ) -> Result<Self, DeriveError> {
         let (dimension, variables) = (algebra.dim(), hamiltonian.variables());
-        if variables < dimension {
-            return Err(DeriveError::Variables { variables, dimension });
-        }
         let zero = Polynomial::zero(variables);
         Ok(Self {
             dimension,
             chart,
-            work: Work::new(variables, limit, arithmetic),
+            work: Work::on(hamiltonian, dimension, limit, arithmetic)?,
             body_momentum: Inverse::new(algebra, chart, Side::Dual)?,
             energy: Composition::new(dimension, std::slice::from_ref(hamiltonian))?,
             p: identity(dimension, variables),

@@ -65,13 +65,10 @@ impl<'a> PredictorRows<'a> {
     ) -> Result<Self, DeriveError> {
         let dimension = algebra.dim();
         let variables = hamiltonian.variables();
-        if variables < dimension {
-            return Err(DeriveError::Variables { variables, dimension });
-        }
         let gradient = hamiltonian.gradient(dimension);
         Ok(Self {
             algebra,
-            work: Work::new(variables, limit, arithmetic),
+            work: Work::on(hamiltonian, dimension, limit, arithmetic)?,
             gradient: Composition::new(dimension, &gradient)?,
             velocity: Inverse::new(algebra, chart, Side::Algebra)?,
             mu: identity(dimension, variables),

@@ -120,7 +120,7 @@ impl Flow<'_> {
     fn point(&self, mu: &[f64]) -> Point {
         let velocity = self.energy.at(mu);
         let curvature = self.curvature.iter().flat_map(|row| row.at(mu)).collect();
-        let [pushed, carried] = self.brackets.matrices(&velocity, mu);
+        let (pushed, carried) = (self.brackets.pushed(mu), self.brackets.carried(&velocity));
         Point { velocity, curvature, pushed, carried }
     }
 }
@@ -253,20 +253,27 @@ impl Brackets {
         result
     }
 
-    /// The matrices of v ↦ ad\*_v μ and of ν ↦ ad\*_x ν, row by row.
-    fn matrices(&self, x: &[f64], mu: &[f64]) -> [Vec<f64>; 2] {
-        let [mut pushed, mut carried] = [(); 2].map(|()| vec![0.0; self.dim * self.dim]);
+    /// The matrix of v ↦ ad\*_v μ, row by row.
+    fn pushed(&self, mu: &[f64]) -> Vec<f64> {
+        let mut matrix = vec![0.0; self.dim * self.dim];
         for &(i, j, k, c) in &self.structure {
-            pushed[j * self.dim + i] += c * mu[k];
-            carried[j * self.dim + k] += c * x[i];
+            matrix[j * self.dim + i] += c * mu[k];
         }
-        [pushed, carried]
+        matrix
+    }
+
+    /// The matrix of ν ↦ ad\*_x ν, row by row.
+    fn carried(&self, x: &[f64]) -> Vec<f64> {
+        let mut matrix = vec![0.0; self.dim * self.dim];
+        for &(i, j, k, c) in &self.structure {
+            matrix[j * self.dim + k] += c * x[i];
+        }
+        matrix
     }
 
     /// The spectral radius of ad_x, by ‖A^(2^m)‖^(2^−m): the rate at which x turns the algebra.
     pub(super) fn turning_rate(&self, x: &[f64]) -> f64 {
-        let [_, carried] = self.matrices(x, x);
-        spectral_radius(self.dim, carried)
+        spectral_radius(self.dim, self.carried(x))
     }
 }
 

@@ -273,9 +273,6 @@ impl Prospects {
             let candidate = Problem { truncation, ..problem.clone() };
             truncations.push((truncation, Plan::operations(&candidate, &series, &mut guesses)?));
         }
-        if truncations.is_empty() {
-            return Err(ToleranceError::TooLarge { order: first + 2 });
-        }
         Ok(Self {
             duration: target.duration,
             comoving: problem.comoving.is_some(),
