@@ -66,7 +66,8 @@ pub fn simulate_lattice<'py>(
         })?;
         Ok((end, time, magnetisation, energy, chosen))
     })?;
-    let (end, time, magnetisation, energy, chosen) = made.map_err(|error: RunError| raised(py, &error))?;
+    let (end, time, magnetisation, energy, chosen) =
+        made.map_err(|error: RunError| raised(py, &error))?;
     let found = PyDict::new(py);
     let (sites, rows) = (end.spins.len(), time.len());
     found.set_item("spins", end.spins.into_flattened().into_pyarray(py).reshape([sites, 3])?)?;

@@ -18,8 +18,8 @@ use coadjoint_run::ensemble::{
 };
 use coadjoint_run::simulate::{Event, Schedule, Setup, Single, Times, run};
 use coadjoint_run::{
-    Accuracy, Backend, Derivations, Derived, Grid, Instant, RunError, System, check, emit, inputs_hash,
-    meet_tolerance, polynomial, read_given, series, velocities, verify,
+    Accuracy, Backend, Derivations, Derived, Grid, Instant, RunError, System, check, emit,
+    inputs_hash, meet_tolerance, polynomial, read_given, series, velocities, verify,
 };
 use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use numpy::{PyArray1, PyArray2, PyUntypedArrayMethods};
