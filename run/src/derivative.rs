@@ -14,6 +14,9 @@ use crate::error::RunError;
 use crate::load::Derived;
 use crate::simulate::{Event, Schedule, Setup};
 
+/// The numbers of states that a backward run keeps, 64 MiB.
+const MOST_KEPT: usize = 1 << 23;
+
 /// The derivatives of a run of N steps.
 ///
 /// A tangent to a state (g, μ) is the column (ξ, ν) of 2n numbers, ξ = g⁻¹δg in the basis of 𝔤 and ν = δμ; a cotangent is
@@ -30,6 +33,8 @@ pub struct Derivatives<'a> {
     algebra: &'a LieAlgebra,
     /// The event that ends the run, which is then the state after one step more than the whole ones.
     ending: Option<Ending>,
+    /// The numbers of states that a backward run keeps.
+    room: usize,
 }
 
 /// k changes of what a run depends on.
@@ -52,7 +57,7 @@ pub struct Adjoint {
     pub parameters: DMatrix<f64>,
     /// In the samples of each input, a row a sample; no rows of one that is a function.
     pub inputs: Vec<DMatrix<f64>>,
-    /// The most states that were kept at a time: about 2√N.
+    /// The most states that were kept at a time: all, or about 2√N.
     pub kept: usize,
 }
 
@@ -67,7 +72,8 @@ impl<'a> Derivatives<'a> {
         let tangents = motion.tangents(setup.backend, schedule.steps as f64);
         let tangents = tangents.map_err(RunError::unmade)?;
         let (signals, algebra, ending) = (system.signals(), system.facts().algebra, None);
-        Ok(Self { motion, tangents, signals, start, schedule, algebra, ending })
+        let room = MOST_KEPT;
+        Ok(Self { motion, tangents, signals, start, schedule, algebra, ending, room })
     }
 
     /// Of the run that this event ends at this time, within the step after those of the settings. The number of steps there is one
@@ -352,8 +358,8 @@ impl<'a> Derivatives<'a> {
     /// The adjoint: the derivatives, in the start, in the parameters and in the samples of inputs, of k sums over the run, given as cotangents (2n×k)
     /// of the states after these numbers of steps, which ascend.
     ///
-    /// Of the states every ⌊√N⌋th is kept, and those between two of them while they are gone through: steps are made
-    /// twice.
+    /// All states are kept where they take no more than 64 MiB. In longer runs every ⌊√N⌋th is, and those between two of them while they are
+    /// gone through: steps are made twice.
     ///
     /// # Errors
     /// Fails if the shapes do not fit, and why the run stopped.
@@ -371,9 +377,10 @@ impl<'a> Derivatives<'a> {
             return Err(RunError::Option(what));
         }
         self.ascending(cotangents.iter().map(|&(step, _)| step))?;
-        let stretch = count.isqrt().max(1);
-        let mut checkpoints = Vec::new();
         let mut state = self.start.clone();
+        let fits = count as usize * (state.g.len() + state.mu.len()) <= self.room;
+        let stretch = if fits { 1 } else { count.isqrt().max(1) };
+        let mut checkpoints = Vec::new();
         for first in (0..count).step_by(stretch as usize) {
             checkpoints.push(state.clone());
             if first + stretch < count {

@@ -5,10 +5,12 @@ use coadjoint_native::cards::{Card, Device};
 use coadjoint_program::Precision;
 use coadjoint_program::print::{DeviceLanguage, device_unit};
 
-use super::codes::MOST_OPERATIONS;
 use super::compiled::coefficients;
 use crate::error::RunError;
 use crate::grid::Grid;
+
+/// Programs of more operations than this are not compiled for devices.
+const MOST_OPERATIONS: usize = 60_000;
 
 /// The programs of a step in this precision, and their folded coefficients. `option` is what the user asked for them by.
 fn programs(

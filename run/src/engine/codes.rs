@@ -7,8 +7,8 @@ use coadjoint_program::{Kernel, Trajectories};
 use crate::backend::{Backend, Code, Running};
 use crate::error::RunError;
 
-/// Programs of more operations than this are not compiled: they are evaluated as data.
-pub(super) const MOST_OPERATIONS: usize = 60_000;
+/// Programs of more operations than this are not compiled, which would take Cranelift more than about a second: they are evaluated as data.
+pub(super) const MOST_OPERATIONS: usize = 200_000;
 
 /// The codes of one kernel, for later runs.
 #[derive(Debug, Default)]
