@@ -107,8 +107,11 @@ pub enum StepError {
         /// The step size given.
         step: f64,
     },
-    /// A parameter, or an expression in the parameters, is infinite or not a number.
-    #[error("coefficient {name} is {}: every parameter expression must be finite", Short(*value))]
+    /// A parameter, or an expression in the parameters, is infinite, not a number, or a rate of damping below 0.
+    #[error("coefficient {name} is {}: {}", Short(*value), match value.is_finite() {
+        true => "damping must not be negative, or the energy would rise",
+        false => "every parameter expression must be finite",
+    })]
     InvalidParameter {
         /// The expression, as written in the Hamiltonian.
         name: &'static str,

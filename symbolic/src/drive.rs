@@ -63,6 +63,8 @@ pub struct Drive {
     pub velocity: bool,
     /// True if the velocity is damping alone, along which the energy falls.
     pub damps: bool,
+    /// The slots that are rates of damping, which must not be negative.
+    pub rates: Vec<usize>,
     /// A potential whose torque is a part of the motion, and the number of its first slot among those of the programs.
     pub potential: Option<(Potential, usize)>,
     /// The torque, where one acts: the potential, or what has none.
@@ -72,19 +74,19 @@ pub struct Drive {
 /// The parts that a drive is made of.
 #[derive(Clone, Debug, Default)]
 pub struct Ingredients {
-    /// η and τ as the user gives them, with the inputs of a [`Drive`], one after the other as far as they are
-    /// [`given`](Ingredients::given); what is watched in them, the texts of that, and their symbols.
+    /// The lists that the user gives, one after the other as far as they are [`given`](Ingredients::given), with the inputs of a
+    /// [`Drive`], or without the entries where there are rates of damping alone; what is watched in them, the texts of that, and their
+    /// symbols.
     pub own: Option<(Program, Program, Vec<String>, Vec<Symbol>)>,
-    /// True if they are among them: η and τ in the body, η and τ in space.
-    pub given: [bool; 4],
+    /// True if they are among them: η and τ in the body, η and τ in space, and the diagonal of Γ of damping by the double bracket,
+    /// Γ (ad\*_ω μ + τ′) with the torque τ′ of the potential.
+    pub given: [bool; 5],
     /// A velocity and a torque that are functions of the user's.
     pub functions: [Option<Acts>; 2],
     /// True if they read the time or signals.
     pub moves: bool,
     /// The texts of expressions in them that have a kink.
     pub kinks: Vec<String>,
-    /// The diagonal of Γ, where η has damping by the double bracket: Γ (ad\*_ω μ + τ′) with the torque τ′ of the potential.
-    pub damping: Option<Vec<f64>>,
     /// A potential, whose torque is a part of τ; where it depends on the time its programs read that and the signals after the entries.
     pub potential: Option<Potential>,
     /// The keys with their values, as the user wrote them.
@@ -117,10 +119,10 @@ impl Drive {
     /// From its parts; `None` where a potential is none of programs, or where η or τ is given in space, and the group is not [one of
     /// motions](Spatial).
     pub fn new(algebra: &LieAlgebra, signals: &[Signal], parts: Ingredients) -> Option<Self> {
-        let Ingredients { own, given, functions, moves, kinks, damping, potential, source } = parts;
+        let Ingredients { own, given, functions, moves, kinks, potential, source } = parts;
         let dim = algebra.dim();
         let called = functions.each_ref().map(Option::is_some);
-        let reads = own.is_some() || potential.is_some() || called.contains(&true);
+        let reads = given[..4].contains(&true) || potential.is_some() || called.contains(&true);
         let entries = if reads { algebra.matrix_size().pow(2) } else { 0 };
         let places = Layout { entries, dim, signals: signals.len() };
         let in_space = given[2] || given[3];
@@ -131,11 +133,13 @@ impl Drive {
         let all: Vec<Id> = (0..places.count()).map(|at| graph.input(at)).collect();
         let (mut eta, mut tau) = (vec![graph.zero(); dim], vec![graph.zero(); dim]);
         let (mut watched, mut expressions, mut symbols) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut damping, mut rates) = (Vec::new(), Vec::new());
         let add = |sum: &mut Vec<Id>, terms: &[Id]| {
             sum.iter_mut().zip(terms).for_each(|(sum, &term)| *sum = graph.add(*sum, term));
         };
         if let Some((program, of_own, texts, own_symbols)) = own {
-            let outputs = graph.call(&program, &all);
+            let seen = &all[all.len() - program.inputs()..];
+            let outputs = graph.call(&program, seen);
             let present = (0..given.len()).filter(|&kind| given[kind]);
             for (kind, list) in present.zip(outputs.chunks(dim)) {
                 let g = &all[..entries];
@@ -143,10 +147,17 @@ impl Drive {
                     0 => add(&mut eta, list),
                     1 => add(&mut tau, list),
                     2 => add(&mut eta, &spatial.as_ref()?.velocity(&graph, g, list)),
-                    _ => add(&mut tau, &spatial.as_ref()?.torque(&graph, g, list)),
+                    3 => add(&mut tau, &spatial.as_ref()?.torque(&graph, g, list)),
+                    _ => damping = list.to_vec(),
                 }
             }
-            watched.extend(graph.call(&of_own, &all));
+            let last = program.outputs().iter().rev().take(damping.len());
+            let slot = |&rate: &Id| match program.nodes()[rate.index()] {
+                Node::Slot(slot) => Some(slot as usize),
+                _ => None,
+            };
+            rates = last.filter_map(slot).collect();
+            watched.extend(graph.call(&of_own, seen));
             expressions.extend(texts);
             symbols.extend(own_symbols);
         }
@@ -163,13 +174,13 @@ impl Drive {
             symbols.extend(potential.symbols.iter().cloned());
             add(&mut tau, &force);
         }
-        if let Some(rates) = &damping {
+        if given[4] {
             for (i, j, k, c) in algebra.constants() {
                 let product = graph.mul(graph.constant(c), all[places.omega()][i]);
                 force[j] = graph.times_plus(product, all[places.mu()][k], force[j]);
             }
-            for ((eta, rate), force) in eta.iter_mut().zip(rates).zip(force) {
-                *eta = graph.times_plus(graph.constant(*rate), force, *eta);
+            for ((eta, &rate), force) in eta.iter_mut().zip(&damping).zip(force) {
+                *eta = graph.times_plus(rate, force, *eta);
             }
         }
         let finish = |outputs: &[Id]| graph.finish(places.count(), outputs);
@@ -216,8 +227,9 @@ impl Drive {
             entries,
             moves: moves || called.contains(&true),
             no_energy,
-            velocity: damping.is_some() || eta_given,
-            damps: damping.is_some() && !eta_given,
+            velocity: given[4] || eta_given,
+            damps: given[4] && !eta_given,
+            rates,
             potential: lasting.map(|potential| (potential, of_potential)),
             torque,
         })

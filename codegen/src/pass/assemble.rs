@@ -461,24 +461,23 @@ pub(crate) fn entries(size: usize) -> Vec<String> {
 pub(crate) struct Acting {
     /// The nodes of the expressions, of which none is an energy.
     pub energy: Formula,
-    /// The components of the velocity and of the torque in the body, and of those in space, where they are given.
-    pub roots: [Option<Vec<ExprId>>; 4],
+    /// The components of the velocity and of the torque in the body, of those in space, and the rates of damping, where they are given.
+    pub roots: [Option<Vec<ExprId>>; 5],
 }
 
-/// Checks what was read and turns it into a drive, with the diagonal of the damping and with a potential that joins it; `None` where
-/// something is wrong, which has then been reported.
+/// Checks what was read and turns it into a drive, with a potential that joins it; `None` where something is wrong, which has then been
+/// reported.
 pub(crate) fn assemble_drive(
     algebra: &LieAlgebra,
     (coordinates, signals): (&[String], &[Signal]),
-    read: Option<(Acting, Option<Vec<f64>>)>,
+    acting: Option<Acting>,
     functions: [Option<Acts>; 2],
     potential: Option<&Formula>,
     diagnostics: &Diagnostics,
 ) -> Option<Drive> {
     let size = algebra.matrix_size();
     let inputs: Vec<String> = signals.iter().map(|signal| signal.name.clone()).collect();
-    let (acting, damping) = read.map_or((None, None), |(acting, damping)| (Some(acting), damping));
-    let mut parts = Ingredients { damping, functions, ..Ingredients::default() };
+    let mut parts = Ingredients { functions, ..Ingredients::default() };
     let named = |energy: &Formula| format!("potential = {}", energy.source);
     let sources = acting.iter().map(|own| own.energy.source.clone()).chain(potential.map(named));
     parts.source = sources.collect::<Vec<_>>().join(", ");
@@ -486,8 +485,11 @@ pub(crate) fn assemble_drive(
         acting.filter(|own| own.roots.iter().any(Option::is_some))
     {
         let omega = (0..coordinates.len()).map(|i| format!("omega[{i}]"));
+        // Rates of damping read no element.
+        let reads = roots[..4].iter().any(Option::is_some);
+        let entries = if reads { entries(size) } else { Vec::new() };
         let names: Vec<String> =
-            entries(size).into_iter().chain(coordinates.iter().cloned()).chain(omega).collect();
+            entries.into_iter().chain(coordinates.iter().cloned()).chain(omega).collect();
         let names = [&names[..], &energy.scalar_names(), &inputs];
         let all: Vec<ExprId> = roots.iter().flatten().flatten().copied().collect();
         let of = if roots[1].is_some() || roots[3].is_some() { "torque" } else { "velocity" };

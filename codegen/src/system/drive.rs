@@ -1,6 +1,7 @@
 //! The keys `velocity`, `torque`, both also in space, and `damping`: motion beside that of the Hamiltonian.
 
 use coadjoint_symbolic::spatial::Spatial;
+use num_traits::{Signed, Zero};
 
 use super::definitions::Definitions;
 use super::energies::{attitude, time};
@@ -8,9 +9,9 @@ use super::initial::coordinates;
 use super::parameters::Parameters;
 use super::table::{Table, span};
 use crate::diagnostic::Span;
-use crate::expr::{Arena, ExprId};
+use crate::expr::{Arena, ExprId, Node};
 use crate::lie::LieAlgebra;
-use crate::number::nearest_float;
+use crate::number::{Rational, nearest_float};
 use crate::parse::{Name, Names, components, text};
 use crate::pass::{Acting, Formula, entries};
 use crate::signal::Signal;
@@ -32,24 +33,15 @@ pub(super) fn is_given(root: &Table<'_>) -> bool {
     root.has("damping") || LISTS.iter().any(|(key, _)| root.has(key))
 }
 
-/// The content of the keys; none where there is no such key, or where it is a mistake.
-#[derive(Debug)]
-pub(super) struct Stated {
-    /// The expressions of `velocity` and `torque`.
-    pub acting: Acting,
-    /// The diagonal of Γ; none where all of it is 0.
-    pub damping: Option<Vec<f64>>,
-}
-
 /// Reads `velocity` and `torque`, lists of expressions in the entries of the group element's matrix, the momentum, ω = ∂H/∂μ, the
-/// time and the inputs, one for each coordinate; and `damping`.
+/// time and the inputs, one for each coordinate; and `damping`. None where there is no such key, or where it is a mistake.
 pub(super) fn read(
     root: &Table<'_>,
     algebra: Option<&LieAlgebra>,
     coordinates: &[(String, Span)],
     parameters: &Parameters,
     inputs: &[(Signal, Span)],
-) -> Option<Stated> {
+) -> Option<Acting> {
     let damping = damping(root, algebra);
     let algebra = algebra?;
     let entries = entries(algebra.matrix_size());
@@ -71,7 +63,7 @@ pub(super) fn read(
     parts.add_to(root, &mut names);
     let lists = LISTS.map(|(key, example)| (key, example, list(root, key, example, (&names, dim))));
     let (mut arena, mut sources, mut sound) = (Arena::new(), Vec::new(), true);
-    let roots = lists.map(|(key, example, list)| {
+    let [eta, tau, eta_in_space, tau_in_space] = lists.map(|(key, example, list)| {
         let (list, place) = list?;
         if list.len() != dim {
             let message = format!("`{key}` has {} components, and the momentum {dim}", list.len());
@@ -95,13 +87,28 @@ pub(super) fn read(
         };
         Some(list.iter().map(parse).collect::<Vec<ExprId>>())
     });
+    let damping = damping.map(|rates| {
+        sources.push(format!(
+            "damping = [{}]",
+            rates.iter().map(Rate::shown).collect::<Vec<_>>().join(", ")
+        ));
+        let mut parse = |rate: &Rate<'_>| match rate.text {
+            Some((text, place, copy)) => {
+                let indices: Vec<_> = copy.iter().map(|&copy| ("i", copy)).collect();
+                let offset = root.offset(place, text);
+                text::parse(text, offset, &indices, &names, &mut arena, root.diagnostics)
+            }
+            None => arena.push(Node::Number(rate.value.clone()), Span::Whole),
+        };
+        rates.iter().map(&mut parse).collect()
+    });
+    let roots = [eta, tau, eta_in_space, tau_in_space, damping];
     let wrong = LISTS.iter().zip(&roots).any(|((key, _), roots)| root.has(key) && roots.is_none());
     if wrong || !sound {
         return None;
     }
-    sources.extend(damping.iter().map(|rates| format!("damping = {rates:?}")));
     let energy = Formula { arena, root: None, parameters: kept, source: sources.join(", ") };
-    Some(Stated { acting: Acting { energy, roots }, damping })
+    Some(Acting { energy, roots })
 }
 
 /// The components of a list of expressions, or of one vector: those in the list may be vectors too, three components each.
@@ -128,18 +135,42 @@ pub(super) fn list(
     Some((list.into_iter().flat_map(entries).collect(), place))
 }
 
-/// Reads `damping`: a number, or a list of one for each coordinate. None where all of them are 0.
-pub(super) fn damping(root: &Table<'_>, algebra: Option<&LieAlgebra>) -> Option<Vec<f64>> {
+/// A rate of damping as the file states it.
+pub(super) struct Rate<'a> {
+    /// Its text and the place of that, where it is no number; with the number of the copy, where the list is that of one copy.
+    text: Option<(&'a str, Span, Option<i64>)>,
+    /// Its value, at the defaults of parameters.
+    pub value: Rational,
+}
+
+impl Rate<'_> {
+    fn shown(&self) -> String {
+        self.text
+            .map_or_else(|| nearest_float(&self.value).to_string(), |(text, ..)| text.to_owned())
+    }
+}
+
+/// Reads `damping`: a number, or a list of one for each coordinate. None where all of them are the number 0.
+pub(super) fn damping<'a>(root: &Table<'a>, algebra: Option<&LieAlgebra>) -> Option<Vec<Rate<'a>>> {
     let value = root.get("damping")?;
-    let numbers = match value.get_ref().as_array() {
+    let list = value.get_ref().as_array();
+    let numbers = match list {
         Some(_) => coordinates(root, "damping", DAMPING, algebra)?.0,
         None => vec![root.exact("damping", value, DAMPING)?; algebra?.dim()],
     };
-    let rates: Vec<f64> = numbers.iter().map(nearest_float).collect();
-    if rates.iter().any(|rate| *rate < 0.0) {
+    if numbers.iter().any(Signed::is_negative) {
         let what = "`damping` must not be negative: the energy would rise";
         root.refuse(span(value), what, DAMPING);
         return None;
     }
-    rates.iter().any(|rate| *rate > 0.0).then_some(rates)
+    let count = list.map_or(1, |list| list.len());
+    let of_copy = list.is_some() && count < numbers.len();
+    let rate = |(at, number): (usize, Rational)| {
+        let stated = list.map_or(value, |list| &list[at % count]);
+        let copy = of_copy.then_some((at / count) as i64);
+        let text = stated.get_ref().as_str().map(|text| (text, span(stated), copy));
+        Rate { text, value: number }
+    };
+    let rates: Vec<_> = numbers.into_iter().enumerate().map(rate).collect();
+    rates.iter().any(|rate| rate.text.is_some() || !rate.value.is_zero()).then_some(rates)
 }

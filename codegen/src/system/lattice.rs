@@ -212,6 +212,9 @@ fn system(document: &DeTable<'_>, text: &str, diagnostics: &Diagnostics) -> Opti
         None => Interaction { tables: files(&own), ..Interaction::default() },
     };
     let damping = damping(&root, catalogue::lookup("SO3").ok().as_ref());
+    let damping =
+        damping.map(|rates| rates.iter().map(|rate| nearest_float(&rate.value)).collect());
+    let damping = damping.filter(|rates: &Vec<f64>| rates.iter().any(|rate| *rate > 0.0));
     let velocity = velocity(&root, &coordinates, &own);
     let mut bonds = Vec::new();
     if let Some((list, _)) = lattice.array("bond", BOND) {

@@ -344,7 +344,7 @@ fn system<H>(
     let moving = of_potential.as_ref().is_some_and(Formula::moves);
     // Of a wrong drive it is not known.
     if acting.is_some() || !driven {
-        let drive = acting.as_ref().map(|read| &read.acting.energy);
+        let drive = acting.as_ref().map(|read| &read.energy);
         let energies: Vec<_> =
             drive.into_iter().chain(&of_potential).chain([&hamiltonian]).collect();
         energies::check_inputs(&root, &inputs, &energies);
@@ -370,10 +370,9 @@ fn system<H>(
     let drive = match (&algebra, acting.is_some() || potential.is_some() || moving) {
         (Some(algebra), true) if joined => {
             let of_potential = of_potential.as_ref().filter(|_| moving || potential.is_some());
-            let read = acting.map(|read| (read.acting, read.damping));
             let called = kind.given.acting.clone();
             let names = (&coordinates[..], &signals[..]);
-            assemble_drive(algebra, names, read, called, of_potential, diagnostics)
+            assemble_drive(algebra, names, acting, called, of_potential, diagnostics)
         }
         _ => None,
     };

@@ -32,7 +32,7 @@ struct Given {
 }
 
 impl Parameters {
-    /// Reads the table: values may use other parameters. Those in `[algebra]` and `damping`, in indices, in ranges of sums and in
+    /// Reads the table: values may use other parameters. Those in `[algebra]`, in indices, in ranges of sums and in
     /// `inv(…)` are numbers and never kept. Those called in `varied` are kept, whatever the options say, or refused.
     pub(super) fn read(root: &Table<'_>, options: Options, varied: &[String]) -> Self {
         Self::read_those(root, options, varied, |_| true)
@@ -47,10 +47,9 @@ impl Parameters {
     ) -> Self {
         let mut result = Self { list: Vec::new(), constants: Names::default() };
         let Some(table) = root.table("parameters") else { return result };
-        let of_key = |key| root.get(key).map_or(BTreeSet::new(), |value| words_of(value.get_ref()));
         let inverts = root.file.contains("inv(");
-        let mut numbers = of_key("algebra");
-        numbers.extend(of_key("damping"));
+        let of_algebra = root.get("algebra");
+        let mut numbers = of_algebra.map_or(BTreeSet::new(), |value| words_of(value.get_ref()));
         let energy = |key: &&str| root.get(key)?.get_ref().as_str();
         for text in ["hamiltonian", "potential"].iter().filter_map(energy) {
             let after = |open, close| {
@@ -85,7 +84,7 @@ impl Parameters {
             let user = varies.then(using).flatten();
             let why = match user {
                 _ if numbers.contains(name) => Some(
-                    "it is a number of the algebra or of the damping, an index, the range of a sum or inv(…)"
+                    "it is a number of the algebra, an index, the range of a sum or inv(…)"
                         .to_owned(),
                 ),
                 Some(((user, ..), _)) => Some(format!("`{user}` is computed from it")),

@@ -28,7 +28,9 @@ pub(super) fn refusal(error: FoldError, step: f64, symbols: &[f64]) -> StepError
     match error {
         FoldError::Step => StepError::InvalidStep { step },
         FoldError::Symbol(i) => {
-            StepError::InvalidParameter { name: "of the Hamiltonian", value: symbols[i] }
+            let value = symbols[i];
+            let name = if value.is_finite() { "of the damping" } else { "of the Hamiltonian" };
+            StepError::InvalidParameter { name, value }
         }
         FoldError::Coefficient(value) => {
             StepError::InvalidParameter { name: "of the generating function", value }

@@ -83,6 +83,11 @@ where
     }
 }
 
+/// The damping that earlier versions composed with steps.
+#[deprecated = "give `DoubleBracket` to `Collocation::driven`: damping acts within the step, at its order"]
+#[derive(Debug)]
+pub enum Damping {}
+
 /// Damping by the double bracket: η = Γ ad\*_ω μ with Γ diagonal in the group's basis (A. Bloch, P. S. Krishnaprasad, J. E. Marsden,
 /// T. S. Ratiu, Commun. Math. Phys. 175, 1996). The energy falls at the rate ⟨a, Γa⟩, a = ad\*_ω μ, where no number of Γ is negative.
 ///

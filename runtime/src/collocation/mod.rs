@@ -31,6 +31,8 @@ mod refused;
 mod solving;
 
 pub use coadjoint_program::collocation::MAX_NODES;
+#[allow(deprecated)]
+pub use drive::Damping;
 pub use drive::{DoubleBracket, Drive};
 pub use energy::{Energy, Undefined};
 #[doc(hidden)]

@@ -22,6 +22,8 @@ pub struct FoldTable {
     last: Vec<LastTerm>,
     radius: Option<u32>,
     len: usize,
+    /// The symbols that must not be negative.
+    rates: Vec<usize>,
 }
 
 /// A monomial of the last two terms of the series: its base, its order, where its coefficient is kept, and how it counts in
@@ -141,6 +143,11 @@ impl FoldTable {
         table
     }
 
+    /// This table, which refuses negative values of these symbols.
+    pub(crate) fn with_rates(self, rates: Vec<usize>) -> Self {
+        Self { rates, ..self }
+    }
+
     /// The lists.
     pub fn lists(&self) -> Fold<'_> {
         Fold {
@@ -193,6 +200,10 @@ impl FoldTable {
 
     /// The coefficients of rows side by side, and the room they were folded in.
     fn folded<T: Values>(&self, step: f64, symbols: &[T]) -> Result<(Vec<T>, Vec<T>), FoldError> {
+        let negative = |&i: &usize| symbols.get(i).is_some_and(|own| !own.all(|own| own >= 0.0));
+        if let Some(i) = self.rates.iter().copied().find(negative) {
+            return Err(FoldError::Symbol(i));
+        }
         let [mut coefficients, mut room] =
             [self.len, self.lists().room()].map(|len| vec![T::each(|_| 0.0); len]);
         self.lists().fold_rows(step, symbols, &mut room, &mut coefficients)?;

@@ -149,6 +149,9 @@ impl Step {
             kernel = kernel.with_clock(Clock { size, first, times, start: 0.0 });
         }
         let fold = FoldTable::of_symbols(smooth.symbols.len(), kicks, Some);
+        let rates =
+            smooth.drive.iter().flat_map(|own| own.rates.iter().map(|rate| own.first + rate));
+        let fold = fold.with_rates(rates.collect());
         let splitting = kicks.map(|kicks| kicks.splitting);
         let work = collocation::work(smooth);
         Ok(Self { kernel, group, fold, symbols, radius_at, splitting, moving, memory, work })

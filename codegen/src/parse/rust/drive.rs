@@ -72,7 +72,7 @@ pub(super) fn read(
     diagnostics: &Diagnostics,
 ) -> Option<Drive> {
     // None is given in space.
-    let (dim, mut roots) = (coordinates.len(), [const { None }; 4]);
+    let (dim, mut roots) = (coordinates.len(), [const { None }; 5]);
     let (mut sources, mut evaluator) = (Vec::new(), Evaluator::new(diagnostics));
     let algebra = algebra.filter(|algebra| algebra.dim() == dim);
     let statements = &function.block.stmts;
@@ -101,7 +101,7 @@ pub(super) fn read(
     }
     let (arena, parameters) = (evaluator.into_arena(), parameters.clone());
     let energy = Formula { arena, root: None, parameters, source: sources.join(", ") };
-    let acting = Some((Acting { energy, roots }, None));
+    let acting = Some(Acting { energy, roots });
     let functions = [const { None }; 2];
     assemble_drive(algebra?, (coordinates, &[]), acting, functions, None, diagnostics)
 }
