@@ -14,7 +14,7 @@ from .errors import InputError
 if TYPE_CHECKING:
     from .results import Run
 
-__all__ = ["Gradient", "Tangent", "forward", "backward", "largest_exponent", "monodromy"]
+__all__ = ["Gradient", "Jacobian", "Tangent", "forward", "backward", "jacobian", "largest_exponent", "monodromy"]
 
 #: A record may be this far, relatively, from a whole number of steps.
 _SLACK = 1e-9
@@ -29,6 +29,17 @@ class Tangent(NamedTuple):
     momentum: Floats
     #: The changes of the records' times, (N,): that of an event which ended the run, else 0.
     time: Floats
+
+
+class Jacobian(NamedTuple):
+    """The derivatives of the records of a run, with axes after those of a :class:`Tangent` for what they are taken in."""
+
+    #: In the start (ξ, δμ), 2n numbers.
+    start: Tangent
+    #: In each of the parameters asked for, the axes of its shape.
+    parameters: dict[str, Tangent]
+    #: In the samples of each input asked for, at its times.
+    inputs: dict[str, Tangent]
 
 
 class Gradient(NamedTuple):
@@ -121,11 +132,40 @@ def forward(
     change = np.concatenate(changes)
     samples = {name: _arrays.vector(sampled[name], f"inputs[{name!r}]", count) for name, count in _samples(run, sampled).items()}
     columns = {name: own[:, np.newaxis] for name, own in samples.items()}
-    found = _core.forward(asked, state[:, np.newaxis], change[:, np.newaxis], columns, _steps(run))
-    both, times = found[: 2 * n * len(run)].reshape(len(run), 2, n), np.zeros(len(run))
-    if len(found) > both.size:
-        times[-1] = found[-1]
-    return Tangent(both[:, 0], both[:, 1], times)
+    found = _carried(run, asked, state[:, np.newaxis], change[:, np.newaxis], columns)
+    return Tangent(*(own[..., 0] for own in found))
+
+
+def _carried(run: Run, asked: dict[str, Any], state: Floats, parameters: Floats, inputs: dict[str, Floats]) -> Tangent:
+    """The changes of the records with k columns of changes, which are the last axis."""
+    (rows, k), steps = state.shape, _steps(run)
+    found = _core.forward(asked, state, parameters, inputs, steps)
+    # Of the event that ended the run there is a row more.
+    before = max(len(steps) - 1, 0) * k * rows
+    last = found[before:].reshape(len(steps[-1:]), k, -1)
+    both = np.concatenate([found[:before].reshape(-1, k, rows), last[..., :rows]])
+    times = np.zeros((len(steps), k))
+    if last.shape[-1] > rows:
+        times[-1] = last[0, :, rows]
+    both = both.transpose(0, 2, 1)
+    return Tangent(both[:, : rows // 2], both[:, rows // 2 :], times)
+
+
+def jacobian(run: Run, parameters: Iterable[str], inputs: Iterable[str]) -> Jacobian:
+    """:meth:`Run.jacobian`."""
+    asked, shapes = _asked(run, [parameters] if isinstance(parameters, str) else parameters)
+    samples = _samples(run, [inputs] if isinstance(inputs, str) else inputs)
+    start = 2 * run.momentum.shape[1]
+    axes = [(start,), *shapes.values(), *((count,) for count in samples.values())]
+    ends = np.cumsum([int(np.prod(shape)) for shape in axes])
+    units = np.split(np.eye(ends[-1]), ends[:-1])
+    state, of_parameters, of_inputs = units[0], units[1 : len(shapes) + 1], units[len(shapes) + 1 :]
+    changes = np.concatenate([np.zeros((0, ends[-1])), *of_parameters])
+    found = _carried(run, asked, state, changes, dict(zip(samples, of_inputs, strict=True)))
+    parts = zip(axes, *(np.split(own, ends[:-1], axis=-1) for own in found), strict=True)
+    first, *others = [Tangent(*(own.reshape(*own.shape[:-1], *shape) for own in part)) for shape, *part in parts]
+    named = dict(zip([*shapes, *samples], others, strict=True))
+    return Jacobian(first, {name: named[name] for name in shapes}, {name: named[name] for name in samples})
 
 
 def backward(
@@ -160,8 +200,7 @@ def monodromy(run: Run) -> Floats:
     """:meth:`Run.monodromy`."""
     asked, _ = _asked(run, ())
     size = 2 * len(run.final_momentum)
-    steps = _steps(run)[-1:]
-    found = _core.forward(asked, np.eye(size), np.zeros((0, size)), {}, steps)
+    found = _core.forward(asked, np.eye(size), np.zeros((0, size)), {}, _steps(run)[-1:])
     return found.reshape(size, -1).T[:size]
 
 

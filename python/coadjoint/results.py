@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._arrays import Floats, Numbers, flag, quaternions
-from .derivatives import Gradient, Tangent, backward, forward, largest_exponent, monodromy
+from .derivatives import Gradient, Jacobian, Tangent, backward, forward, jacobian, largest_exponent, monodromy
 from .errors import InputError
 
 if TYPE_CHECKING:
@@ -290,6 +290,18 @@ class Run:
         memory of all N states; where these would take more than 64 MiB that of 2√N, and the time of two runs.
         """
         return backward(self, momentum, group_element, time, parameters, inputs)
+
+    def jacobian(self, *, parameters: Iterable[str] = (), inputs: Iterable[str] = ()) -> Jacobian:
+        """The derivatives of all records in the start, and in the parameters and the samples of the inputs with these names, by one run
+        with all changes side by side.
+
+        >>> import coadjoint as ca
+        >>> body = ca.System("SO3", "x^2/(2*J[0]) + y^2/(2*J[1]) + z^2/5", coordinates="x y z", parameters=dict(J=[1.5, 2]))
+        >>> found = body.simulate([2, 0.5, 1], time=10, step=0.1).jacobian(parameters=["J"])
+        >>> found.start.momentum.shape, found.parameters["J"].group_element.shape
+        ((101, 3, 6), (101, 3, 2))
+        """
+        return jacobian(self, parameters, inputs)
 
     def monodromy(self) -> Floats:
         """The derivative of the last record in the start, (2n, 2n), for columns (ξ, δμ). After a period of the motion its

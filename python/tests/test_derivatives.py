@@ -52,6 +52,27 @@ def test_forwards_and_backwards_agree_with_differences() -> None:
     assert abs(forwards - backwards) < 1e-12 * abs(forwards)
 
 
+def test_a_jacobian_has_the_columns_of_its_changes() -> None:
+    pulses = dict(times=[0, 3, 6], u=[0.5, -0.25, 0.75], hold="previous")
+    hamiltonian, parameters = "x^2/(2*J[0]) + y^2/(2*J[1]) + z^2/5 + u*a*x", {"a": 0.5, "J": [1.5, 2]}
+    body = ca.System("SO3", hamiltonian, coordinates="x y z", parameters=parameters, inputs=pulses)
+    run = body.simulate(MOMENTUM, time=10, step=0.1, every=20)
+    found = run.jacobian(parameters=["J", "a"], inputs="u")
+    columns = [
+        (found.start, 0, dict(group_element=[1, 0, 0])),
+        (found.start, 4, dict(momentum=[0, 1, 0])),
+        (found.parameters["J"], 1, dict(parameters={"J": [0, 1]})),
+        (found.parameters["a"], (), dict(parameters={"a": 1})),
+        (found.inputs["u"], 2, dict(inputs={"u": [0, 0, 1]})),
+    ]
+    for tangent, at, change in columns:
+        for whole, column in zip(tangent, run.jvp(**change), strict=True):  # type: ignore[arg-type]
+            np.testing.assert_allclose(whole[(..., at) if at != () else ...], column, atol=1e-13)
+    assert np.abs(found.inputs["u"].momentum[-1]).min() > 1e-3
+    np.testing.assert_allclose(np.hstack([*found.start[:2]])[-1], run.monodromy(), atol=1e-13)
+    assert body.simulate(MOMENTUM, time=1, step=0.1).jacobian().parameters == {}
+
+
 def test_growth_is_that_of_the_middle_axis(body: ca.System) -> None:
     run = body.simulate([0, 2, 0], time=120, step=0.1)
     rate = np.sqrt(0.5 * 0.5 / (1.5 * 2.5))
@@ -176,4 +197,8 @@ def test_events_that_end_runs_have_derivatives() -> None:
     gradient = here.vjp(momentum=weights, time=times, parameters=["c"])
     both = gradient.momentum @ change + gradient.parameters["c"]
     assert abs(both - found.momentum[end] @ weights[-1] - 0.75 * found.time[end]) < 1e-11
+    whole = here.jacobian(parameters="c")
+    sums = [own @ np.array([0, 0, 0, *change]) + by for own, by in zip(whole.start, whole.parameters["c"], strict=True)]
+    for own, column in zip(sums, found, strict=True):
+        np.testing.assert_allclose(own, column, atol=1e-11)
     assert here.monodromy().shape == (6, 6)
