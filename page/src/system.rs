@@ -89,7 +89,7 @@ impl System {
                 "give a number for each coordinate",
             )]);
         };
-        let invariants = Invariants::new(read.problem.facts().algebra, Some(&read.problem), None);
+        let invariants = Invariants::new(read.problem.facts().algebra, Some(&read.problem));
         let large = |error| vec![Mistake::of("truncation", error, "lower the truncation")];
         let origin = Origin::derive(read.problem.settled().0, LIMIT).map_err(large)?;
         let gradient = origin.energy(&[]).slope();

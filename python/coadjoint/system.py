@@ -344,6 +344,7 @@ class System:
         at: Numbers | None = None,
         events: EventFunction | Sequence[EventFunction] = (),
         looks: int | None = None,
+        parameters: Mapping[str, Any] | None = None,
         backend: Backend = "auto",
         estimate: bool = True,
         progress: bool | Progress | None = None,
@@ -368,6 +369,9 @@ class System:
         ``looks`` equal parts of it (1, or what the system says): two changes within one part are not seen. The events of
         the system's own text come first.
 
+        ``parameters`` are values of some of the system's for this run: what was derived and compiled for other values of the same
+        parameters is used again.
+
         Raises :class:`InputError` for what makes no sense and :class:`RunError` where the run stops.
 
         >>> import coadjoint as ca
@@ -380,6 +384,7 @@ class System:
         >>> body.simulate([2, 0.5, 1], time=5, step=0.1, events=upright).events[0].time.round(4)
         array([1.1718, 3.3151])
         """
+        source = self._with(parameters) if parameters else self
         start, element = self._state(momentum, group_element)
         times = self._times(at, step)
         watched = _events(events)
@@ -387,7 +392,7 @@ class System:
         if parts is not None and parts > 1000:
             raise InputError(f"looks={looks}: a step is cut into 1000 parts at most; take a smaller step")
         with listener(progress, "integrating") as told:
-            found = self._core.simulate(
+            found = source._core.simulate(
                 self._asked(t0, time, step, tolerance, region, truncation),
                 momentum=start,
                 group_element=element,
@@ -408,7 +413,14 @@ class System:
             "backend": backend,
         }
         found["ended_by"] = _ended_by(found, watched)
-        return Run(found, self)
+        return Run(found, source)
+
+    def _with(self, parameters: Mapping[str, Any]) -> System:
+        """This system with other values of some of its parameters; both use what was derived and compiled for one of them."""
+        given = _text.mapping(parameters, "parameters")
+        values = [(_arrays.text(name, "parameters"), _arrays.floats(own, f"parameters[{name!r}]").ravel().tolist()) for name, own in given.items()]
+        core, text = self._core.with_parameters(values)
+        return _restored(type(self), text, self._name, None, self._known, self._functions, self._inputs, self._acting, core)
 
     def _times(self, at: Numbers | None, step: Real | None) -> Floats | None:
         """The times of ``at``, which must be in the order in which steps of this size reach them."""

@@ -10,7 +10,7 @@ use coadjoint_codegen::lie;
 use coadjoint_codegen::problem::Problem;
 use coadjoint_codegen::smooth::{Facts, Functions};
 use coadjoint_codegen::step::Energy;
-use coadjoint_codegen::system::{Options, Run};
+use coadjoint_codegen::system::{Options, Run, with_values};
 use coadjoint_codegen::tolerance::Choice;
 use coadjoint_learn::table;
 use coadjoint_run::ensemble::{
@@ -207,6 +207,40 @@ impl Core {
             let made = Self::of(name, text.into(), system);
             let given = Functions { inputs: made.given.inputs, ..given };
             Ok(Self { given, failures, ..made })
+        })?;
+        made.map_err(|error: RunError| raised(py, &error))
+    }
+
+    /// This system with other values of parameters, flattened by rows, and its text: nothing that was derived or compiled for others is
+    /// made anew.
+    fn with_parameters(
+        &self,
+        py: Python<'_>,
+        values: Vec<(String, Vec<f64>)>,
+    ) -> PyResult<(Self, String)> {
+        let mut all = Vec::new();
+        for (name, own) in &values {
+            let Some(parameter) = self.system.parameters.iter().find(|known| known.name == *name)
+            else {
+                return Err(refused(
+                    py,
+                    format!("parameters: the system has no parameter `{name}`"),
+                ));
+            };
+            if own.len() != parameter.shape.len() || own.iter().any(|value| !value.is_finite()) {
+                let what = format!(
+                    "parameters: `{name}` is {} finite numbers; {own:?} was given",
+                    parameter.shape.len()
+                );
+                return Err(refused(py, what));
+            }
+            all.push((parameter, &own[..]));
+        }
+        let (text, here) = (with_values(&self.text, &all), self.here());
+        let made = work(py, None, move |_| {
+            let names: Vec<String> = values.into_iter().map(|(name, _)| name).collect();
+            let system = read_given(&here.name, &text, Options::default(), &names, &here.given)?;
+            Ok((Self { system, text: text[..].into(), chosen: Arc::default(), ..here }, text))
         })?;
         made.map_err(|error: RunError| raised(py, &error))
     }

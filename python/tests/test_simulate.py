@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -251,3 +252,36 @@ def test_events_of_a_file_come_first():
     # x = cos t, and g turns by t.
     assert np.abs(first.time - 0.7390851332151607).max() < 1e-12
     assert np.abs(second.time - np.pi / 2).max() < 1e-12
+
+
+def test_parameters_of_a_run_are_those_of_a_system_with_them() -> None:
+    """What is said of a run, its derivatives and its tolerance are those for the values given."""
+    text: dict[str, Any] = dict(
+        group="SO3", hamiltonian="x^2/(2*J[0]) + y^2/(2*J[1]) + z^2/(2*J[2])", coordinates="x y z", damping="a"
+    )
+    start, usual = [2, 0.5, 1], {"J": [1, 2, 3], "a": 0.0}
+    body = ca.System(**text, parameters=usual)
+    changes: list[tuple[dict[str, Any], dict[str, Any]]] = [
+        ({"J": [1.5, 2, 2.5]}, dict(step=0.1)),
+        ({"J": [1.25, 2, 2.5]}, dict(step=0.1)),
+        ({"a": 0.125}, dict(step=0.1)),
+        ({"a": 0.25, "J": [1.5, 2, 3]}, dict(tolerance=1e-9)),
+    ]
+    for change, how in changes:
+        found = body.simulate(start, time=5, parameters=change, **how)
+        other = ca.System(**text, parameters=usual | change).simulate(start, time=5, **how)
+        assert found.step == other.step and found.label == other.label
+        np.testing.assert_allclose(found.momentum, other.momentum, atol=1e-13)
+        np.testing.assert_allclose(found.angular_velocity, other.angular_velocity, atol=1e-13)
+        np.testing.assert_allclose(found.energy, other.energy, atol=1e-13)
+        tangent = found.jvp(parameters={"J": [1, 0, 0]})
+        np.testing.assert_allclose(tangent.momentum, other.jvp(parameters={"J": [1, 0, 0]}).momentum, atol=1e-12)
+        assert (body.simulate(start, time=5, step=0.1).momentum[-1] != found.momentum[-1]).any()
+    for wrong, match in (({"K": 1}, "no parameter `K`"), ({"J": [1, 2]}, "3 finite numbers"), ({"a": -1}, "must not be negative")):
+        with pytest.raises(ca.InputError, match=match):
+            body.simulate(start, time=5, step=0.1, parameters=wrong)
+    # Inputs keep the values that they were read with.
+    pulses = dict(times=[0, 1], u=["a", 1])
+    driven = ca.System("SO3", "x^2/2 + y^2/4 + z^2/6 + u*x*a", coordinates="x y z", inputs=pulses, parameters=dict(a=0.5))
+    with pytest.raises(ca.InputError, match="a number of the algebra or of an input"):
+        driven.simulate(start, time=1, step=0.1, parameters=dict(a=1))

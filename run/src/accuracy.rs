@@ -212,7 +212,7 @@ impl<'a> Pilot<'a> {
         let duration = target.duration;
         // A step that makes no sense is none that is picked.
         let compiled = derived.compiled(duration, Backend::Auto, steps, Trajectories::One);
-        let (compiled, parameters) = (compiled.ok().flatten(), derived.facts().defaults());
+        let (compiled, parameters) = (compiled.ok().flatten(), derived.values.clone());
         Self { derived, compiled, parameters, starts, t0, duration }
     }
 

@@ -4,36 +4,43 @@ use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
-use coadjoint_codegen::problem::{Parameter, Problem};
+use coadjoint_codegen::poly::Polynomial;
+use coadjoint_codegen::problem::{Parameter, Problem, Symbol};
 use coadjoint_codegen::tolerance::{Prospects, Target, ToleranceError};
 
 use crate::ensemble::in_lanes;
 use crate::error::RunError;
 use crate::load::{Derived, System};
 
-/// Prospects that are kept: of several starts and durations, in both frames.
+/// Systems that are kept, and prospects: of several starts and durations, in both frames.
 const MOST: usize = 64;
 
-/// The systems derived from one text, and the prospects of its truncations.
+/// The systems derived from one text, with several values of its parameters, and the prospects of its truncations.
 #[derive(Debug, Default)]
 pub struct Derivations {
     systems: Mutex<Vec<(Purpose, Arc<Derived>)>>,
     prospects: Mutex<Vec<(Question, Arc<Prospects>)>>,
 }
 
-/// The truncation, the frame of a series or collocation, the parameters that are kept, and whether trajectories go side by side.
-type Purpose = (usize, &'static str, Vec<String>, bool);
+/// The truncation, the frame of a series or collocation, the parameters that are kept, whether trajectories go side by side, and the
+/// parameters whose values are put in.
+type Purpose = (usize, &'static str, Vec<String>, bool, Vec<Parameter>);
 
-/// The frame, the parameters that are kept, a target whose tolerance is left out, and the products of coefficients allowed.
-type Question = (&'static str, Vec<String>, Target, u64);
+/// The frame, the Hamiltonian with its symbols, the parameters that are kept with their values, a target whose tolerance is left out, and
+/// the products of coefficients allowed.
+type Question = (&'static str, Polynomial, Vec<Symbol>, Vec<Parameter>, Target, u64);
 
 /// The value of a key in a list.
 fn known<K: PartialEq, V: Clone>(list: &[(K, V)], key: &K) -> Option<V> {
     list.iter().find(|(other, _)| other == key).map(|(_, value)| value.clone())
 }
 
-fn names(parameters: &[Parameter]) -> Vec<String> {
-    parameters.iter().map(|own| own.name.clone()).collect()
+/// Adds an entry to a list, which loses its first one where it is full.
+fn keep<E>(list: &mut Vec<E>, entry: E) {
+    if list.len() == MOST {
+        list.remove(0);
+    }
+    list.push(entry);
 }
 
 /// The list behind a lock: a thread that panicked has added whole entries, if any.
@@ -54,18 +61,26 @@ impl Derivations {
     ) -> Result<Arc<Derived>, RunError> {
         let frame = system.problem.polynomial().map_or("collocation", Problem::frame_name);
         let facts = system.problem.facts();
-        let purpose = (facts.truncation, frame, names(facts.parameters), ensemble);
+        let kept: Vec<_> = facts.parameters.iter().map(|own| own.name.clone()).collect();
+        let put_in = system.parameters.iter().filter(|own| !kept.contains(&own.name)).cloned();
+        let put_in = put_in.collect();
+        let purpose = (facts.truncation, frame, kept, ensemble, put_in);
+        let values = facts.defaults();
+        let at = |found: Arc<Derived>| match found.values == values {
+            true => found,
+            false => Arc::new(found.at(&values)),
+        };
         if let Some(found) = known(&locked(&self.systems), &purpose) {
-            return Ok(found);
+            return Ok(at(found));
         }
         let system = if ensemble { in_lanes(system)? } else { system };
         let made = Arc::new(Derived::of_file(file, system)?);
         let mut systems = locked(&self.systems);
         // Another thread may have been quicker.
-        Ok(known(&systems, &purpose).unwrap_or_else(|| {
-            systems.push((purpose, made.clone()));
+        Ok(at(known(&systems, &purpose).unwrap_or_else(|| {
+            keep(&mut systems, (purpose, made.clone()));
             made
-        }))
+        })))
     }
 
     /// The prospects of a problem for any tolerance of this target.
@@ -76,16 +91,14 @@ impl Derivations {
         limit: TermLimit,
     ) -> Result<Arc<Prospects>, ToleranceError> {
         let any = Target { tolerance: 0.0, ..target.clone() };
-        let question = (problem.frame_name(), names(&problem.parameters), any, limit.products);
+        let Problem { hamiltonian, symbols, parameters, .. } = problem.clone();
+        let frame = problem.frame_name();
+        let question = (frame, hamiltonian, symbols, parameters, any, limit.products);
         if let Some(found) = known(&locked(&self.prospects), &question) {
             return Ok(found);
         }
         let made = Arc::new(Prospects::new(&problem.with_defaults(), target, limit)?);
-        let mut prospects = locked(&self.prospects);
-        if prospects.len() == MOST {
-            prospects.remove(0);
-        }
-        prospects.push((question, made.clone()));
+        keep(&mut locked(&self.prospects), (question, made.clone()));
         Ok(made)
     }
 }

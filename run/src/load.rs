@@ -123,11 +123,13 @@ pub struct Derived {
     /// The name of the system in messages.
     pub(crate) file: PathBuf,
     /// The equations, with the method by which steps are made.
-    pub(crate) origin: Origin,
+    pub(crate) origin: Arc<Origin>,
+    /// The values of the parameters that are kept.
+    pub(crate) values: Vec<f64>,
     /// The group that the equations are on.
     pub(crate) group: Charted,
     /// The programs compiled so far.
-    kept: Kept,
+    kept: Arc<Kept>,
     /// The conserved quantities.
     pub(crate) invariants: Invariants,
     /// The blocks of the group's matrices, once a run asked for them.
@@ -153,8 +155,6 @@ impl Derived {
     pub fn of_file(file: &Path, system: System) -> Result<Self, RunError> {
         let System { problem, potential, .. } = system;
         let (problem, gave_way) = problem.settled();
-        let kicks = potential.as_ref().map(|(kicks, _)| kicks);
-        let invariants = Invariants::new(problem.facts().algebra, Some(&problem), kicks);
         // Kicks, and a drive that reads the group element, look at the matrices of the whole group; a flow alone goes factor by factor.
         let drive = problem.smooth().and_then(|smooth| smooth.drive.as_ref());
         let whole = potential.is_some() || drive.is_some_and(|drive| drive.reads_element());
@@ -169,9 +169,11 @@ impl Derived {
         }
         let chart = origin.series().map_or(lie::Chart::Exponential, |series| series.problem.chart);
         let group = Charted::new(file, group, chart)?;
+        let values = origin.facts().defaults();
+        let invariants = Invariants::of_system(&origin, &values);
         let (kept, blocks) = Default::default();
-        let file = file.to_owned();
-        Ok(Self { file, origin, group, kept, invariants, blocks, gave_way })
+        let (file, origin) = (file.to_owned(), Arc::new(origin));
+        Ok(Self { file, origin, values, group, kept, invariants, blocks, gave_way })
     }
 
     /// The inputs u(t).
@@ -223,12 +225,24 @@ impl Derived {
         self.with(self.origin.with_signals(signals))
     }
 
-    /// Other equations on the same group, with the same conserved quantities.
-    fn with(&self, origin: Origin) -> Self {
+    /// This system with these values of the parameters that are kept: nothing is derived or compiled anew.
+    pub(crate) fn at(&self, values: &[f64]) -> Self {
         Self {
-            origin,
+            values: values.to_vec(),
+            kept: self.kept.clone(),
+            invariants: Invariants::of_system(&self.origin, values),
+            gave_way: self.gave_way.clone(),
+            ..self.with(self.origin.clone())
+        }
+    }
+
+    /// Other equations on the same group, with the same conserved quantities.
+    fn with(&self, origin: impl Into<Arc<Origin>>) -> Self {
+        Self {
+            origin: origin.into(),
+            values: self.values.clone(),
             group: self.group.clone(),
-            kept: Kept::default(),
+            kept: Arc::default(),
             file: self.file.clone(),
             invariants: self.invariants.clone(),
             blocks: OnceLock::new(),
@@ -271,7 +285,8 @@ impl Derived {
                 ))),
             };
         };
-        Compiled::new(origin, step, backend, steps, trajectories, &self.kept)
+        let of = (step, &self.values[..]);
+        Compiled::new(origin, of, backend, steps, trajectories, &self.kept)
     }
 
     /// Makes the programs of steps, where there are any: most of the work before the first step.
@@ -282,7 +297,7 @@ impl Derived {
 
     /// The system that the programs of steps are made from, where there are programs.
     pub(crate) fn origin(&self) -> Option<&Origin> {
-        Some(&self.origin).filter(|origin| !origin.is_function())
+        Some(&*self.origin).filter(|origin| !origin.is_function())
     }
 
     /// Steps of this grid with the parameters as the file has them, by the programs that were compiled, if any.
@@ -294,7 +309,7 @@ impl Derived {
         grid: Grid,
         compiled: Option<&Arc<Compiled>>,
     ) -> Result<Motion<'_>, StepError> {
-        self.with_parameters(grid, &self.facts().defaults(), compiled)
+        self.with_parameters(grid, &self.values, compiled)
     }
 
     /// Steps of this grid for these values of the parameters that are kept.

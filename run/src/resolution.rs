@@ -71,13 +71,12 @@ impl Derived {
         momentum: Option<&[f64]>,
     ) -> Result<(), RunError> {
         let facts = self.facts();
-        let parameters = facts.defaults();
         let any = (0..facts.algebra.dim()).map(|i| 1.0 / (i + 1) as f64);
         let momentum = momentum.map_or_else(|| any.collect(), <[f64]>::to_vec);
         let smooth = self.origin.smooth();
         let moving = smooth.and_then(|smooth| {
             let breaks = Breaks::new(self.origin.breaks());
-            Moving::new(smooth, breaks, &parameters, &momentum)
+            Moving::new(smooth, breaks, &self.values, &momentum)
         });
         moving.map_or(Ok(()), |moving| resolve(&self.file, (grid, steps), &moving))
     }

@@ -10,7 +10,7 @@ use crate::drive::{Acts, Drive};
 use crate::integrator::{Kick, Kicks};
 use crate::lie::LieAlgebra;
 use crate::potential::undefined;
-use crate::problem::{Parameter, Problem, Solver, Symbol, values};
+use crate::problem::{Parameter, Problem, Solver, Symbol};
 use crate::signal::{self, Signal};
 
 /// A smooth Hamiltonian H(t, μ) on the dual of a Lie algebra, as straight-line programs.
@@ -323,8 +323,8 @@ impl Hamiltonian {
     /// The values of its symbols for those that the input gives the parameters.
     pub fn symbols(&self) -> Vec<f64> {
         match self {
-            Self::Polynomial(problem, _) => values(&problem.symbols),
-            Self::Smooth(smooth) => smooth.symbols_at(&smooth.facts().defaults()),
+            Self::Polynomial(problem, _) => problem.symbols_at(&self.facts().defaults()),
+            Self::Smooth(smooth) => smooth.symbols_at(&self.facts().defaults()),
         }
     }
 

@@ -88,13 +88,12 @@ pub(super) fn read(
         Some(list.iter().map(parse).collect::<Vec<ExprId>>())
     });
     let damping = damping.map(|rates| {
-        sources.push(format!(
-            "damping = [{}]",
-            rates.iter().map(Rate::shown).collect::<Vec<_>>().join(", ")
-        ));
+        let stated = rates.iter().filter(|rate| rate.copy.is_none_or(|copy| copy == 0));
+        let texts: Vec<_> = stated.map(Rate::shown).collect();
+        sources.push(format!("damping = [{}]", texts.join(", ")));
         let mut parse = |rate: &Rate<'_>| match rate.text {
-            Some((text, place, copy)) => {
-                let indices: Vec<_> = copy.iter().map(|&copy| ("i", copy)).collect();
+            Some((text, place)) => {
+                let indices: Vec<_> = rate.copy.iter().map(|&copy| ("i", copy)).collect();
                 let offset = root.offset(place, text);
                 text::parse(text, offset, &indices, &names, &mut arena, root.diagnostics)
             }
@@ -137,8 +136,10 @@ pub(super) fn list(
 
 /// A rate of damping as the file states it.
 pub(super) struct Rate<'a> {
-    /// Its text and the place of that, where it is no number; with the number of the copy, where the list is that of one copy.
-    text: Option<(&'a str, Span, Option<i64>)>,
+    /// Its text and the place of that, where it is no number.
+    text: Option<(&'a str, Span)>,
+    /// The number of the copy, where the list is that of one copy.
+    copy: Option<i64>,
     /// Its value, at the defaults of parameters.
     pub value: Rational,
 }
@@ -146,7 +147,7 @@ pub(super) struct Rate<'a> {
 impl Rate<'_> {
     fn shown(&self) -> String {
         self.text
-            .map_or_else(|| nearest_float(&self.value).to_string(), |(text, ..)| text.to_owned())
+            .map_or_else(|| nearest_float(&self.value).to_string(), |(text, _)| text.to_owned())
     }
 }
 
@@ -168,8 +169,8 @@ pub(super) fn damping<'a>(root: &Table<'a>, algebra: Option<&LieAlgebra>) -> Opt
     let rate = |(at, number): (usize, Rational)| {
         let stated = list.map_or(value, |list| &list[at % count]);
         let copy = of_copy.then_some((at / count) as i64);
-        let text = stated.get_ref().as_str().map(|text| (text, span(stated), copy));
-        Rate { text, value: number }
+        let text = stated.get_ref().as_str().map(|text| (text, span(stated)));
+        Rate { text, copy, value: number }
     };
     let rates: Vec<_> = numbers.into_iter().enumerate().map(rate).collect();
     rates.iter().any(|rate| rate.text.is_some() || !rate.value.is_zero()).then_some(rates)

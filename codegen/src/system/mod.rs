@@ -85,6 +85,7 @@ pub use coadjoint_program::splitting::Splitting;
 pub use event::Event;
 pub use lattice::read_lattice;
 pub use options::{Options, Parameters};
+pub use parameters::with_values;
 pub use run::Run;
 pub use units::Units;
 

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use num_traits::One;
-use toml::de::DeValue;
+use toml::de::{DeTable, DeValue};
 
 use super::options::{Options, Parameters as Treatment};
 use super::table::{Table, Value};
@@ -32,7 +32,7 @@ struct Given {
 }
 
 impl Parameters {
-    /// Reads the table: values may use other parameters. Those in `[algebra]`, in indices, in ranges of sums and in
+    /// Reads the table: values may use other parameters. Those in `[algebra]` and in inputs, in indices, in ranges of sums and in
     /// `inv(…)` are numbers and never kept. Those called in `varied` are kept, whatever the options say, or refused.
     pub(super) fn read(root: &Table<'_>, options: Options, varied: &[String]) -> Self {
         Self::read_those(root, options, varied, |_| true)
@@ -48,8 +48,8 @@ impl Parameters {
         let mut result = Self { list: Vec::new(), constants: Names::default() };
         let Some(table) = root.table("parameters") else { return result };
         let inverts = root.file.contains("inv(");
-        let of_algebra = root.get("algebra");
-        let mut numbers = of_algebra.map_or(BTreeSet::new(), |value| words_of(value.get_ref()));
+        let keys = ["algebra", "inputs", "breaks"].iter().filter_map(|key| root.get(key));
+        let mut numbers: BTreeSet<_> = keys.flat_map(|value| words_of(value.get_ref())).collect();
         let energy = |key: &&str| root.get(key)?.get_ref().as_str();
         for text in ["hamiltonian", "potential"].iter().filter_map(energy) {
             let after = |open, close| {
@@ -84,7 +84,7 @@ impl Parameters {
             let user = varies.then(using).flatten();
             let why = match user {
                 _ if numbers.contains(name) => Some(
-                    "it is a number of the algebra, an index, the range of a sum or inv(…)"
+                    "it is a number of the algebra or of an input, an index, the range of a sum or inv(…)"
                         .to_owned(),
                 ),
                 Some(((user, ..), _)) => Some(format!("`{user}` is computed from it")),
@@ -181,6 +181,32 @@ impl Given {
             names.alias(format!("inv({name})[{i}][{j}]"), Name::Number(inverse.get(i, j)));
         }
     }
+}
+
+/// The text of a system file with these values of some of its parameters, flattened by rows, in place of its own.
+#[must_use]
+pub fn with_values(text: &str, values: &[(&Parameter, &[f64])]) -> String {
+    let (document, _) = DeTable::parse_recoverable(text);
+    let table = document.get_ref().get("parameters").and_then(|own| own.get_ref().as_table());
+    let place = |name: &str| Some(table?.get(name)?.span());
+    let list = |numbers: &[f64]| format!("{numbers:?}");
+    let shown = |parameter: &Parameter, numbers: &[f64]| match parameter.shape.lengths()[..] {
+        [] => numbers.first().map_or(String::new(), |number| format!("{number:?}")),
+        [_] => list(numbers),
+        [_, columns, ..] => {
+            let rows: Vec<String> = numbers.chunks(columns.max(1)).map(list).collect();
+            format!("[{}]", rows.join(", "))
+        }
+    };
+    let places = values.iter().filter_map(|(parameter, numbers)| {
+        Some((place(&parameter.name)?, shown(parameter, numbers)))
+    });
+    let mut places: Vec<_> = places.collect();
+    // From the end on, so that the other places stay.
+    places.sort_by_key(|(place, _)| std::cmp::Reverse(place.start));
+    let mut text = text.to_owned();
+    places.into_iter().for_each(|(place, shown)| text.replace_range(place, &shown));
+    text
 }
 
 /// The inverse of a parameter; without one, `names` get the reason.

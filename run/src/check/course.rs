@@ -73,8 +73,7 @@ impl Course {
         let motion = system.steps(grid, compiled.as_ref()).map_err(RunError::unmade)?;
         let space = motion.space();
         let group = &system.group.exponential;
-        let torque =
-            system.kicks().map(|kicks| Torque::new(&kicks.kick, group, &system.facts().defaults()));
+        let torque = system.kicks().map(|kicks| Torque::new(&kicks.kick, group, &system.values));
         let torque = torque.transpose().map_err(RunError::unmade)?;
         let mut state = simulate::start(&system.file, space, trial.element.as_deref(), about)?;
         let observed = space.observe(&[state.parts()]);

@@ -1,5 +1,7 @@
 #![allow(clippy::unwrap_used)]
 
+use std::sync::Arc;
+
 use coadjoint_codegen::hamilton_jacobi::TermLimit;
 use coadjoint_codegen::judge::{DoubleDouble, Judge};
 use coadjoint_codegen::lie::LieAlgebra;
@@ -96,7 +98,7 @@ fn whole(derivatives: &Derivatives<'_>) -> DMatrix<f64> {
 /// The system with this sample of its inputs, which are counted one after the other, changed by so much.
 fn with_sample(case: &Case, mut sample: usize, change: f64) -> Derived {
     let mut system = case.system();
-    if let Origin::Collocation(smooth) = &mut system.origin {
+    if let Origin::Collocation(smooth) = Arc::make_mut(&mut system.origin) {
         for signal in &mut smooth.signals {
             let mut values = signal.table()[1].to_vec();
             if let Some(value) = values.get_mut(sample) {

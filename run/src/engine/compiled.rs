@@ -163,14 +163,14 @@ impl std::fmt::Debug for Compiled {
 }
 
 impl Compiled {
-    /// Steps of this size, `steps` of which are going to be made, of these trajectories; `None` where they are not made of
+    /// Steps of this size for these values of the parameters, `steps` of which are going to be made, of these trajectories; `None` where they are not made of
     /// programs. What is kept of the same integrator is used again.
     ///
     /// # Errors
     /// Fails if the backend that the user named cannot be had.
     pub(crate) fn new(
         origin: &Origin,
-        size: f64,
+        (size, parameters): (f64, &[f64]),
         backend: Backend,
         steps: f64,
         trajectories: Trajectories,
@@ -191,7 +191,7 @@ impl Compiled {
                 "a step has {operations} operations, more than the {most} that are compiled; use the interpreter"
             ));
         }
-        let folded = fold(step, size, &origin.facts().defaults());
+        let folded = fold(step, size, parameters);
         let folded = folded.map_err(RunError::unmade)?;
         let framed = step.kernel().programs.frame.is_some();
         let code = kept.codes.code(step.kernel(), backend, steps, trajectories)?;

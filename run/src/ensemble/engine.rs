@@ -207,7 +207,7 @@ impl<'a> Engine<'a> {
         let identity = motion.space().numbers(&identity(motion.space().size()));
         let drifts = motion.space().drifts(&system.invariants);
         let (redone, running) = Default::default();
-        let parameters = system.facts().defaults();
+        let parameters = system.values.clone();
         Ok(Self {
             system,
             parameters,

@@ -45,8 +45,7 @@ pub fn run(system: &Derived, setup: &Setup, sink: &mut dyn Sink) -> Result<Outco
     let (mut outcome, end, mut kept) = made?;
     let ends = [(grid.start, &start), (outcome.time, &end)];
     outcome.work = compiled.as_ref().and_then(|compiled| compiled.work(ends));
-    let parameters = system.facts().defaults();
-    let maker = Maker { system, parameters: &parameters, compiled: compiled.as_ref() };
+    let maker = Maker { system, parameters: &system.values, compiled: compiled.as_ref() };
     let known = setup.known_error().filter(|_| outcome.time == schedule.end);
     let found = if !setup.estimate {
         Err(Unknown::OFF)

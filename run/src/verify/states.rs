@@ -148,7 +148,7 @@ impl Invariants {
         let Facts { name, algebra, .. } = hamiltonian.facts();
         let group = Arc::new(group_of(Path::new(name), algebra, false)?);
         let space = Space { group, compiled: None };
-        let functions = step::Invariants::new(algebra, Some(hamiltonian), None);
+        let functions = step::Invariants::new(algebra, Some(hamiltonian));
         Ok(Self { functions, space })
     }
 

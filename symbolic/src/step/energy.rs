@@ -3,7 +3,7 @@
 use super::Origin;
 use crate::graph::{Graph, Id, Program};
 use crate::poly::Numeric;
-use crate::problem::{Problem, values};
+use crate::problem::Problem;
 use crate::smooth::{Hamiltonian, Smooth};
 
 /// An energy as a function of the time and the momentum.
@@ -19,7 +19,9 @@ impl<'a> Energy<'a> {
     /// A Hamiltonian, with the values that its input gives the parameters.
     pub fn new(hamiltonian: &'a Hamiltonian) -> Self {
         match hamiltonian {
-            Hamiltonian::Polynomial(problem, _) => Self::of(problem, &values(&problem.symbols)),
+            Hamiltonian::Polynomial(problem, _) => {
+                Self::of(problem, &problem.symbols_at(&problem.facts().defaults()))
+            }
             Hamiltonian::Smooth(smooth) => Self::smooth(smooth, &smooth.facts().defaults()),
         }
     }

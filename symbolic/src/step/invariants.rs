@@ -4,9 +4,10 @@ use crate::graph::{Graph, Id, Program};
 use crate::lie::{LieAlgebra, watched_casimirs};
 use crate::poly::{Numeric, Polynomial};
 use crate::potential::{Force, Potential};
-use crate::problem::values;
-use crate::smooth::{Given, Hamiltonian};
+use crate::problem::Problem;
+use crate::smooth::{Given, Hamiltonian, Smooth};
 
+use super::Origin;
 use super::drift::{Scales, Start};
 use super::solving::inputs;
 
@@ -48,16 +49,36 @@ pub struct Invariants {
 impl Invariants {
     /// Of every motion on the coadjoint orbits of this algebra that keeps the spatial momentum.
     pub fn of(algebra: &LieAlgebra) -> Self {
-        Self::new(algebra, None, None)
+        Self::new(algebra, None)
     }
 
-    /// Of the motion with this Hamiltonian and its drive, where they are known, with the kicks of a potential if there is one.
-    pub fn new(
+    /// Of the motion with this Hamiltonian and its drive, where they are known, for the values that the input gives the parameters.
+    pub fn new(algebra: &LieAlgebra, hamiltonian: Option<&Hamiltonian>) -> Self {
+        let parameters = hamiltonian.map_or_else(Vec::new, |own| own.facts().defaults());
+        let law = hamiltonian.map(|own| match own {
+            Hamiltonian::Polynomial(problem, _) => Law::Polynomial(problem),
+            Hamiltonian::Smooth(smooth) => Law::Smooth(smooth),
+        });
+        Self::of_motion(algebra, law, None, &parameters)
+    }
+
+    /// Of the motion of a system, with the kicks of its potential if there is one, for these values of the parameters that are kept.
+    pub fn of_system(origin: &Origin, parameters: &[f64]) -> Self {
+        let law = match origin {
+            Origin::Series(integrator) => Law::Polynomial(&integrator.problem),
+            Origin::Collocation(smooth) => Law::Smooth(smooth),
+        };
+        let potential = origin.kicks().map(|kicks| &kicks.kick.potential);
+        Self::of_motion(origin.facts().algebra, Some(law), potential, parameters)
+    }
+
+    fn of_motion(
         algebra: &LieAlgebra,
-        hamiltonian: Option<&Hamiltonian>,
+        law: Option<Law<'_>>,
         potential: Option<&Potential>,
+        parameters: &[f64],
     ) -> Self {
-        let smooth = hamiltonian.and_then(Hamiltonian::smooth);
+        let smooth = law.and_then(Law::smooth);
         let moves = smooth.is_some_and(|smooth| smooth.moves);
         let drive = smooth.and_then(|smooth| smooth.drive.as_ref());
         let of_drive = drive.and_then(|drive| drive.potential.as_ref());
@@ -66,27 +87,29 @@ impl Invariants {
         let of_torque = drive.and_then(|drive| drive.no_energy);
         let of_time = moves.then_some("not conserved: the Hamiltonian depends on time");
         let no_energy = of_torque.or(of_time);
-        let hamiltonian = hamiltonian.filter(|_| no_energy.is_none());
-        let smooth = hamiltonian.and_then(Hamiltonian::smooth);
+        let law = law.filter(|_| no_energy.is_none());
+        let smooth = law.and_then(Law::smooth);
         let potential_of_energy = energetic.filter(|_| of_torque.is_none());
         let mut casimirs = watched_casimirs(algebra);
         casimirs.retain(|casimir| force.is_none_or(|force| force.keeps(casimir)));
-        let mut symbols =
-            smooth.map_or_else(Vec::new, |smooth| smooth.symbols_at(&smooth.facts().defaults()));
+        let mut symbols = smooth.map_or_else(Vec::new, |smooth| smooth.symbols_at(parameters));
         let first = symbols.len();
-        symbols.extend(potential_of_energy.iter().flat_map(|own| values(&own.symbols)));
+        let of_potential = potential_of_energy.iter().flat_map(|own| &own.symbols);
+        symbols.extend(of_potential.map(|symbol| symbol.expr.evaluate(parameters)));
         let directions = force.map(Potential::directions);
         let parts = Parts {
             algebra,
             directions: directions.as_deref(),
             casimirs: &casimirs,
-            energy: hamiltonian,
-            potential: potential_of_energy.filter(|_| hamiltonian.is_some()),
+            energy: law,
+            potential: potential_of_energy.filter(|_| law.is_some()),
+            parameters,
+            symbols: &symbols,
             first,
         };
         Self {
             casimirs: casimirs.len(),
-            energy: hamiltonian.is_some(),
+            energy: law.is_some(),
             no_energy,
             potential: potential_of_energy.is_some(),
             given: smooth.and_then(|smooth| smooth.given.clone()),
@@ -158,13 +181,32 @@ impl Invariants {
     }
 }
 
+/// The function that the energy of a motion is.
+#[derive(Clone, Copy)]
+enum Law<'a> {
+    Polynomial(&'a Problem),
+    Smooth(&'a Smooth),
+}
+
+impl<'a> Law<'a> {
+    fn smooth(self) -> Option<&'a Smooth> {
+        match self {
+            Self::Polynomial(_) => None,
+            Self::Smooth(smooth) => Some(smooth),
+        }
+    }
+}
+
 /// The parts that the programs are made of.
 struct Parts<'a> {
     algebra: &'a LieAlgebra,
     directions: Option<&'a [Vec<f64>]>,
     casimirs: &'a [Polynomial],
-    energy: Option<&'a Hamiltonian>,
+    energy: Option<Law<'a>>,
     potential: Option<&'a Potential>,
+    parameters: &'a [f64],
+    /// The values of the symbols of a smooth function and of the potential.
+    symbols: &'a [f64],
     /// The first slot of the potential's symbols.
     first: usize,
 }
@@ -200,23 +242,23 @@ impl Parts<'_> {
         };
         let casimirs = self.casimirs.iter();
         outputs.extend(casimirs.map(|casimir| polynomial(&Numeric::new(casimir, n, &[]), &mu)));
-        if let Some(hamiltonian) = self.energy {
-            let mut energy = match (hamiltonian.polynomial(), hamiltonian.smooth()) {
-                (Some(problem), _) => {
-                    let own = Numeric::new(&problem.hamiltonian, n, &values(&problem.symbols));
-                    polynomial(&own, &mu)
+        if let Some(law) = self.energy {
+            let mut energy = match law {
+                Law::Polynomial(problem) => {
+                    let symbols = problem.symbols_at(self.parameters);
+                    polynomial(&Numeric::new(&problem.hamiltonian, n, &symbols), &mu)
                 }
                 // It does not depend on the time, or it is a function of the user's, whose value is added elsewhere.
-                (_, Some(smooth)) if smooth.given.is_none() => {
+                Law::Smooth(smooth) if smooth.given.is_none() => {
                     size(graph.call(&smooth.value, &mu)[0])
                 }
-                _ => graph.zero(),
+                Law::Smooth(_) => graph.zero(),
             };
             if let Some(potential) = self.potential {
                 let value = match &potential.force {
                     Force::Polynomial(own) => {
-                        let symbols = values(&potential.symbols);
-                        polynomial(&Numeric::new(own, entries, &symbols), &matrix)
+                        let symbols = &self.symbols[self.first..];
+                        polynomial(&Numeric::new(own, entries, symbols), &matrix)
                     }
                     Force::Smooth(programs) => programs.value.as_ref().map_or_else(
                         || graph.zero(),
