@@ -384,7 +384,7 @@ class System:
         >>> body.simulate([2, 0.5, 1], time=5, step=0.1, events=upright).events[0].time.round(4)
         array([1.1718, 3.3151])
         """
-        source = self._with(parameters) if parameters else self
+        source = self if parameters is None else self._with(parameters)
         start, element = self._state(momentum, group_element)
         times = self._times(at, step)
         watched = _events(events)
