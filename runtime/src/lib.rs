@@ -159,7 +159,8 @@ mod table;
 /// and a torque τ the motion is ġ = g (ω + η), μ̇ = ad\*_(ω + η) μ + τ. It returns a number for each coordinate of the momentum, and
 /// has any of these arguments: the time `t: f64`, the matrix `g: [[f64; m]; m]` of the group element, the momentum `mu` and the
 /// velocity `omega`, each `[f64; n]` or a vector of nalgebra; parameters of the Hamiltonian, by their names; and parameters of its
-/// own, which `new` takes after those. Steps are made by collocation.
+/// own, which `new` takes after those. With `#[velocity_in_space]` and `#[torque_in_space]`, on groups of rotations and motions, it is along
+/// the axes of space. Steps are made by collocation.
 ///
 /// ```
 /// use coadjoint::{Phase, SO3, lie_poisson};

@@ -17,6 +17,7 @@ use crate::problem::values;
 use crate::problem::{FrameChoice, Method, Parameter, Problem, Symbol};
 use crate::signal::Signal;
 use crate::smooth::{Given, Hamiltonian, Smooth};
+use coadjoint_symbolic::spatial::Spatial;
 
 /// An energy as a front end has read it: a Hamiltonian, or a potential.
 #[derive(Clone, Debug, Default)]
@@ -463,6 +464,12 @@ pub(crate) struct Acting {
     pub energy: Formula,
     /// The components of the velocity and of the torque in the body, of those in space, and the rates of damping, where they are given.
     pub roots: [Option<Vec<ExprId>>; 5],
+}
+
+/// The reason for which no velocity and no torque is along the axes of space, where it can be none.
+pub(crate) fn without_space(algebra: &LieAlgebra) -> Option<String> {
+    let reason = "are not rotations and motions, whose axes are those of space";
+    Spatial::new(algebra).is_none().then(|| format!("elements of {} {reason}", algebra.name()))
 }
 
 /// Checks what was read and turns it into a drive, with a potential that joins it; `None` where something is wrong, which has then been

@@ -10,6 +10,7 @@ mod sums;
 
 pub(crate) use assemble::{
     Acting, Draft, Formula, assemble_drive, assemble_either, assemble_potential, linear,
+    without_space,
 };
 #[cfg(feature = "system")]
 pub(crate) use assemble::{

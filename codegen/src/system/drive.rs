@@ -1,6 +1,5 @@
 //! The keys `velocity`, `torque`, both also in space, and `damping`: motion beside that of the Hamiltonian.
 
-use coadjoint_symbolic::spatial::Spatial;
 use num_traits::{Signed, Zero};
 
 use super::definitions::Definitions;
@@ -13,7 +12,7 @@ use crate::expr::{Arena, ExprId, Node};
 use crate::lie::LieAlgebra;
 use crate::number::{Rational, nearest_float};
 use crate::parse::{Name, Names, components, text};
-use crate::pass::{Acting, Formula, entries};
+use crate::pass::{Acting, Formula, entries, without_space};
 use crate::signal::Signal;
 
 const DAMPING: &str = "damping = \"1/100\"";
@@ -71,12 +70,14 @@ pub(super) fn read(
             sound = false;
             return None;
         }
-        if key.ends_with("in_space") && Spatial::new(algebra).is_none() {
-            let message = format!(
-                "`{key}`: elements of {} are not rotations and motions, whose axes are those of space",
-                algebra.name()
+        let in_space = key.ends_with("in_space");
+        if let Some(reason) = Some(algebra).filter(|_| in_space).and_then(without_space) {
+            let message = format!("`{key}`: {reason}");
+            root.diagnostics.report_other(
+                place,
+                message,
+                "give it in the body, without `_in_space`",
             );
-            root.diagnostics.report_other(place, message, "give it in the body, without `_in_space`");
             sound = false;
             return None;
         }

@@ -29,6 +29,45 @@ fn the_function_stays_the_energy() -> Result<(), StepError> {
     Ok(())
 }
 
+#[lie_poisson(group = SO3)]
+fn pushed_in_space(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
+    #[velocity_in_space]
+    fn turn(rate: f64) -> [f64; 3] {
+        [0.0, rate, 0.0]
+    }
+    #[torque_in_space]
+    fn push(mu: [f64; 3]) -> [f64; 3] {
+        [0.1, mu[0] / 8.0, 0.3]
+    }
+    0.5 * (mu[0] * mu[0] / inertia[0] + mu[1] * mu[1] / inertia[1] + mu[2] * mu[2] / inertia[2])
+}
+
+#[lie_poisson(group = SO3)]
+fn pushed(mu: [f64; 3], inertia: [f64; 3]) -> f64 {
+    #[velocity]
+    fn turn(g: [[f64; 3]; 3], rate: f64) -> [f64; 3] {
+        g[1].map(|entry| rate * entry)
+    }
+    #[torque]
+    fn push(g: [[f64; 3]; 3], mu: [f64; 3]) -> [f64; 3] {
+        let mut force = [0.0; 3];
+        for i in 0..3 {
+            force[i] = g[0][i] / 10.0 + mu[0] * g[1][i] / 8.0 + 3.0 * g[2][i] / 10.0;
+        }
+        force
+    }
+    0.5 * (mu[0] * mu[0] / inertia[0] + mu[1] * mu[1] / inertia[1] + mu[2] * mu[2] / inertia[2])
+}
+
+#[test]
+fn forces_in_space_are_those_of_the_body_that_turn_against_it() {
+    let [mut state, mut other] = [START; 2].map(Phase::<SO3>::at_identity);
+    PushedInSpace::new(0.1, INERTIA, 0.25).unwrap().advance_by(&mut state, 100).unwrap();
+    Pushed::new(0.1, INERTIA, 0.25).unwrap().advance_by(&mut other, 100).unwrap();
+    assert!((state.momentum - other.momentum).amax() < 1e-13, "{state:?} {other:?}");
+    assert!(state.group_element.angle_to(&other.group_element) < 1e-12);
+}
+
 #[lie_poisson(group = SO3, truncation = 1)]
 fn awkward(mu: [f64; 3], coefficients: f64, symbols: [[f64; 2]; 2], unused: f64) -> f64 {
     let _ = unused;

@@ -9,13 +9,13 @@ use crate::diagnostic::{Diagnostics, Span};
 use crate::drive::Drive;
 use crate::expr::Node;
 use crate::lie::LieAlgebra;
-use crate::pass::{Acting, Formula, assemble_drive};
+use crate::pass::{Acting, Formula, assemble_drive, without_space};
 use crate::problem::{Parameter, Shape};
 
 /// The attributes of functions that make a drive.
-const ATTRIBUTES: [&str; 2] = ["velocity", "torque"];
+const ATTRIBUTES: [&str; 4] = ["velocity", "torque", "velocity_in_space", "torque_in_space"];
 
-/// The function that a statement defines with the attribute `velocity` or `torque`, and the number of that.
+/// The function that a statement defines with one of these attributes, and the number of that.
 fn attributed(statement: &Stmt) -> Option<(usize, &ItemFn)> {
     let Stmt::Item(Item::Fn(function)) = statement else { return None };
     let number = |at: &syn::Attribute| ATTRIBUTES.iter().position(|name| at.path().is_ident(name));
@@ -31,7 +31,7 @@ pub(super) fn refuse(function: &ItemFn, diagnostics: &Diagnostics) {
     }
 }
 
-/// The function as the compiler is to see it, which knows nothing of the attributes `velocity` and `torque` in its body.
+/// The function as the compiler is to see it, which knows nothing of these attributes in its body.
 #[must_use]
 pub fn without_attributes(mut function: ItemFn) -> ItemFn {
     for statement in &mut function.block.stmts {
@@ -71,7 +71,6 @@ pub(super) fn read(
     parameters: &mut Vec<Parameter>,
     diagnostics: &Diagnostics,
 ) -> Option<Drive> {
-    // None is given in space.
     let (dim, mut roots) = (coordinates.len(), [const { None }; 5]);
     let (mut sources, mut evaluator) = (Vec::new(), Evaluator::new(diagnostics));
     let algebra = algebra.filter(|algebra| algebra.dim() == dim);
@@ -81,6 +80,12 @@ pub(super) fn read(
         if roots[number].is_some() {
             let message = format!("there is another #[{of}] before this one");
             evaluator.unsupported(Span::of(&inner.sig.ident), &message, "add them in one function");
+            continue;
+        }
+        if let Some(reason) = algebra.filter(|_| number > 1).and_then(without_space) {
+            let help = of.trim_end_matches("_in_space");
+            let help = format!("give it in the body, with #[{help}]");
+            evaluator.unsupported(Span::of(&inner.sig.ident), &format!("#[{of}]: {reason}"), &help);
             continue;
         }
         evaluator.begin(statements.iter().filter(|statement| attributed(statement).is_none()));
