@@ -19,7 +19,7 @@ SYSTEMS = {
 }
 
 
-def least(call, calls):
+def least(call, calls=10):
     times = []
     for _ in range(calls):
         begun = time.perf_counter()
@@ -59,7 +59,7 @@ def main():
         }
         for call in calls.values():
             ready(call)
-        found = {what: least(call, 10) for what, call in calls.items()}
+        found = {what: least(call) for what, call in calls.items()}
         for what, taken in found.items():
             print(f"{name}, {what}: {taken / steps * 1e6:.2f} µs a step, {taken / found['run']:.1f} runs", flush=True)
 

@@ -7,27 +7,11 @@
 Each call is made some times first, until it runs machine code; the figures are the least wall times of some more.
 """
 import math
-import time
 
 import coadjoint as ca
 import numpy as np
 
-
-def least(call, calls=8):
-    times = []
-    for _ in range(calls):
-        begun = time.perf_counter()
-        call()
-        times.append(time.perf_counter() - begun)
-    return min(times)
-
-
-def ready(call):
-    for _ in range(12):
-        call()
-    time.sleep(2)
-    for _ in range(3):
-        call()
+from derivatives import least, ready
 
 
 def gradient(name, group, hamiltonian, momentum, slots, length, step, inputs="u"):

@@ -85,7 +85,7 @@ pub type LastTerm = (u32, u32, bool, u32, f64);
 pub enum FoldError {
     /// The step size is zero or not finite.
     Step,
-    /// This symbol is not finite.
+    /// This symbol is not finite, or is a rate of damping below 0.
     Symbol(usize),
     /// A coefficient is not finite; its value.
     Coefficient(f64),
@@ -95,7 +95,9 @@ impl fmt::Display for FoldError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Step => f.write_str("the step size is zero or not finite"),
-            Self::Symbol(i) => write!(f, "expression {i} of the parameters is not finite"),
+            Self::Symbol(i) => {
+                write!(f, "expression {i} of the parameters is not finite, or is a rate below 0")
+            }
             Self::Coefficient(value) => write!(f, "a coefficient is {value}"),
         }
     }

@@ -286,8 +286,9 @@ class Run:
         times the derivative.
 
         ``momentum`` (N, n) and ``group_element`` (N, n) are the derivatives of that number in the momentum and in
-        ξ = g⁻¹δg of each record, and ``time`` (N,) those in the records' times, which count at an event that ended the run. Whatever their number, it takes about the time of a run and one :meth:`jvp`, and the
-        memory of all N states; where these would take more than 64 MiB that of 2√N, and the time of two runs.
+        ξ = g⁻¹δg of each record, and ``time`` (N,) those in the records' times, which count at an event that ended the run.
+        Whatever their number, it takes about the time of a run and one :meth:`jvp`, and the memory of all N states; where these
+        would take more than 64 MiB that of 2√N, and the time of two runs.
         """
         return backward(self, momentum, group_element, time, parameters, inputs)
 

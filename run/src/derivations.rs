@@ -28,7 +28,7 @@ type Purpose = (usize, &'static str, Vec<String>, bool, Vec<Parameter>);
 
 /// The frame, the Hamiltonian with its symbols, the parameters that are kept with their values, a target whose tolerance is left out, and
 /// the products of coefficients allowed.
-type Question = (&'static str, Polynomial, Vec<Symbol>, Vec<Parameter>, Target, u64);
+type Question = (&'static str, (Polynomial, Vec<Symbol>, Vec<Parameter>), Target, u64);
 
 /// The value of a key in a list.
 fn known<K: PartialEq, V: Clone>(list: &[(K, V)], key: &K) -> Option<V> {
@@ -70,7 +70,8 @@ impl Derivations {
             true => found,
             false => Arc::new(found.at(&values)),
         };
-        if let Some(found) = known(&locked(&self.systems), &purpose) {
+        let found = known(&locked(&self.systems), &purpose);
+        if let Some(found) = found {
             return Ok(at(found));
         }
         let system = if ensemble { in_lanes(system)? } else { system };
@@ -91,9 +92,9 @@ impl Derivations {
         limit: TermLimit,
     ) -> Result<Arc<Prospects>, ToleranceError> {
         let any = Target { tolerance: 0.0, ..target.clone() };
-        let Problem { hamiltonian, symbols, parameters, .. } = problem.clone();
-        let frame = problem.frame_name();
-        let question = (frame, hamiltonian, symbols, parameters, any, limit.products);
+        let Problem { hamiltonian, symbols, parameters, .. } = problem;
+        let asked = (hamiltonian.clone(), symbols.clone(), parameters.clone());
+        let question = (problem.frame_name(), asked, any, limit.products);
         if let Some(found) = known(&locked(&self.prospects), &question) {
             return Ok(found);
         }

@@ -70,8 +70,9 @@ pub(super) fn read(
             sound = false;
             return None;
         }
-        let in_space = key.ends_with("in_space");
-        if let Some(reason) = Some(algebra).filter(|_| in_space).and_then(without_space) {
+        if key.ends_with("in_space")
+            && let Some(reason) = without_space(algebra)
+        {
             let message = format!("`{key}`: {reason}");
             root.diagnostics.report_other(
                 place,

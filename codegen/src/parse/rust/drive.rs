@@ -82,9 +82,10 @@ pub(super) fn read(
             evaluator.unsupported(Span::of(&inner.sig.ident), &message, "add them in one function");
             continue;
         }
-        if let Some(reason) = algebra.filter(|_| number > 1).and_then(without_space) {
-            let help = of.trim_end_matches("_in_space");
-            let help = format!("give it in the body, with #[{help}]");
+        if let Some(in_body) = of.strip_suffix("_in_space")
+            && let Some(reason) = algebra.and_then(without_space)
+        {
+            let help = format!("give it in the body, with #[{in_body}]");
             evaluator.unsupported(Span::of(&inner.sig.ident), &format!("#[{of}]: {reason}"), &help);
             continue;
         }
